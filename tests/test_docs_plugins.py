@@ -177,6 +177,16 @@ def test_the_raw_stock_has_one_sheet_for_each_thickness(flywheel):
     ]
 
 
+def test_the_result_is_made_of_a_build_by_its_name(flywheel):
+    host = hosted("Result")
+    with Build(flywheel.design, host) as build:
+        rim, bores = build.parts[0].outline.outer, build.parts[0].outline.inner
+        made = build.result("cutting-length")
+    assert made > 0
+    around = sum(math.sqrt(4 * math.pi * abs(loop.area)) for loop in (rim, *bores))
+    assert made >= around * (1 - 1e-3), "a circle is the shortest way around an area"
+
+
 def test_the_inspection_finds_what_is_too_heavy_and_nothing_else(flywheel):
     handling = one("Inspection", mechwright.Inspection)
     assert list(handling.findings(flywheel)) == []

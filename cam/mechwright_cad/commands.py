@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from mechwright.cli.command import Also, At, Command, DesignFile, OutputFolder, names
+from mechwright.cli.command import Also, AsJson, At, Command, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 
@@ -15,13 +15,21 @@ class Model(Command):
     name = "model"
     order = 50
 
-    def run(self, design: DesignFile, output: OutputFolder, also: Also = "", at: At = "") -> None:
+    def run(
+        self,
+        design: DesignFile,
+        output: OutputFolder,
+        also: Also = "",
+        at: At = "",
+        as_json: AsJson = False,
+    ) -> None:
         """Write the solids: parts and assembly as STEP."""
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("model", at=at, formats=names(also)), Stage.PARTS)
+        wanted = Wanted("model", at=at, formats=names(also))
+        perform(design, output, wanted, Stage.PARTS, as_json=as_json)
 
 
 class Live(Command):

@@ -47,6 +47,7 @@ class MotionPage(Page):
     name = "motion-page"
     commands = frozenset({"solve", "build"})
     doing = "motion"
+    share = 15.0
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes it."""
@@ -65,6 +66,7 @@ class Interference(Inspection):
     stage = Stage.PARTS
     order = 10
     doing = "interference"
+    share = 15.0
 
     def late(self, build: Build) -> bool:
         """Whether a second process compares them."""

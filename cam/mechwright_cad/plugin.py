@@ -13,6 +13,7 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
 )
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+from mechwright_cad.results import Assembled, PartPicture, PartSolid
 from mechwright_cad.turned_drawing.page import TurnedDrawings
 
 
@@ -32,4 +33,7 @@ def mechwright_register() -> list[type[Plugin]]:
         TurnedDrawings,
         AssemblyGuide,
         Interference,
+        PartSolid,
+        PartPicture,
+        Assembled,
     ]

@@ -14,6 +14,7 @@ class Machinable(Inspection):
     stage = Stage.MACHINING
     order = 20
     doing = "drawings and programs"
+    share = 20.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """What forbids or hampers machining."""
@@ -30,6 +31,7 @@ class Running(Inspection):
     stage = Stage.MACHINING
     order = 40
     doing = "parts as made"
+    share = 50.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """What keeps it from being put together, or from turning."""

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from html import escape
 
 from mechwright.build import Build
 from mechwright.contracts.finding import Finding, Stage, at_stage, errors
@@ -44,6 +45,17 @@ class Machined:
     proof: Proof
     scene: Scene
     """What the proof has looked at, as far as it is worked out."""
+
+    def __repr__(self) -> str:
+        return f"<Program {self.name}: {', '.join(self.files)}; {self.proof!r}>"
+
+    def _repr_html_(self) -> str:
+        return f"<details><summary>{escape(repr(self))}</summary><pre>{escape(self.text)}</pre></details>"
+
+    @property
+    def name(self) -> str:
+        """That of the part, and of its side where both are machined."""
+        return self.program.name
 
     @property
     def text(self) -> str:
@@ -126,6 +138,7 @@ class Machining:
             )
         made: list[Machined] = []
         for place, job in enumerate(self.jobs):
+            self._build.progress(place / len(self.jobs))
             laid = job
             if job.side == "underside":  # what the first side leaves changes how it is cut, and not by whom
                 laid = self.assignments.carry(job, second_setup(made[-1], job))

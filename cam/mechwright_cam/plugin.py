@@ -17,8 +17,9 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.pages.blanks import MilledPlates
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.proof.rules import BUILT_IN
+    from mechwright_cam.results import Programs
     from mechwright_cam.shop.table import CamTable
 
     controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
     pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, AsMadeFiles]
-    return [*controls, *BUILT_IN, CamTable, *pages, MilledPlates, Machinable, Running]
+    return [*controls, *BUILT_IN, CamTable, *pages, MilledPlates, Machinable, Running, Programs]

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.family import Family
     from mechwright.contracts.finding import (
         Finding,
+        Findings,
         Severity,
         Stage,
         at_stage,
@@ -33,9 +34,12 @@ if TYPE_CHECKING:
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Hub, Mounting, Spindle
+    from mechwright.contracts.named import Named
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
+    from mechwright.contracts.refused import RefusedError
+    from mechwright.contracts.result import Result
     from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
     from mechwright.contracts.tolerance_settings import Tolerances
@@ -57,6 +61,10 @@ if TYPE_CHECKING:
     from mechwright.geometry.segments import Point
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
+    from mechwright.scripting.mechanism import Mechanism
+    from mechwright.scripting.opening import design, load
+    from mechwright.scripting.performing import Written
+    from mechwright.scripting.synthesis import Found, synthesize
     from mechwright.tolerances import TOLERANCES
 
 _HOMES = {
@@ -69,16 +77,19 @@ _HOMES = {
     "mechwright.contracts.fitting_marks": "FittingMark",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
-    "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse until_error",
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Hub Mounting Spindle",
+    "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
+    "mechwright.contracts.refused": "RefusedError",
+    "mechwright.contracts.result": "Result",
     "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
     "mechwright.contracts.tolerance_settings": "Tolerances",
@@ -93,6 +104,10 @@ _HOMES = {
     "mechwright.geometry.segments": "Point",
     "mechwright.plugins.host": "Host host",
     "mechwright.plugins.hookspecs": "hookimpl",
+    "mechwright.scripting.mechanism": "Mechanism",
+    "mechwright.scripting.opening": "design load",
+    "mechwright.scripting.performing": "Written",
+    "mechwright.scripting.synthesis": "Found synthesize",
     "mechwright.tolerances": "TOLERANCES",
 }
 """Module to the public names that come from it."""
@@ -100,6 +115,7 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
+__all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Table"]
 __all__ += ["FIRST", "MaterialName", "Parameters", "material"]
 __all__ += [
@@ -120,11 +136,21 @@ __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Poc
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
 __all__ += ["FittingMark", "Hub", "Mounting", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
-__all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
+__all__ += [
+    "Finding",
+    "Findings",
+    "Severity",
+    "Stage",
+    "at_stage",
+    "kept",
+    "of_stage",
+    "refuse",
+    "until_error",
+]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
-__all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]
+__all__ += ["PluginError", "ProgramError", "ProofError", "RefusedError", "ToolError"]
 __all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances", "Zone"]
 __all__ += ["AsMade", "MadeCurve", "MadeFigure", "MadeHole", "MadePart", "MadeRing", "MadeSection"]
 

@@ -16,12 +16,12 @@ from mechwright.mechanics.strength.turning_pair import (
     pin_stresses,
 )
 from mechwright.tolerances import exceeds
-from mechwright_four_bar.joints import turning_bore
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, period_of
 from mechwright_four_bar.plates import sides_of, stack_of
 from mechwright_four_bar.reach import bar_of
+from mechwright_four_bar.sizes import turning_bore
 
 SLOWEST = 1.0
 """rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from mechwright.cli import completing
 from mechwright.cli.command import AsJson, Command, Curves, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import DesignError
@@ -17,7 +18,13 @@ class Cam(Command):
     name = "cam"
     order = 60
 
-    def run(self, design: DesignFile, output: OutputFolder, dxf_curves: Curves = "spline") -> None:
+    def run(
+        self,
+        design: DesignFile,
+        output: OutputFolder,
+        dxf_curves: Curves = "spline",
+        as_json: AsJson = False,
+    ) -> None:
         """Write drawings and proven programs.
 
         DXF, G-code, the tool table of the control, the setup sheet, and the proof.
@@ -27,7 +34,7 @@ class Cam(Command):
         from mechwright.contracts.finding import Stage
 
         nothing = "makes no plate part, so there is nothing to mill; use mechwright model"
-        perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing)
+        perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing, as_json)
 
 
 class Verify(Command):
@@ -45,9 +52,22 @@ class Verify(Command):
             ),
         ],
         design: Annotated[
-            Path | None, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)
+            Path | None,
+            typer.Option(
+                metavar="DESIGN",
+                help="The design file.",
+                show_default=False,
+                autocompletion=completing.design_files,
+            ),
         ] = None,
-        part: Annotated[str, typer.Option(metavar="NAME", help="The part of the design that it cuts.")] = "",
+        part: Annotated[
+            str,
+            typer.Option(
+                metavar="NAME",
+                help="The part of the design that it cuts.",
+                autocompletion=completing.part_names,
+            ),
+        ] = "",
         dxf: Annotated[
             Path | None,
             typer.Option(
@@ -87,7 +107,12 @@ class Verify(Command):
             typer.Option("--set", metavar="KEY=VALUE", help="With --dxf: a setting of [cam], hold.tabs=3."),
         ] = [],  # noqa: B006 - typer reads it, nobody changes it
         control: Annotated[
-            str, typer.Option(metavar="NAME", help="The control it is for; by default the design's.")
+            str,
+            typer.Option(
+                metavar="NAME",
+                help="The control it is for; by default the design's.",
+                autocompletion=completing.controls,
+            ),
         ] = "",
         page: Annotated[
             Path | None, typer.Option(metavar="FILE", help="Write the report as a page.", show_default=False)

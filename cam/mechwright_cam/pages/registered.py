@@ -22,6 +22,7 @@ SUMMARY = "setup.html"
 
 COMMANDS = frozenset({"cam", "build"})
 DOING = "drawings and programs"
+SHARE = 60.0
 
 
 def _machining(build: Build) -> "Machining":
@@ -36,6 +37,7 @@ class DrawingFiles(Page):
     name = "drawings"
     commands = COMMANDS
     doing = DOING
+    share = SHARE
 
     def files(self, build: Build) -> dict[str, bytes]:
         """DXF by part; none where nothing is milled."""

@@ -4,6 +4,7 @@ import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from mechwright.contracts.shown import html_table
 from mechwright.errors import ProofError
 
 
@@ -78,6 +79,19 @@ class Proof:
     """In program order."""
     notes: tuple[str, ...] = field(default=())
     """Remarks that forbid nothing."""
+
+    def __repr__(self) -> str:
+        said = "proven" if self.ok else f"fails: {', '.join(check.name for check in self.failures)}"
+        return (
+            f"<Proof of {self.part}: {said}, {len(self.checks)} checks, {self.time_estimate_s / 60:.3g} min>"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = (
+            [check.name, "passed" if check.passed else "failed", check.message]
+            for check in self.checks.values()
+        )
+        return html_table(["check", "result", "what was found"], rows)
 
     @property
     def failures(self) -> tuple[Check, ...]:

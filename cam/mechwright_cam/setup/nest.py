@@ -41,7 +41,7 @@ class Placed:
         return shapely.transform(shape, lambda p: (p - (self.x, self.y)) @ [[c, -s], [s, c]])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Nest(Part):
     """Parts on one plate; ``gap`` is the least distance between any two, mm."""
 

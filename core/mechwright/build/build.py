@@ -5,13 +5,17 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
 
-    from mechwright.contracts.finding import Finding
+    import cadquery as cq
+
+    from mechwright.build.proven import Proven
+    from mechwright.contracts.finding import Finding, Findings
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.named import Named
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
     from mechwright.errors import MechwrightError
@@ -71,6 +75,8 @@ class Build:
         """What could not be done and stops nothing, in whole sentences; a command tells it at its end."""
         self.missing: list[str] = []
         """What is left out because of findings or faults that are told, each in a few words."""
+        self.progress: Callable[[float], None] = lambda done: None  # noqa: ARG005
+        """Told by work that takes long how far it is, 0 to 1."""
         self._given = design
         self._kept: dict[Callable[[Build], Any], Any] = {}
         self._closing = ExitStack()
@@ -83,9 +89,11 @@ class Build:
         return load(self._given, self.host) if isinstance(self._given, Path) else self._given
 
     @cached_property
-    def findings(self) -> "tuple[Finding, ...]":
+    def findings(self) -> "Findings":
         """What the family finds, and what there is to say of what stands around the mechanism."""
-        return self.design.check()
+        from mechwright.contracts.finding import Findings
+
+        return Findings(self.design.check())
 
     @cached_property
     def motion(self) -> "Motion":
@@ -93,9 +101,56 @@ class Build:
         return self.design.solve(self.wanted.samples)
 
     @cached_property
-    def parts(self) -> "Sequence[Part]":
+    def parts(self) -> "Named[Part]":
         """The parts, with what the design file asks of them; raises what :meth:`Design.parts` does."""
-        return self.design.parts()
+        from mechwright.contracts.named import Named
+
+        return Named(self.design.parts())
+
+    def result(self, name: str) -> Any:
+        """What a plugin makes of this build, see :class:`~mechwright.contracts.result.Result`; made once.
+
+        Raises PluginError where nobody makes it.
+        """
+        from mechwright.contracts.result import Result, maker
+
+        known = {one.name: one for one in self.host.all(Result)}
+        return self.made(maker(self, name, known).make)
+
+    @property
+    def assembly(self) -> "cq.Assembly":
+        """All parts in their places, an assembly of CadQuery; it stands where ``wanted.at`` says.
+
+        Raises GeometryError where it cannot be made, PluginError where nothing is installed that makes it.
+        """
+        whole: cq.Assembly = self.result("assembly")
+        return whole
+
+    @property
+    def programs(self) -> "Named[Proven]":
+        """The proven programs by the names of their parts, as ``mechwright cam`` writes them.
+
+        Raises
+        ------
+        RefusedError
+            A finding forbids them.
+        ToolError
+            A cutter that the work needs is not there.
+        ProofError
+            A program would not cut the right part.
+        PluginError
+            Nothing is installed that makes programs.
+        """
+        programs: Named[Proven] = self.result("programs")
+        return programs
+
+    def require(self, findings: "Iterable[Finding] | None" = None) -> None:
+        """Do nothing if no finding is an error, by default of the family; raises RefusedError with them."""
+        from mechwright.contracts.finding import errors
+        from mechwright.contracts.refused import RefusedError
+
+        if stopping := errors(self.findings if findings is None else findings):
+            raise RefusedError(self.path, stopping)
 
     def leave_out(self, what: str, error: "MechwrightError") -> None:
         """Note in a few words what there cannot be; the reason is told once, and not if a finding told it."""
@@ -128,7 +183,7 @@ class Build:
         """End what still runs beside the build."""
         self._closing.close()
 
-    def __enter__(self) -> "Build":
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -25,6 +25,8 @@ class Inspection(Plugin):
     """Inspections of lower order are told first."""
     doing: ClassVar[str] = ""
     """What it is at, for a progress bar."""
+    share: ClassVar[float] = 1.0
+    """How long that takes beside others, such as a page of text, which takes 1."""
 
     def late(self, build: Build) -> bool:  # noqa: ARG002 - for those whose work goes on beside
         """Whether it works beside other work and is best asked last; it is told in its order all the same."""

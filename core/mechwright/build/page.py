@@ -28,6 +28,8 @@ class Page(Plugin):
     """Names of the commands that write it."""
     doing: ClassVar[str] = ""
     """What is made, for a progress bar; pages of the same words are one step of it."""
+    share: ClassVar[float] = 1.0
+    """How long that step takes beside others, such as a page of text, which takes 1."""
 
     def warm(self, build: Build) -> None:
         """Start what takes long before the design is even read; by default nothing."""

@@ -1,11 +1,15 @@
 """The command line: the commands that are installed, in their order."""
 
+import os
+from collections.abc import Callable
+from functools import wraps
 from typing import Annotated
 
 import typer
 
 from mechwright.cli.command import Command
 from mechwright.cli.hosting import warn_broken
+from mechwright.cli.progress import standing
 from mechwright.plugins.host import COMMANDS, load
 
 
@@ -17,12 +21,36 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
+COMPLETING = "_MECHWRIGHT_COMPLETE"
+"""Environment variable that a shell sets when it asks what may follow on the line."""
+
+FIRST = """\
+mechwright demo                                builds an example and opens it
+mechwright new elliptic-gears -o pair.toml     a design of your own, every key with a comment
+mechwright build pair.toml -o out              its motion, solids, drawings and proven programs
+
+mechwright --help lists all commands."""
+
+
 def _root(
-    version: Annotated[
+    ctx: typer.Context,
+    version: Annotated[  # noqa: ARG001 - its callback prints it
         bool, typer.Option("--version", help="Print the version.", callback=_version, is_eager=True)
     ] = False,
 ) -> None:
-    pass
+    if ctx.invoked_subcommand is None:
+        typer.echo(FIRST)
+
+
+def _stoppable(run: Callable[..., None]) -> Callable[..., None]:
+    """A command that says what stands when the keyboard stops it; typer would end it without a word."""
+
+    @wraps(run)
+    def stoppable(*arguments: object, **options: object) -> None:
+        with standing():
+            run(*arguments, **options)
+
+    return stoppable
 
 
 def make_app() -> typer.Typer:
@@ -30,15 +58,16 @@ def make_app() -> typer.Typer:
     app = typer.Typer(
         name="mechwright",
         help="From how a mechanism should move to a proven program for the mill.",
-        no_args_is_help=True,
-        add_completion=False,
+        invoke_without_command=True,
+        add_completion=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_root)
     found = load(group=COMMANDS)
-    warn_broken(found)
+    if COMPLETING not in os.environ:
+        warn_broken(found)
     for command in sorted(found.all(Command), key=lambda command: command.order):
-        app.command(command.name)(command.run)
+        app.command(command.name)(_stoppable(command.run))
     return app

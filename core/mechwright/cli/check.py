@@ -5,23 +5,13 @@ from pathlib import Path
 
 import typer
 
-from mechwright.build import Build, Inspection, Wanted
+from mechwright.build import Wanted
 from mechwright.build.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.cli.hosting import open_host
+from mechwright.cli.progress import fraction
 from mechwright.cli.telling import tell
-from mechwright.contracts.finding import Finding, Severity, Stage, errors
-from mechwright.remedies import proposed_tried, tried
-
-
-def findings_of(build: Build) -> list[Finding]:
-    """What the family says; then, if that allows it, what every inspection does."""
-    found = list(build.findings)
-    if not errors(found):
-        asked = sorted(build.host.all(Inspection), key=lambda one: one.order)
-        for one in asked:
-            if build.wanted.command in one.commands:
-                found += proposed_tried(build, one, one.findings(build))
-    return found
+from mechwright.contracts.finding import Severity, Stage, errors
+from mechwright.scripting.mechanism import Mechanism
 
 
 def check(path: Path, as_json: bool, tolerances: bool = False) -> None:
@@ -32,10 +22,8 @@ def check(path: Path, as_json: bool, tolerances: bool = False) -> None:
     DesignError
         Tolerances are asked for, and the family has no analysis of them.
     """
-    with Build(path, open_host(), Wanted("check")) as build:
-        findings = findings_of(build)
-        family = len(build.findings)
-        findings[:family] = tried(build.design, findings[:family])
+    with Mechanism(path, open_host(), Wanted("check")) as build, fraction() as progress:
+        findings = build.check(progress)
         name = build.design.name
         # A mechanism that does not move has no errors of its motion.
         moves = not errors(findings, Stage.MOTION) and not any(f.code == KEYS for f in findings)

@@ -9,10 +9,17 @@ from typing import Annotated, Any, ClassVar
 
 import typer
 
+from mechwright.cli import completing
 from mechwright.contracts.plugin import Plugin
 
 DesignFile = Annotated[
-    Path, typer.Argument(metavar="DESIGN", help="A design file (TOML).", show_default=False)
+    Path,
+    typer.Argument(
+        metavar="DESIGN",
+        help="A design file (TOML).",
+        show_default=False,
+        autocompletion=completing.design_files,
+    ),
 ]
 OutputFolder = Annotated[
     Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the files.", show_default=False)
@@ -20,12 +27,20 @@ OutputFolder = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Samples = Annotated[int, typer.Option(min=2, max=1_000_000, help="Samples of the motion over one period.")]
 Also = Annotated[
-    str, typer.Option(metavar="FORMATS", help="More formats for the solids, such as stl,3mf,glb,mjcf.")
+    str,
+    typer.Option(
+        metavar="FORMATS",
+        help="More formats for the solids, such as stl,3mf,glb,mjcf.",
+        autocompletion=completing.formats,
+    ),
 ]
 Curves = Annotated[
     str,
     typer.Option(
-        "--dxf-curves", metavar="KIND", help="Curves in DXF files: spline, spline3, arc or polyline."
+        "--dxf-curves",
+        metavar="KIND",
+        help="Curves in DXF files: spline, spline3, arc or polyline.",
+        autocompletion=completing.curves,
     ),
 ]
 At = Annotated[

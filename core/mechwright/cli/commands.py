@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from mechwright.build.build import SAMPLES
+from mechwright.cli import completing
 from mechwright.cli.command import (
     Also,
     AsJson,
@@ -34,6 +35,28 @@ class Families(Command):
         listing.families(as_json)
 
 
+class Demo(Command):
+    """``mechwright demo``."""
+
+    name = "demo"
+    order = 5
+
+    def run(
+        self,
+        folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Where it goes.")] = Path(
+            "mechwright-demo"
+        ),
+        show: Annotated[
+            bool | None,
+            typer.Option("--open/--no-open", help="Open the page on which it moves.", show_default=False),
+        ] = None,
+    ) -> None:
+        """Build an example, and open it in the browser."""
+        from mechwright.cli import demo
+
+        demo.demo(folder, show)
+
+
 class New(Command):
     """``mechwright new``."""
 
@@ -42,13 +65,25 @@ class New(Command):
 
     def run(
         self,
-        family: Annotated[str, typer.Argument(help="A family's name; see `families`.", show_default=False)],
+        family: Annotated[
+            str,
+            typer.Argument(
+                help="A family's name; see `families`.",
+                show_default=False,
+                autocompletion=completing.families,
+            ),
+        ],
         output: Annotated[
             Path | None,
             typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
         ] = None,
         requirement: Annotated[
-            str, typer.Option(metavar="KIND", help="A requirement file instead, for `synthesize`.")
+            str,
+            typer.Option(
+                metavar="KIND",
+                help="A requirement file instead, for `synthesize`.",
+                autocompletion=completing.requirement_kinds,
+            ),
         ] = "",
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
@@ -69,7 +104,12 @@ class Schema(Command):
 
     def run(
         self,
-        family: Annotated[str, typer.Argument(help="A family's name; all families if not given.")] = "",
+        family: Annotated[
+            str,
+            typer.Argument(
+                help="A family's name; all families if not given.", autocompletion=completing.families
+            ),
+        ] = "",
         output: Annotated[
             Path | None,
             typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
@@ -121,7 +161,13 @@ class Fix(Command):
         self,
         design: DesignFile,
         to: Annotated[
-            str, typer.Option("--to", metavar="STAGE", help="How far it has to build: parts or machining.")
+            str,
+            typer.Option(
+                "--to",
+                metavar="STAGE",
+                help="How far it has to build: parts or machining.",
+                autocompletion=completing.stages,
+            ),
         ] = "machining",
         output: Annotated[
             Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
@@ -144,7 +190,9 @@ class Solve(Command):
     name = "solve"
     order = 40
 
-    def run(self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) -> None:
+    def run(
+        self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES, as_json: AsJson = False
+    ) -> None:
         """Write the motion: tables, and a page that moves.
 
         They are motion.csv, summary.json and motion.html; poles.html and
@@ -154,7 +202,7 @@ class Solve(Command):
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("solve", samples), Stage.MOTION)
+        perform(design, output, Wanted("solve", samples), Stage.MOTION, as_json=as_json)
 
 
 class Build(Command):
@@ -171,13 +219,15 @@ class Build(Command):
         also: Also = "",
         dxf_curves: Curves = "spline",
         at: At = "",
+        as_json: AsJson = False,
     ) -> None:
         """Write everything: motion, solids, drawings, programs."""
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("build", samples, at, names(also), dxf_curves), Stage.MACHINING)
+        wanted = Wanted("build", samples, at, names(also), dxf_curves)
+        perform(design, output, wanted, Stage.MACHINING, as_json=as_json)
 
 
 class Synthesize(Command):
@@ -190,9 +240,15 @@ class Synthesize(Command):
         self,
         requirement: Annotated[
             Path,
-            typer.Argument(metavar="REQUIREMENT", help="A requirement file (TOML).", show_default=False),
+            typer.Argument(
+                metavar="REQUIREMENT",
+                help="A requirement file (TOML).",
+                show_default=False,
+                autocompletion=completing.requirement_files,
+            ),
         ],
         output: OutputFolder,
+        as_json: AsJson = False,
     ) -> None:
         """Find designs that meet a requirement.
 
@@ -200,10 +256,10 @@ class Synthesize(Command):
         """
         from mechwright.cli import synthesis
 
-        synthesis.synthesize(requirement, output)
+        synthesis.synthesize(requirement, output, as_json)
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Families, New, Schema, Check, Fix, Solve, Build, Synthesize]
+    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize]

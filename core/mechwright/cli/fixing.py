@@ -9,6 +9,7 @@ from pathlib import Path
 import typer
 
 from mechwright.cli.hosting import open_host
+from mechwright.cli.progress import fraction
 from mechwright.cli.telling import tell
 from mechwright.contracts.finding import Change, Stage
 from mechwright.designs.change import changed, rewritten
@@ -38,7 +39,8 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
     found = open_host()
     text, _ = read_text(path)
     design = load(path, found)
-    repair = repaired(design, found, stages[to])
+    with fraction() as progress:
+        repair = repaired(design, found, stages[to], progress)
     new = text
     if repair.change:
         new = rewritten(text, repair.change)

@@ -1,33 +1,28 @@
-"""What ``solve``, ``model``, ``cam`` and ``build`` share: inspect a build, make its pages, write them."""
+"""What ``solve``, ``model``, ``cam`` and ``build`` share: a run, and what is said of it."""
 
+import json
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import typer
 
-from mechwright.build import Build, Inspection, Page, Wanted
+from mechwright.build import Wanted
 from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
-from mechwright.cli.progress import Step, progress
-from mechwright.cli.provenance import facts
+from mechwright.cli.progress import fraction, standing
 from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.finding import Finding, Severity, Stage, errors
-from mechwright.errors import DesignError, MechwrightError, PluginError
-from mechwright.output.folder import Output, check_folder, write_folder
+from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.contracts.refused import RefusedError
+from mechwright.errors import PluginError
 from mechwright.plugins.host import Host
+from mechwright.scripting.mechanism import Mechanism
+from mechwright.scripting.performing import Written
 
 
-class Refused(Exception):  # noqa: N818 - it carries findings, which are no fault of the program
-    """Findings forbid what is asked for."""
-
-    def __init__(self, findings: Iterable[Finding]) -> None:
-        super().__init__()
-        self.findings = list(findings)
-
-
-def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str = "") -> None:
+def perform(
+    path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str = "", as_json: bool = False
+) -> None:
     """Run a command that writes a folder.
 
     Parameters
@@ -40,111 +35,58 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
         The last stage of the command's work: errors of later ones are told and stop nothing.
     empty
         What is wrong if no page has a file; it follows the family's name.
+    as_json
+        What is said goes to standard output as JSON, findings of any severity with it.
     """
     found = open_host()
     _check_formats(found, wanted.formats)
-    check_folder(folder)
-    pages = [page for page in found.all(Page) if wanted.command in page.commands]
-    asked = [one for one in found.all(Inspection) if wanted.command in one.commands]
-    output = Output()
-    steps = 2 + len({page.doing for page in pages}) + len({one.doing for one in asked})
-    with Build(path, found, wanted) as build, progress(steps) as step:
+    with standing(folder), Mechanism(path, found, wanted) as build:
         try:
-            told = _make(build, pages, asked, stage, output, step)
-        except Refused as refused:
+            with fraction() as progress:
+                written = build.write(folder, stage, progress, empty)
+        except RefusedError as refused:
+            if as_json:
+                _print(_data(build, Written(folder, (), refused.findings), ok=False))
+                raise typer.Exit(1) from None
             refuse(refused.findings, path)
-        if not output.files and empty:
-            raise DesignError(f"{path}: family {build.design.family.name} {empty}")
-        step("writing")
-        write_folder(folder, output, wanted.command, facts(build.design, found))
-    later = [finding for finding in errors(told) if _later(finding.stage, stage)]
-    for finding in _advised(build, told):
+        if as_json:
+            _print(_data(build, written, ok=True))
+        else:
+            _say(path, stage, written)
+
+
+def _say(path: Path, stage: Stage, written: Written) -> None:
+    for finding in written.findings:
         if finding.severity is not Severity.NOTE:
-            # Against what stops nothing nothing was sought, and words alone are no remedy.
-            tell(path, replace(finding, remedy="") if finding in later else finding)
-    for fault in build.faults:
+            tell(path, finding)
+    for fault in written.faults:
         tell(path, fault)
-    if errors(told) or build.missing:
-        said = ", ".join(build.missing)
+    if written.findings.errors or written.missing:
+        said = ", ".join(written.missing)
         tell(
             path,
             f"written up to the {stage}; the errors above forbid what follows"
             + (f": {said}" if said else "")
-            + ("; mechwright fix looks for a change that helps" if later else ""),
+            + ("; mechwright fix looks for a change that helps" if written.later else ""),
         )
-    typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
+    typer.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
 
 
-def _make(
-    build: Build, pages: list[Page], asked: list[Inspection], stage: Stage, output: Output, step: Step
-) -> list[Finding]:
-    """Fill the output; gives all findings in the order of inspection."""
-    for page in pages:
-        page.warm(build)
-    step("checking")
-    told: dict[str, list[Finding]] = {"": list(build.findings)}
-    if stopping := errors(build.findings, stage):
-        from mechwright.remedies import tried
-
-        raise Refused(tried(build.design, stopping))
-    for page in pages:
-        page.begin(build)
-    asked = sorted(asked, key=lambda one: one.order)
-    late = [one for one in asked if one.late(build)]
-
-    def ask(inspections: Iterable[Inspection]) -> None:
-        for one in inspections:
-            step(one.doing)
-            try:
-                told[one.name] = list(one.findings(build))
-                if any(finding.severity is not Severity.NOTE for finding in told[one.name]):
-                    from mechwright.remedies import proposed_tried
-
-                    told[one.name] = proposed_tried(build, one, told[one.name])
-            except MechwrightError as error:
-                if not _later(one.stage, stage):
-                    raise
-                build.leave_out(f"{one.doing} is not looked for", error)
-                continue
-            if _later(one.stage, stage):
-                told[one.name] = errors(told[one.name])
-            if stopping := errors(told[one.name], stage):
-                raise Refused(stopping)
-
-    def write(wanted: Iterable[Page]) -> None:
-        doing = ""
-        for page in wanted:
-            if page.doing != doing:
-                step(doing := page.doing)
-            for name, content in page.files(build).items():
-                output.add(name, content)
-
-    try:
-        ask(one for one in asked if one not in late)
-        write(page for page in pages if not page.late(build))
-    except (MechwrightError, Refused):
-        ask(late)  # what is asked late is told first all the same
-        raise
-    ask(late)
-    write(page for page in pages if page.late(build))
-    order = ["", *(one.name for one in asked)]
-    return [finding for name in order for finding in told.get(name, ())]
+def _data(build: Mechanism, written: Written, *, ok: bool) -> dict[str, Any]:
+    """What is told as JSON; ``ok`` is what the exit code says, whatever findings stopped nothing."""
+    return {
+        "design": build.design.name,
+        "ok": ok,
+        "findings": [finding.as_dict() for finding in written.findings],
+        "folder": str(written.folder),
+        "files": list(written.files),
+        "missing": list(written.missing),
+        "faults": list(written.faults),
+    }
 
 
-def _advised(build: Build, told: list[Finding]) -> list[Finding]:
-    """The findings, warnings of the family with remedies that were tried."""
-    mine = [one for one in told if one.severity is Severity.WARNING and one in build.findings]
-    if not mine:
-        return told
-    from mechwright.remedies import tried
-
-    known = dict(zip(map(id, mine), tried(build.design, mine), strict=True))
-    return [known.get(id(one), one) for one in told]
-
-
-def _later(one: Stage, than: Stage) -> bool:
-    order = list(Stage)
-    return order.index(one) > order.index(than)
+def _print(data: dict[str, Any]) -> None:
+    typer.echo(json.dumps(data, indent=2))
 
 
 def _check_formats(found: Host, names: Iterable[str]) -> None:

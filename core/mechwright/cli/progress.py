@@ -3,12 +3,18 @@
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mechwright.output.folder import MANIFEST
+
 if TYPE_CHECKING:
-    from rich.progress import Progress
+    from mechwright.contracts.synthesis import Progress
+
+NOTHING = "nothing was written"
+"""What stands when work that writes nothing, or only at its end, is stopped."""
 
 
 IN_LINES = "MECHWRIGHT_PROGRESS"
@@ -16,65 +22,63 @@ IN_LINES = "MECHWRIGHT_PROGRESS"
 
 _MARK = "@progress "
 
-Step = Callable[[str], None]
-"""Called when a piece of work begins; says what it is."""
+
+class StoppedError(Exception):
+    """The keyboard has stopped a command; it says what stands."""
 
 
 @contextmanager
-def progress(total: int) -> Iterator[Step]:
-    """Show ``total`` pieces of work on standard error while the block runs, if that is a terminal."""
+def standing(folder: Path | None = None) -> Iterator[None]:
+    """Run a block; raises StoppedError where the keyboard stops it, with what stands in ``folder``."""
+    before = _stamp(folder)
+    try:
+        yield
+    except KeyboardInterrupt:
+        if folder is None:
+            raise StoppedError(NOTHING) from None
+        stands = "is as it was" if _stamp(folder) == before else "is written, all of it"
+        raise StoppedError(f"{folder} {stands}") from None
+
+
+def _stamp(folder: Path | None) -> tuple[int, int] | None:
+    """What tells one run's folder from the next one's: they are exchanged as a whole."""
+    try:
+        stat = (folder / MANIFEST).stat() if folder is not None else None
+    except OSError:
+        return None
+    return None if stat is None else (stat.st_ino, stat.st_mtime_ns)
+
+
+@contextmanager
+def fraction() -> "Iterator[Progress]":
+    """Show how far a piece of work is, 0 to 1, what it is at, and the time that remains.
+
+    It is shown on standard error, if that is a terminal, and gone when the work is done.
+    """
     if os.environ.get(IN_LINES):
-        yield _in_lines(total)
+        yield _in_line
         return
-    if not sys.stderr.isatty():
-        yield lambda what: None  # noqa: ARG005 - nothing is shown
-        return
-    with _bar() as bar:
-        task = bar.add_task("", total=total)
-        started = False
-
-        def step(what: str) -> None:
-            nonlocal started
-            bar.update(task, description=what, advance=1 if started else 0)
-            started = True
-
-        yield step
-
-
-@contextmanager
-def fraction() -> Iterator[Callable[[float, str], None]]:
-    """Show how far one long piece of work is, 0 to 1, and what it is at, if standard error is a terminal."""
     if not sys.stderr.isatty():
         yield lambda done, what: None  # noqa: ARG005 - nothing is shown
         return
-    with _bar() as bar:
+    from rich.console import Console
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
+    left = (TextColumn("left"), TimeRemainingColumn())
+    with Bar(*columns, *left, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0)
         yield lambda done, what: bar.update(task, completed=done, description=what)
 
 
-def _bar() -> "Progress":
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
-
-
-def _in_lines(total: int) -> Step:
-    done = -1
-
-    def step(what: str) -> None:
-        nonlocal done
-        done += 1
-        said = json.dumps({"done": done, "of": total, "doing": what})
-        sys.stderr.write(f"{_MARK}{said}\n")
-        sys.stderr.flush()
-
-    return step
+def _in_line(done: float, what: str) -> None:
+    sys.stderr.write(f"{_MARK}{json.dumps({'done': done, 'doing': what})}\n")
+    sys.stderr.flush()
 
 
 def line_of(line: str) -> dict[str, object] | None:
-    """What a line of progress says: ``done``, ``of`` and ``doing``; None of any other line."""
+    """What a line of progress says: ``done``, 0 to 1, and ``doing``; None of any other line."""
     if not line.startswith(_MARK):
         return None
     found = json.loads(line[len(_MARK) :])

@@ -6,6 +6,7 @@ from enum import StrEnum
 from functools import wraps
 from typing import Any, TypeVar
 
+from mechwright.contracts.shown import html_table
 from mechwright.errors import DesignError
 
 S = TypeVar("S")
@@ -120,11 +121,36 @@ class Finding:
         cure = f"; {self.remedy}" if self.remedy else ""
         return f"{self.severity} [{self.code}] {where}{self.message}{cure}"
 
+    def __repr__(self) -> str:
+        return f"<Finding {self}>"
+
     def as_dict(self) -> dict[str, Any]:
         """Give the finding as plain data for JSON; what was proposed and not tried is left out."""
         data = asdict(self)
         del data["proposed"]
         return data
+
+
+class Findings(tuple[Finding, ...]):
+    """Findings in their order; notebooks show them as a table.
+
+    >>> Findings([Finding.note("gear.mass", "a gear weighs 215 g", 215.0, "g")])
+    (<Finding note [gear.mass] a gear weighs 215 g>)
+    """
+
+    __slots__ = ()
+
+    @property
+    def errors(self) -> "Findings":
+        """Those that forbid something."""
+        return Findings(one for one in self if one.severity is Severity.ERROR)
+
+    def __repr__(self) -> str:
+        return "(" + ",\n ".join(map(repr, self)) + ")"
+
+    def _repr_html_(self) -> str:
+        rows = ([one.severity, one.code, one.parameter, one.message, one.remedy] for one in self)
+        return html_table(["severity", "code", "parameter", "finding", "remedy"], rows)
 
 
 def errors(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> list[Finding]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +10,13 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint, check_bodies
 from mechwright.contracts.load import Load
+from mechwright.contracts.shown import html_table
 from mechwright.errors import DesignError, KinematicsError
+from mechwright.extras import optional
+
+if TYPE_CHECKING:
+    import pandas
+    import plotly.graph_objects
 
 TIME = "time"
 """Name of the channel of time, s, of a motion whose input goes there and back."""
@@ -42,6 +49,9 @@ class Scalar:
 
     value: float
     unit: str
+
+    def __str__(self) -> str:
+        return f"{self.value:.6g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,6 +209,54 @@ class Motion:
             if load.body not in self.poses:
                 raise KinematicsError(f"the load {name!r} is on body {load.body!r}, which has no poses")
         check_bodies(self.joints, self.poses.keys())
+
+    def __repr__(self) -> str:
+        travel = self.channels[self.input_name]
+        moved = (
+            f"{self.input_name} {travel.values.min():.6g} to {travel.values.max():.6g} {travel.unit}".rstrip()
+        )
+        names = ", ".join(self.channels)
+        return f"<Motion of {len(self.poses)} bodies, {self.samples} samples, {moved}; channels {names}>"
+
+    def _repr_html_(self) -> str:
+        columns = self.arrays.items()
+        ranges = ((name, float(values.min()), float(values.max())) for name, values in columns)
+        figures = ((name, str(one)) for name, one in self.scalars.items())
+        return html_table(["channel", "least", "greatest"], ranges) + html_table(["figure", "value"], figures)
+
+    def __getitem__(self, name: str) -> Array:
+        """The values (n,) of a channel by its name; raises KinematicsError that lists the channels."""
+        if name not in self.channels:
+            raise KinematicsError(f"the motion has no channel {name!r}; it has {', '.join(self.channels)}")
+        return self.channels[name].values
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """The channels (n,) by name and unit, ``"omega4 [rad/s]"``, as tables and plots head them."""
+        return {
+            f"{name} [{channel.unit}]" if channel.unit else name: channel.values
+            for name, channel in self.channels.items()
+        }
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """The channels as a table of pandas, a row for each sample, columns as :attr:`arrays` names them.
+
+        Raises PluginError where pandas is not installed.
+        """
+        return optional("pandas").DataFrame(self.arrays)
+
+    def plot(self, *names: str) -> "plotly.graph_objects.Figure":
+        """Channels over the input as a figure of plotly, one below the other; by default all of them.
+
+        Raises PluginError where plotly is not installed, KinematicsError for a channel that is not there.
+        """
+        from mechwright.contracts.plot import stacked
+
+        for name in names:
+            self[name]
+        titles = dict(zip(self.channels, self.arrays, strict=True))
+        chosen = names or [name for name in titles if name != self.over]
+        return stacked(titles[self.over], self[self.over], {titles[name]: self[name] for name in chosen})
 
     def path(self, name: str) -> Array:
         """Path (n, 3), mm, of the trace ``name``."""

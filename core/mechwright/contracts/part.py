@@ -9,12 +9,13 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, TypeGuard
+from typing import TYPE_CHECKING, Any, Literal, TypeGuard
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.result import maker
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
@@ -238,6 +239,33 @@ class Part:
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
         if self.outline is not None and not self.thickness > 0:
             raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
+
+    def __repr__(self) -> str:
+        copies = f", {len(self.instances)} copies" if len(self.instances) > 1 else ""
+        size = f"{self.thickness:g} mm, " if self.outline is not None else ""
+        return f"<Part {self.name}: {self.kind}, {size}{self.material}{copies}>"
+
+    def _repr_html_(self) -> str:
+        return self.picture
+
+    def result(self, name: str) -> Any:
+        """What a plugin makes of the part; raises PluginError where nobody does, see :class:`Result`."""
+        return maker(self, name).make(self)
+
+    @property
+    def solid(self) -> "cq.Solid":
+        """The solid, mm, of CadQuery: a plate stands on z = 0. It is made once.
+
+        Raises GeometryError where it cannot be made, PluginError where nothing is installed that makes it.
+        """
+        solid: cq.Solid = self.result("solid")
+        return solid
+
+    @property
+    def picture(self) -> str:
+        """A drawing of it as SVG: a plate from above, else a view in space; raises as ``solid`` does."""
+        drawn: str = self.result("picture")
+        return drawn
 
     @property
     def kind(self) -> Literal["plate", "turned", "bought", "solid"]:

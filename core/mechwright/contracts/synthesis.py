@@ -12,7 +12,11 @@ from mechwright.contracts.parameters import Parameters
 P = TypeVar("P", bound=Parameters)
 
 Progress = Callable[[float, str], None]
-"""Called now and then while a synthesis works: the part that is done, 0 to 1, and what it is at."""
+"""Called now and then by what takes long: the part that is done, 0 to 1, and what it is at."""
+
+
+def unheard(done: float, what: str) -> None:
+    """Progress that nobody is told of."""
 
 
 @dataclass(frozen=True, slots=True)

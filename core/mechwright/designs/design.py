@@ -30,6 +30,7 @@ from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
 from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
+from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 
@@ -49,7 +50,7 @@ class Design:
     params
         The table ``[parameters]``.
     digest
-        SHA-256 of the bytes of the file ``path``.
+        SHA-256 of the bytes of the file ``path``; empty for a design that no file holds.
     tables
         Name to value of every table that is registered; see :meth:`table`.
     readers
@@ -71,6 +72,15 @@ class Design:
         """The value of a registered table, by the class that reads it."""
         value: V = self.tables[contract.name]
         return value
+
+    def __repr__(self) -> str:
+        return f"<Design {self.name} of {self.path}: {self.family.name}>"
+
+    @property
+    def text(self) -> str:
+        """A file that holds the design, every key with a comment."""
+        tables = [(reader, self.tables[reader.name]) for reader in self.readers]
+        return design_text(self.family, self.name, self.params, tables)
 
     def parts(self) -> Sequence[Part]:
         """The parts as the family gives them and what stands around, with what the tables ask of them.

@@ -50,6 +50,11 @@ def read_text(
         raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
 
 
+def digest_of(text: str) -> str:
+    """SHA-256 of the file that holds a text."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
     text, digest = read_text(path)

@@ -78,10 +78,11 @@ def load_requirement(path: Path, host: Host) -> Requirement:
     """Read a requirement file; raises as ``load`` does, and DesignError for a family without synthesis."""
     content, digest = read_toml(path)
     with telling_places(path, content, host, "requirement"):
-        return _load(path, content, digest, host)
+        return requirement_of(content, path, digest, host)
 
 
-def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Requirement:
+def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -> Requirement:
+    """The requirement that a file ``path`` with this content holds; raises as ``load_requirement`` does."""
     registered = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
     require_synthesis(family, str(path))

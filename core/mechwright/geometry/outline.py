@@ -59,6 +59,9 @@ class Loop:
                     f"a gap of {gap:.3g} mm, the limit is {TOLERANCES.closure:g} mm"
                 )
 
+    def __repr__(self) -> str:
+        return f"<Loop of {len(self.segments)} segments, area {self.area:.6g} mm²>"
+
     @classmethod
     def polygon(cls, points: Iterable[Point], tag: str = "") -> "Loop":
         """The loop of straight lines through these corners, mm."""
@@ -176,6 +179,10 @@ class Outline:
                     f"inner loop {number} has a signed area of {loop.area:.6g} mm²; it must run clockwise "
                     "around an area below 0: reverse it"
                 )
+
+    def __repr__(self) -> str:
+        x0, y0, x1, y1 = self.bounds
+        return f"<Outline {x1 - x0:.6g} × {y1 - y0:.6g} mm, {len(self.inner)} openings, {self.area:.6g} mm²>"
 
     @property
     def loops(self) -> tuple[Loop, ...]:

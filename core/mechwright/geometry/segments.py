@@ -208,6 +208,9 @@ class BSpline:
         if not np.isfinite(self._net).all():
             raise GeometryError("a B-spline needs finite control points")
 
+    def __repr__(self) -> str:
+        return f"<BSpline of degree {self.degree}, {len(self.points)} points>"
+
     def _inner_knots_are_good(self) -> bool:
         """Whether the knots never fall, and none is so many-fold that the curve is torn."""
         knots, k = self._knots, self.degree

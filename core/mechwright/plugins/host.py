@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import pluggy
 
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
+from mechwright.contracts.result import Result, found_by
 from mechwright.errors import PluginError
 from mechwright.plugins import hookspecs
 
@@ -261,3 +262,10 @@ def hook_points(
 def host() -> Host:
     """The host of this process, loaded once."""
     return load()
+
+
+def _results() -> dict[str, Result[Any]]:
+    return {one.name: one for one in host().all(Result)}
+
+
+found_by(_results)  # a part knows no host, and is asked for its solid all the same

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import Key, keys_of
 from mechwright.remedies.values import distance
@@ -55,6 +56,8 @@ class Bench:
         Errors of this stage and of earlier ones count.
     limits
         When the search ends.
+    progress
+        Told how near that is.
     """
 
     design: Design
@@ -62,6 +65,7 @@ class Bench:
     stage: Stage = Stage.MACHINING
     limits: Limits = Limits()
     tell: Judge | None = None
+    progress: Progress = unheard
     tries: int = 0
     keys: dict[str, Key] = field(init=False)
 
@@ -130,6 +134,8 @@ class Bench:
         try:
             design = self.design.changed(change)
             self.tries += 1
+            near = max(self.tries / self.limits.tries, self._used / self.limits.seconds)
+            self.progress(near, "trying changes")
             return tuple(self.judge(design))
         except Exception:  # noqa: BLE001,RUF100 - whatever a design nobody asked for leads to, it is no remedy
             return None
@@ -148,7 +154,9 @@ def identity(finding: Finding) -> tuple[str, str]:
     return finding.code, finding.parameter
 
 
-def of_family(design: Design, limits: Limits, stage: Stage = Stage.MACHINING) -> Bench:
+def of_family(
+    design: Design, limits: Limits, stage: Stage = Stage.MACHINING, progress: Progress = unheard
+) -> Bench:
     """A bench whose judge is the design's family, with what stands around the mechanism."""
     return Bench(
         design,
@@ -156,4 +164,5 @@ def of_family(design: Design, limits: Limits, stage: Stage = Stage.MACHINING) ->
         stage,
         limits,
         Design.check,
+        progress,
     )

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from mechwright.build import Build, Inspection, Wanted
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import Host
@@ -50,10 +51,10 @@ class Repair:
         return self.change is not None
 
 
-def repaired(design: Design, host: Host, stage: Stage) -> Repair:
+def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unheard) -> Repair:
     """The smallest change found with which a design passes all that ``build`` asks up to a stage."""
     asks = _asks(host, stage)
-    first = of_family(design, FAMILY, stage)
+    first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
     whole = judge_of(host, asks, stage)
     start: Change = {}
@@ -71,9 +72,11 @@ def repaired(design: Design, host: Host, stage: Stage) -> Repair:
 def _further(repair: Repair, design: Design, host: Host, stage: Stage, asks: Sequence[Ask]) -> Repair:
     """Go on from a change that pleases the family, with one dearer judgement after the other."""
     found, change = repair.found, repair.change or {}
+    progress = repair.bench.progress
     for number in range(_OWN, len(asks) + 1):
         limits = FAMILY if number == _OWN else INSPECTED
-        bench = Bench(design.changed(change), judge_of(host, asks[:number], stage), stage, limits)
+        judge = judge_of(host, asks[:number], stage)
+        bench = Bench(design.changed(change), judge, stage, limits, progress=progress)
         left = bench.errors({}) or []
         if left:
             found = found or left

@@ -137,7 +137,7 @@ function progress(state) {
   button_("building").hidden = state.state === "none";
   const at = state.at || {}, runs = state.state === "runs";
   button_("done").hidden = button_("stop").hidden = !runs;
-  if (at.of) button_("done").value = at.done / at.of; else button_("done").removeAttribute("value");
+  if (at.done !== undefined) button_("done").value = at.done; else button_("done").removeAttribute("value");
   button_("doing").textContent = runs ? `${at.doing || "starting"} …` : state.state === "done"
     ? `Built: ${state.printed}` : state.state === "failed" ? "Nothing was built:" : "";
   button_("said").replaceChildren(...(state.said || []).map((line) => made("li", {}, null, line)));

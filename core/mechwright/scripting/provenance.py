@@ -5,17 +5,16 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from mechwright import __version__
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
-from mechwright.designs.files import read_text
+from mechwright.designs.files import digest_of, read_text
 from mechwright.plugins.host import Host
 
 
 def facts(design: Design, found: Host) -> dict[str, Any]:
     """Facts of a run on a design: the hash of its file and of all that its tables name."""
-    inputs = {design.path.name: design.digest}
+    inputs = {design.path.name: design.digest or digest_of(design.text)}
     for name, value in design.tables.items():
         named = found.get(Table, name).inputs(value, design.path)
         inputs |= {name: read_text(file)[1] for name, file in named.items()}
@@ -25,13 +24,12 @@ def facts(design: Design, found: Host) -> dict[str, Any]:
 def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:
     """Facts of a run; ``inputs`` is file name to SHA-256."""
     origin = found.of(Family)[family.name].distribution
-    packages = {"cadquery", "ezdxf", "numpy", "scipy", "shapely", origin} - {"mechwright"}
+    packages = {"cadquery", "ezdxf", "mechwright", "numpy", "scipy", "shapely", origin}
     return {
         "design": name,
         "family": family.name,
         "inputs_sha256": dict(inputs),
         "versions": {
-            "mechwright": __version__,
             "python": ".".join(map(str, sys.version_info[:3])),
             **{package: _version(package) for package in sorted(packages)},
         },

@@ -1,0 +1,67 @@
+"""The command ``demo``: the README's example, built from what is installed."""
+
+import os
+import sys
+import webbrowser
+from importlib.resources import files
+from pathlib import Path
+
+import typer
+
+from mechwright.build import Wanted
+from mechwright.cli.perform import perform
+from mechwright.contracts.finding import Stage
+from mechwright.errors import OutputError
+from mechwright.output.folder import write_new
+
+DESIGN = "elliptic-pair.toml"
+"""The example's name in its folder; in the package it is ``demo.toml``."""
+SHOWN = "motion.html"
+
+
+def demo(folder: Path, show: bool | None) -> None:
+    """Write the example into a folder, build it there, and open its page.
+
+    ``show`` None opens it where somebody looks: on a terminal of a machine with a browser.
+
+    Raises
+    ------
+    OutputError
+        Another design stands in the folder, or it cannot be written.
+    """
+    text = files("mechwright.cli").joinpath("demo.toml").read_text(encoding="utf-8")
+    path = folder / DESIGN
+    _place(path, text)
+    out = folder / "out"
+    perform(path, out, Wanted("build"), Stage.MACHINING)
+    page = out / SHOWN
+    typer.echo(f"go on with: mechwright check {path}, or change it and: mechwright build {path} -o {out}")
+    if (show if show is not None else sys.stdout.isatty()) and _open(page):
+        typer.echo(f"{page}: opened in the browser")
+    else:
+        typer.echo(f"{page}: open it in a browser")
+
+
+def _place(path: Path, text: str) -> None:
+    """Write the example, where it does not stand already."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.exists() and path.read_text(encoding="utf-8") == text:
+            return
+    except (OSError, UnicodeDecodeError) as error:
+        raise OutputError(f"{path}: cannot be written: {error}") from error
+    if path.exists():
+        raise OutputError(
+            f"{path}: is there already and has been changed; give another folder, or: "
+            f"mechwright build {path} -o {path.parent / 'out'}"
+        )
+    write_new(path, text)
+
+
+def _open(page: Path) -> bool:
+    """Open a page in a browser with a window; one that takes over the terminal is none."""
+    windows = sys.platform in {"darwin", "win32"} or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
+    try:
+        return bool(windows) and webbrowser.open(page.resolve().as_uri())
+    except webbrowser.Error:
+        return False

@@ -1,0 +1,141 @@
+"""A mechanism as scripts and the command line have it in hand."""
+
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from mechwright.build import Build, Inspection, Page
+from mechwright.contracts.finding import Finding, Findings, Stage, errors
+from mechwright.contracts.synthesis import Progress, unheard
+from mechwright.errors import MechwrightError
+from mechwright.output.folder import write_new
+from mechwright.scripting.changes import change_of
+from mechwright.scripting.performing import Written, perform
+from mechwright.scripting.steps import CHECKING, Steps, shares
+
+MOTION_PAGE = "motion-page"
+"""The page on which a mechanism moves, by the name under which it is registered."""
+HEIGHT = 640
+"""Of that page in a notebook, pixels."""
+
+
+class Mechanism(Build):
+    """A design, and all that is made of it: each thing when it is first asked for, and then kept.
+
+    :func:`load` and :func:`design` give one. What plugins see of it is its base, :class:`Build`, with
+    ``findings``, ``motion``, ``parts``, ``assembly`` and ``programs``.
+
+    Examples
+    --------
+    >>> import mechwright as mw
+    >>> pair = mw.design("elliptic-gears", eccentricity=0.4, teeth=25)
+    >>> pair.findings.errors, pair.parts.names, pair.motion.samples
+    ((), ('gear',), 721)
+    >>> flatter = pair.with_(eccentricity=0.3)
+    >>> [round(one.motion.scalars["ratio_max"].value, 3) for one in (flatter, pair)]
+    [1.857, 2.333]
+    """
+
+    def __repr__(self) -> str:
+        return f"<Mechanism {self.design.name}: {self.design.family.title.lower()}>"
+
+    def with_(self, **changes: object) -> "Mechanism":
+        """The same with other parameters, as a new mechanism.
+
+        Parameters
+        ----------
+        changes
+            Parameters by their names; a table, such as ``cam={"control": "haas"}``, changes the keys it has.
+
+        Raises
+        ------
+        DesignError
+            One line for each thing that is wrong.
+        """
+        design = self.design.changed(change_of(self.host, changes))
+        return Mechanism(replace(design, digest=""), self.host, self.wanted)
+
+    def asked(self, **wanted: Any) -> "Mechanism":
+        """The same design with other wishes, such as ``samples=3601, at="40 deg"``: see :class:`Wanted`."""
+        return Mechanism(self.design, self.host, replace(self.wanted, **wanted))
+
+    @property
+    def toml(self) -> str:
+        """The design as a file, every key with a comment."""
+        return self.design.text
+
+    def save(self, path: "str | Path", *, replace: bool = False) -> Path:
+        """Write the design file; raises OutputError where one is there, unless told to ``replace`` it."""
+        write_new(Path(path), self.toml, replace=replace)
+        return Path(path)
+
+    def check(self, progress: Progress = unheard) -> Findings:
+        """What ``mechwright check`` tells, with remedies that were tried.
+
+        That is what the family finds, and if this allows it what every inspection does: bodies that meet,
+        cutters that do not reach.
+        """
+        from mechwright.remedies import tried
+
+        with self._as("check") as build:
+            progress(0.0, CHECKING)
+            inspected = inspections(build, progress)
+            return Findings([*tried(build.design, build.findings), *inspected])
+
+    def write(
+        self,
+        folder: "str | Path",
+        stage: Stage = Stage.MACHINING,
+        progress: Progress = unheard,
+        empty: str = "",
+    ) -> Written:
+        """Write everything that the command asked for writes, ``build`` by default; see :func:`perform`."""
+        return perform(self, Path(folder), stage, progress, empty)
+
+    @property
+    def page(self) -> str:
+        """The page on which it moves, one file of HTML, as ``mechwright solve`` writes it.
+
+        Raises RefusedError where it does not move, PluginError where no such page is installed.
+        """
+        found = self.host.get(Page, MOTION_PAGE)
+        self.require(errors(self.findings, Stage.MOTION))
+        with self._as("solve") as build:
+            files = found.files(build)
+        content = next(iter(files.values()))
+        return content if isinstance(content, str) else content.decode()
+
+    def _as(self, command: str) -> Build:
+        return Build(self.design, self.host, replace(self.wanted, command=command))
+
+    def _repr_html_(self) -> str:
+        found = self.findings._repr_html_()
+        try:
+            page = self.page
+        except MechwrightError:
+            return found  # which says why it does not move
+        title = escape(f"{self.design.name} moves")
+        # Without a frame of its own the page's styles and scripts would be those of the notebook.
+        return (
+            f'<iframe srcdoc="{escape(page)}" sandbox="allow-scripts" title="{title}" '
+            f'style="width:100%;height:{HEIGHT}px;border:0"></iframe>{found}'
+        )
+
+
+def inspections(build: Build, progress: Progress = unheard) -> Findings:
+    """What the inspections of a build's command find, with remedies that were tried.
+
+    Nothing where the family finds errors: inspections rely on a sound design.
+    """
+    from mechwright.remedies import proposed_tried
+
+    if errors(build.findings):
+        return Findings()
+    asked = [one for one in build.host.all(Inspection) if build.wanted.command in one.commands]
+    step = Steps(build, shares(asked), progress)
+    found: list[Finding] = []
+    for one in sorted(asked, key=lambda one: one.order):
+        step(one.doing)
+        found += proposed_tried(build, one, one.findings(build))
+    return Findings(found)
