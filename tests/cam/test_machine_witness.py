@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from mujoco_witness import Witness, torques
 
 from mechwright import Channel, Poses, host
@@ -32,7 +33,7 @@ def few(motion):
     ("name", "up", "speed"),
     [
         ("spherical-crank-rocker", "z", 60.0),
-        ("crank-rocker-three-poles", "y", 200.0),
+        pytest.param("crank-rocker-three-poles", "y", 200.0, marks=by_night),
         ("slider-crank-quick-return", "-x", None),
     ],
 )

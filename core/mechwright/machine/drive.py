@@ -20,7 +20,7 @@ from mechwright.contracts.part import Part
 from mechwright.machine.course import Course, course_of
 from mechwright.machine.outputs import fixed_to, output_of
 from mechwright.machine.settings import MachineSettings
-from mechwright.mechanics.strength.drive import flywheel
+from mechwright.mechanics.strength.drive import energy_swing, flywheel
 
 SAMPLES = 1441
 """Of the motion: every quarter of a degree of a turn."""
@@ -141,7 +141,7 @@ class Drive:
         if self.course.rocks or not self.repeats:
             return None
         angle = np.abs(self.course.angle - self.course.angle[0])
-        return max(_swing(run.torque, angle) for run in self.runs)
+        return max(energy_swing(run.torque, angle) for run in self.runs)
 
     @property
     def repeats(self) -> bool:
@@ -270,11 +270,3 @@ def _of_loads(course: Course, loads: Mapping[str, Load]) -> tuple[Array, Array]:
             given -= turning @ np.array(load.torque)
             resisting += load.resisting * np.linalg.norm(turning, axis=1)
     return given, resisting * (np.where(course.rests, 0.0, np.sign(course.speed)) if course.rocks else 1.0)
-
-
-def _swing(torque: Array, angle: Array) -> float:
-    """Greatest less least of the work that a torque does beyond its mean, J."""
-    step = np.diff(angle)
-    work = np.concatenate([[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 * step)])
-    beyond = work - work[-1] * angle / angle[-1]
-    return float(beyond.max() - beyond.min())

@@ -30,13 +30,15 @@ def rms(torque: Array) -> float:
     return float(np.sqrt(np.mean(np.square(torque))))
 
 
-def energy_swing(torque: Array, step: float) -> float:
-    """Greatest less least of the work that a torque does beyond its mean, J.
+def energy_swing(torque: Array, angle: Array) -> float:
+    """Greatest less least of the work that a torque (n,), N m, does beyond its mean over the angle, J.
 
-    The torque (n,), N m, stands at equal steps of angle, rad, over one period without its end.
+    The angles (n,), rad, rise over one period, both ends included.
     """
-    work = np.concatenate([[0.0], np.cumsum(torque - np.mean(torque))]) * step
-    return float(work.max() - work.min())
+    pieces = (torque[1:] + torque[:-1]) / 2 * np.diff(angle)
+    work = np.concatenate([[0.0], np.cumsum(pieces)])
+    beyond = work - work[-1] * (angle - angle[0]) / (angle[-1] - angle[0])
+    return float(beyond.max() - beyond.min())
 
 
 def inertia_swing(inertia: float, speed: float, greatest: float, least: float) -> float:
