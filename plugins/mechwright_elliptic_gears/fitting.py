@@ -27,8 +27,8 @@ def gear_marks(
     if drivers & set(bodies):
         marks.append(
             FittingMark(
-                f"Where {name} drives, its one dot goes between the two dots of the gear that it drives, once "
-                "a turn.",
+                f"Where {name} drives, its one dot goes between the two dots of the gear that it drives, "
+                "once a turn.",
                 (tooth,),
             )
         )
