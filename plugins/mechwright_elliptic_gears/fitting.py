@@ -1,6 +1,7 @@
 """Marks on gears: which tooth meets which space as the driver's far vertex is on the line of centres."""
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 
@@ -13,27 +14,35 @@ UNDER = 1.5
 """How far below the roots of the teeth a dot stands, mm."""
 
 
-def gear_marks(params: EllipticGearParams, name: str, key: float | None) -> tuple[FittingMark, ...]:
+def gear_marks(
+    params: EllipticGearParams, name: str, bodies: Collection[str], key: float | None
+) -> tuple[FittingMark, ...]:
     """One dot under the tooth with which a gear drives, two about the space in which it is driven.
 
-    All gears have one outline, so each may do both. ``key`` is the direction of the keyway, rad.
+    A part whose copies do both has both. ``key`` is the direction of the keyway, rad.
     """
-    tooth, (one, two) = meeting_teeth(params)
-    marks = [
-        FittingMark(
-            f"Where {name} drives: its one dot goes between the two dots of the gear that it drives; they "
-            "meet once a turn.",
-            (tooth,),
-        ),
-        FittingMark(
-            f"Where {name} is driven: the one dot of its driver goes between its two dots.", (one, two)
-        ),
-    ]
+    tooth, space = meeting_teeth(params)
+    drivers = {"gear-2"} if params.stages == 1 else {"gear-2", "gear-4"}
+    marks = []
+    if drivers & set(bodies):
+        marks.append(
+            FittingMark(
+                f"Where {name} drives, its one dot goes between the two dots of the gear that it drives, "
+                "once a turn.",
+                (tooth,),
+            )
+        )
+    if set(bodies) - drivers:
+        marks.append(
+            FittingMark(
+                f"Where {name} is driven, the one dot of its driver goes between its two dots.", space
+            )
+        )
     if key is not None:
         angle = math.degrees(key) % 360
         marks.append(
             FittingMark(
-                f"The keyway of {name} stands at {angle:.1f}° to its long axis, on the side of the one dot."
+                f"The keyway of {name} stands at {angle:.1f}° to its long axis, counted from its far vertex."
             )
         )
     return tuple(marks)

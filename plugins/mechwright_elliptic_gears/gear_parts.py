@@ -184,7 +184,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         instances=tuple(Instance(body, z, COLOURS[body]) for body, z in gear.bodies),
         machined=tuple(features),
         details=gear.details,
-        marks=gear_marks(params, gear.name, gear.key),
+        marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
     )
 
 

@@ -67,6 +67,11 @@ def test_a_pin_hides_what_is_behind_it_and_a_ring_shows_its_hole():
     assert y1 - y0 == pytest.approx(20 * towards[2] + 10 * up[2], abs=0.4), "and loses height by the slant"
 
 
+def test_what_is_smaller_than_the_shortest_line_is_left_out():
+    view = View(standing(turned("speck", Turned((Length(0.2, 0.2),)))), 0)
+    assert view.lines({0: np.zeros(3)})[0].is_empty
+
+
 def test_boxes_of_the_exploded_view_do_not_overlap_along_any_axis(crank_rocker):
     _, plan, _ = crank_rocker
     boxes = Boxes(plan.bodies, plan.sample)

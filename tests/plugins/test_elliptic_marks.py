@@ -1,9 +1,13 @@
 """Dots on elliptic gears: the driver's stands between those of its mate once a turn, at the far vertex."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
 
+from mechwright import Engraving, GeometryError
+from mechwright.contracts.marking import engraved_dots
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.fitting import meeting_teeth
 from mechwright_elliptic_gears.gear import ellipse_of, outline_of
@@ -56,5 +60,21 @@ def test_parts_of_the_pair_and_the_train_carry_their_marks():
         parts = EllipticGears().parts(EllipticGearParams.model_validate(values))
         gears = [part for part in parts if part.name.startswith("gear")]
         assert gears
-        assert all(len(mark.dots) in (0, 1, 2) for part in gears for mark in part.marks)
-        assert all(sum(len(mark.dots) for mark in part.marks) == 3 for part in gears)
+        dots = {part.name: [len(mark.dots) for mark in part.marks if mark.dots] for part in gears}
+        wanted = (
+            {"gear": [1, 2]} if not values else {"gear-2": [1], "gear-3": [2], "gear-4": [1], "gear-5": [2]}
+        )
+        assert dots == wanted
+
+
+def test_dots_are_engraved_on_request_and_not_through_the_part():
+    (gear,) = EllipticGears().parts(EllipticGearParams())
+    (detail,) = engraved_dots(gear).details
+    assert isinstance(detail, Engraving)
+    assert len(detail.strokes) == 3
+    middles = [np.mean(stroke[:-1], axis=0) for stroke in detail.strokes]
+    wanted = [dot for mark in gear.marks for dot in mark.dots]
+    assert np.allclose(middles, wanted, atol=1e-4)
+    with pytest.raises(GeometryError, match="10 mm deep go through part gear, 10 mm thick"):
+        engraved_dots(gear, 10.0)
+    assert engraved_dots(replace(gear, marks=())) == replace(gear, marks=())

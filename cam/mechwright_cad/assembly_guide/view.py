@@ -127,7 +127,7 @@ class View:
             return shapely.MultiLineString()
         merged = shapely.line_merge(shapely.multilinestrings([shapely.LineString(one) for one in pieces]))
         long = [one for one in shapely.get_parts(merged) if one.length > SHORTEST * CELL]
-        return shapely.simplify(shapely.multilinestrings(long), FINE)
+        return shapely.simplify(shapely.MultiLineString(long), FINE)
 
 
 def _edges(points: Array, triangles: NDArray[np.int64]) -> Array:

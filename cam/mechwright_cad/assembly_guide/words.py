@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mechwright.contracts.joint import GROUND
 from mechwright_cad.assembly_guide.fits import Match, matches, rounds_of
 from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_order.groups import rigid
@@ -12,10 +11,20 @@ from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
 
 PRESS = "Press it in a vice or arbor press, with support right under the hole."
-"""How a press fit is made."""
+"""How a press fit is made on the bench."""
+
+IN_PLACE = "Support that part right under the hole and draw the pin in with a clamp, or warm the part first."
+"""How one is made where no press gets in."""
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
+
+_TRIED = {
+    "prismatic": "slides freely on",
+    "revolute": "turns freely on",
+    "gear": "meshes freely with",
+}
+"""Kind of a joint to what is tried of it."""
 
 LEVEL = 0.999
 """Product of a way and the upright from which on it counts as upright, and as level below the rest of 1."""
@@ -27,6 +36,8 @@ class Words:
     def __init__(self, plan: Plan, numbers: dict[str, int]) -> None:
         self.plan, self.numbers = plan, numbers
         self._heads = rigid(plan.motion)
+        self._last = {k: step for step in plan.steps for k in step.moved}
+        self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}
         self._said: set[frozenset[str]] = set()
 
     def name(self, k: int) -> str:
@@ -63,11 +74,18 @@ class Words:
         plan = self.plan
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         said = [self._moves(step, found)]
-        said += dict.fromkeys(self._tight(match) for match in found if self._fast(match))
+        bench = len({self._head(k) for k in (*step.onto, *step.moved)}) == 1
+        press = PRESS if bench else IN_PLACE
+        said += dict.fromkeys(self._tight(match, press) for match in found if self._fast(match))
         said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in step.moved)))
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in step.moved)))
-        said += dict.fromkeys(mark.note for k in step.moved for mark in plan.bodies[k].part.marks)
-        said += self._tries(step, found)
+        said += dict.fromkeys(
+            mark.note
+            for k in (*step.onto, *step.moved)
+            if self._last.get(k) is step
+            for mark in plan.bodies[k].part.marks
+        )
+        said += dict.fromkeys(self._tries(step, found))
         return said
 
     def _moves(self, step: Step, found: Sequence[Match]) -> str:
@@ -110,10 +128,10 @@ class Words:
         return "along the axis that the picture shows"
 
     def _fast(self, match: Match) -> bool:
-        one, two = (self._heads[self.plan.bodies[k].instance.body] for k in (match.pin, match.hole))
+        one, two = (self._head(k) for k in (match.pin, match.hole))
         return one == two
 
-    def _tight(self, match: Match) -> str:
+    def _tight(self, match: Match, press: str) -> str:
         pin, hole = self.name(match.pin), self.name(match.hole)
         least, most = (round(value, 4) + 0.0 for value in match.play)
         if match.inside.threaded:
@@ -122,7 +140,7 @@ class Words:
             return f"{pin} in {hole}: {match.text}, no fit is said; it has to sit fast, or is bonded."
         if most <= 0:
             return (
-                f"{pin} in {hole} is a press fit, {match.text}, {-most:.3f} to {-least:.3f} mm tight. {PRESS}"
+                f"{pin} in {hole} is a press fit, {match.text}, {-most:.3f} to {-least:.3f} mm tight. {press}"
             )
         if least < 0:
             loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose"
@@ -141,12 +159,9 @@ class Words:
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""
-        there = {self._heads[self.plan.bodies[k].instance.body] for k in (*step.onto, *step.moved)}
         for match in found:
             if not self._fast(match):
-                pair = frozenset(
-                    self._heads[self.plan.bodies[k].instance.body] for k in (match.pin, match.hole)
-                )
+                pair = frozenset(self._head(k) for k in (match.pin, match.hole))
                 if pair in self._said:
                     continue
                 self._said.add(pair)
@@ -158,29 +173,25 @@ class Words:
                 )
         for joint in self.plan.motion.joints.values():
             pair = frozenset((self._heads[joint.one], self._heads[joint.two]))
-            if joint.kind not in {"prismatic", "revolute", "gear"} or pair in self._said or len(pair) < 2:
+            if joint.kind not in _TRIED or pair in self._said or len(pair) < 2:
                 continue
-            if pair <= there | {GROUND} and pair & {
-                self._heads[self.plan.bodies[k].instance.body] for k in step.moved
-            }:
-                if joint.kind == "revolute" and not (self._leans(step) and self._touch(step)):
-                    continue  # a pin that is put into its hole has been told of
+            if joint.kind == "revolute" and not self._leans(step):
+                continue  # a pin that is put into its hole has been told of
+            if self._touch(step, pair):
                 self._said.add(pair)
-                said = {
-                    "prismatic": "slides freely on",
-                    "revolute": "turns freely on",
-                    "gear": "meshes freely with",
-                }
-                yield f"Try: {joint.two} {said[joint.kind]} {joint.one or 'the frame'}, by hand."
+                yield f"Try: {joint.two} {_TRIED[joint.kind]} {joint.one or 'the frame'}, by hand."
 
     def _leans(self, step: Step) -> bool:
         """Whether what comes has no round faces that are known: it stands askew in the assembly."""
         return not any(rounds_of(self.plan.bodies[k], self.plan.sample) for k in step.moved)
 
-    def _touch(self, step: Step) -> bool:
-        heads = [self._heads[self.plan.bodies[k].instance.body] for k in range(len(self.plan.bodies))]
+    def _touch(self, step: Step, pair: frozenset[str]) -> bool:
+        """Whether what comes brings two bodies of the motion into touch."""
         return any(
-            heads[one] != heads[two] and self.plan.order.standing.touch(one, two)
+            {self._head(one), self._head(two)} == pair and self.plan.order.standing.touch(one, two)
             for one in step.moved
             for two in step.onto
         )
+
+    def _head(self, k: int) -> str:
+        return self._heads[self.plan.bodies[k].instance.body]

@@ -7,9 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from mechwright.contracts.edges import deburred
-from mechwright.contracts.fitting_marks import engraved
 from mechwright.contracts.holes import fitted, threaded
-from mechwright.contracts.marking import marked
+from mechwright.contracts.marking import engraved_dots, marked
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.shop.settings import CamSettings, Hole, PartSettings
@@ -49,7 +48,7 @@ def _made(part: Part, table: CamSettings, path: Path) -> Part:
         part = _told(f"{path}: {where}.deburr", deburred, part, table.deburr)
     if table.fitting_marks:
         depth, line = table.mark_depth, table.mark_line
-        part = _told(f"{path}: {where}.fitting_marks", engraved, part, depth, line)
+        part = _told(f"{path}: {where}.fitting_marks", engraved_dots, part, depth, line)
     if table.mark:
         text = table.mark.replace(NAME, part.name)
         letters = (table.mark_height, table.mark_depth, table.mark_line)

@@ -1,15 +1,10 @@
 """Signs that show how parts stand to each other when they are put together."""
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
-from mechwright.contracts.details import Engraving
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
-
-if TYPE_CHECKING:
-    from mechwright.contracts.part import Part
 
 DOT = 0.5
 """Radius of the ring that a dot is engraved as, mm."""
@@ -50,18 +45,3 @@ def rings(mark: FittingMark) -> tuple[tuple[Point, ...], ...]:
         tuple((round(x + DOT * math.cos(a), 6), round(y + DOT * math.sin(a), 6)) for a in angles)
         for x, y in mark.dots
     )
-
-
-def engraved(part: "Part", depth: float = 0.2, line: float = 0.6) -> "Part":
-    """The plate with its dots engraved, ``depth`` mm deep in lines at most ``line`` mm wide.
-
-    Raises GeometryError for a depth that goes through the part.
-    """
-    strokes = tuple(ring for mark in part.marks for ring in rings(mark))
-    if not strokes:
-        return part
-    if depth >= part.thickness:
-        raise GeometryError(
-            f"dots {depth:g} mm deep go through part {part.name}, {part.thickness:g} mm thick"
-        )
-    return replace(part, details=(*part.details, Engraving("fitting-marks", strokes, depth, line)))

@@ -1,4 +1,4 @@
-"""Text engraved on a plate's top face, in the freest place there is."""
+"""Text engraved on a plate's top face, in the freest place there is; and the dots of fitting marks."""
 
 import math
 from collections.abc import Iterator
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread, band_of
+from mechwright.contracts.fitting_marks import rings
 from mechwright.contracts.part import Part
 from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError
@@ -67,6 +68,21 @@ def marked(part: Part, text: str, height: float = 4.0, depth: float = 0.2, line:
     return replace(
         part, details=(*part.details, Engraving("mark", lettering(text, height, *found), depth, line))
     )
+
+
+def engraved_dots(part: Part, depth: float = 0.2, line: float = 0.6) -> Part:
+    """The plate with the dots of its fitting marks, ``depth`` mm deep in lines at most ``line`` mm wide.
+
+    Raises GeometryError for a depth that goes through the part.
+    """
+    strokes = tuple(ring for mark in part.marks for ring in rings(mark))
+    if not strokes:
+        return part
+    if depth >= part.thickness:
+        raise GeometryError(
+            f"dots {depth:g} mm deep go through part {part.name}, {part.thickness:g} mm thick"
+        )
+    return replace(part, details=(*part.details, Engraving("fitting-marks", strokes, depth, line)))
 
 
 def _instead(free: "shapely.Geometry", text: str, height: float) -> str:
