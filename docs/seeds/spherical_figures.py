@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
+from planar_machine import plan
 
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable import Pins, PlaneSpace, follow, settings_of
@@ -166,6 +167,7 @@ def pictures(design: PlanarDesign) -> dict[str, Callable[[], str]]:
     return {
         "spherical-figure-2a.svg": lambda: overlay(*four_bar(), turn=True),
         "spherical-figure-2b.svg": lambda: overlay(*five_bar(), turn=False),
+        "spherical-figure-10.svg": plan,
         "spherical-figure-7.svg": section,
         "spherical-figure-11.svg": lambda: chart(design, (2, 3, 4), 0.12),
         "spherical-figure-12.svg": lambda: chart(design, (6, 7), 0.042),
@@ -173,14 +175,15 @@ def pictures(design: PlanarDesign) -> dict[str, Callable[[], str]]:
 
 
 FIGURES = """
-1 | a five-bar as a tooling mechanism, the tool on the coupler | `mechwright model` of the five-bar: the
-tip is the path point p; `examples/spherical-five-bar-refined.toml`
+1 | a five-bar as a tooling mechanism, the tool on the coupler | the planar machine of figure 10 below, the
+tool in the coupler's point; on the sphere `examples/spherical-five-bar-refined.toml`
 
 2 (a) | a four-bar, a1, a1n, b1, b1n, points p1 to p8 with p5 = p1; no numbers | picture below: points of
-our own. Family `four-bar`, `phases` and the requirement `adjustable-path`; on the sphere `linkage =
-"four-bar"`
+our own. Family `four-bar`, `phases` and the requirement `adjustable-path`, built in
+`examples/four-bar-slots.toml`; on the sphere `linkage = "four-bar"`
 
-2 (b) | a five-bar, a1, a1n, c1, c1n, b1 kept | picture below, from the printed pins
+2 (b) | a five-bar, a1, a1n, c1, c1n, b1 kept | picture below, from the printed pins; with three phases
+`examples/five-bar-three-phases.toml`
 
 3 | a spherical 4R linkage | `kind = "four-bar"`
 
@@ -197,7 +200,8 @@ section Planar synthesis
 
 Table 1 | lost: prescribed points and coupler angles | angles in Table 2 below, as computed
 
-10, Table 2 | the planar five-bar, seven points | picture 2 (b) and Table 2 below
+10, Table 2 | the planar five-bar, seven points, 2:1 gears | picture below: the machine with its gears,
+`examples/five-bar-published.toml`; Table 2 below
 
 11 | lost: structural error of another position, by its neighbour | picture below: all positions of phase
 1
@@ -213,6 +217,8 @@ CAPTIONS = {
     "spherical-figure-2a.svg": "Figure 2 (a): two phases in the pose of setting p1 = p5, the arcs of setting "
     "about a0 and b0 in grey.",
     "spherical-figure-2b.svg": "Figures 2 (b) and 10: the published five-bar, with the arcs about a0 and b1.",
+    "spherical-figure-10.svg": "Figure 10: the published five-bar as a machine, in the pose of setting; its "
+    "gears have an idler, for crank and arm turn the same way.",
     "spherical-figure-7.svg": "Figure 7: the section y = 0 for two projection lengths.",
     "spherical-figure-11.svg": "Figure 11, as phase 1: error times d; d = 5 is marked. There is no minimum.",
     "spherical-figure-12.svg": "Figure 12, as phase 2: error times d; d = 5 is marked. There is no minimum.",

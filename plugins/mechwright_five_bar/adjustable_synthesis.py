@@ -55,7 +55,7 @@ def bar_in(one: Machine, phase: int, wanted: AdjustablePathRequirement) -> FiveB
     names = ("a0", "a", "b0", "b1", "c")
     a0, a, b0, b1, c = (complex(getattr(one.pins, name)[phase]) for name in names)
     side = PlaneSpace(0j).side(np.array(a), np.array(b1), np.array(c))
-    start, arm = float(np.angle(a - a0)), float(np.angle(b1 - b0))
+    start, arm = start_of(one, phase), float(np.angle(b1 - b0))
     return FiveBar(
         abs(a - a0), abs(c - a), abs(c - b1), abs(b1 - b0), abs(b0 - a0), float(np.angle(b0 - a0)),
         arm - wanted.ratio * start, (wanted.crank_teeth, wanted.arm_teeth), 1 if wanted.idler else -1,
@@ -68,8 +68,12 @@ def _bars(one: Machine, wanted: AdjustablePathRequirement) -> list[FiveBar]:
 
 
 def start_of(one: Machine, k: int) -> float:
-    """Crank angle of a phase in the pose of setting, rad."""
-    return float(np.angle(one.pins.a[k] - one.pins.a0[k]))
+    """Crank angle of a phase in the pose of setting, rad: that of the first phase and the turn from it on.
+
+    A turn more would be half a turn of the arm where the ratio is a half, so it matters how it is counted.
+    """
+    first, own = (complex(one.pins.a[n] - one.pins.a0[n]) for n in (0, k))
+    return float(np.angle(first) + np.angle(own / first))
 
 
 def _transmission(one: Machine, k: int, wanted: AdjustablePathRequirement) -> float:

@@ -2,6 +2,8 @@
 
 from typing import ClassVar
 
+from by_night import NIGHT
+
 from mechwright.testing import FamilyContract
 from mechwright_five_bar.family import FiveBars
 
@@ -11,19 +13,24 @@ LEVER = {
 }  # fmt: skip
 """The reference of the adjustable five-bars."""
 
+AGAINST = {
+    "idler_teeth": 0, "arm_teeth": 20, "direction": "cw", "pivot_x": 5, "module": 5.25, "crank": 12, "arm": 12,
+}  # fmt: skip
+"""Crank and arm turn against each other."""
+
 
 class TestFiveBars(FamilyContract):
     family = FiveBars
     examples = (
         {},
-        {"idler_teeth": 0, "arm_teeth": 20, "direction": "cw", "pivot_x": 5, "module": 5.25, "crank": 12, "arm": 12},
         {
             **LEVER,
             "setting_angle": 83,
             "phases": [{"crank_turn": 6, "rocker_turn": -9, "swing_from": 89, "swing_to": -31}],
             "phase": 2,
         },
-    )  # fmt: skip
+        *((AGAINST,) if NIGHT else ()),
+    )
     refused = (
         ({"swing_from": 10}, "swing_to"),
         ({"coupler": 10, "rocker": 20}, "coupler"),
@@ -47,9 +54,13 @@ class TestFiveBars(FamilyContract):
     )
     input_rate = "omega_a"
     samples = 721
+    max_examples = examples(8, 30)
     variations: ClassVar = {
         "ground_angle": (30,),
         "load_x": (20,),
+        "load_y": (20,),
+        "pivot_x": (5,),
+        "direction": ("cw",),
         "module": (2.2,),
         "phases": ([{"crank_turn": 40, "rocker_turn": 12}],),
     }
