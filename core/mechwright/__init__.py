@@ -117,7 +117,6 @@ __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "ci
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
 __all__ += ["Hub", "Mounting", "Spindle"]
-__all__ += ["Hub", "Mounting", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
