@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from mechwright import Load, host
 from mechwright.designs.design import load
 from mechwright.machine import MachineSettings, drive_of
 from mechwright.machine.drive import SAMPLES
+from mechwright.machine.rates import over_time
 from mechwright_elliptic_gears.family import EllipticGears
 
 ROOT = Path(__file__).parents[2]
@@ -106,3 +108,24 @@ def test_the_published_elliptic_pair_under_load():
     near("drive.peak_torque_with_load", abs(drive.peak()[0]))
     near("drive.rms_torque_with_load", drive.rms)
     near("drive.mean_torque_with_load", drive.mean_of(drive.runs[0].torque))
+
+
+def test_exact_rates_are_those_of_the_poses():
+    """Of every body of a Geneva drive that varies; the cycloidal law has no jump, only its jerk has."""
+    motion, _ = solved("geneva-cycloidal", driver_law="harmonic", driver_variation=0.3)
+    time = motion.channels["time"].values
+    for poses in motion.poses.values():
+        for exact, found in zip(
+            (poses.rates.first, poses.rates.second), over_time(poses.frames, time), strict=True
+        ):
+            off = np.abs(exact - found).max(axis=(1, 2))
+            assert np.quantile(off, 0.95) < 1e-6 * np.abs(exact).max()
+            assert off.max() < 0.05 * np.abs(exact).max()
+
+
+def test_the_script_of_the_manual_prints_what_it_says(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    text = (ROOT / "docs" / "machine.md").read_text(encoding="utf-8")
+    (code,) = (block for block in re.findall(r"```python\n(.*?)```", text, re.S) if "drive_of" in block)
+    exec(code, {})  # noqa: S102 - our own
+    assert capsys.readouterr().out.strip() == code.rpartition("# ")[2].strip()

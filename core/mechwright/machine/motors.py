@@ -27,6 +27,9 @@ from mechwright.standards.motors import GearMotor, Stepper, motor, motors
 EFFICIENCY = 0.9
 """Of a belt or gears between motor and input; a handbook figure."""
 
+ENDLESS = 1e6
+"""Cover of a demand that is next to nothing."""
+
 STEPS = 200
 """Full steps of a turn of a stepper."""
 
@@ -82,31 +85,30 @@ def demand_of(drive: Drive, settings: MachineSettings, rotor: float = 0.0, slowe
     accelerating = rotor * gear * course.acceleration * slower**2
     if not course.rocks:
         accelerating = accelerating * np.sign(course.angle[-1] - course.angle[0])
-    peak = rms = inertia = 0.0
+    peak = rms = 0.0
     for number, run in enumerate(drive.runs):
         own = accelerating * (1 if course.rocks or run.name == "forwards" else -1)
         fast = drive.inertia_of(number) * slower**2
         torque = run.torque - drive.inertia_of(number) + fast
-        driving = torque * np.where(run.power >= 0, 1 / efficiency, efficiency) / gear + own
+        sense = np.where(run.power * run.torque < 0, -1.0, 1.0)  # in which the input runs about its angle
+        driving = torque * np.where(torque * sense >= 0, 1 / efficiency, efficiency) / gear + own
         peak = max(peak, float(np.abs(driving).max()))
         rms = max(rms, math.sqrt(drive.mean_of(driving**2)))
-        inertia = max(inertia, float(np.abs(fast).max()) / gear / efficiency)
     speed = drive.speed * slower * gear * 60 / math.tau
-    return Demand(speed, settings.margin * peak, settings.margin * rms, settings.margin * inertia)
+    return Demand(speed, settings.margin * peak, settings.margin * rms)
 
 
 def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 1.0) -> Choice:
     """How a motor stands to a drive that runs at that share of its speed."""
     if isinstance(one, GearMotor):
         demand = demand_of(drive, settings, slower=slower)
-        return Choice(one, demand, gear_motor_margin(one, demand))
+        return Choice(one, demand, min(gear_motor_margin(one, demand), ENDLESS))
     demand = demand_of(drive, settings, one.rotor, slower)
     felt = inertia_ratio(one.rotor, float(drive.reflected.max()), settings.gear)
     low, high = (rate / STEPS * 60 for rate in RESONANCE)
     resonant = low <= demand.speed <= high
-    return Choice(
-        one, demand, stepper_margin(one, demand, settings.voltage), felt, resonant, settings.voltage
-    )
+    cover = min(stepper_margin(one, demand, settings.voltage), ENDLESS)
+    return Choice(one, demand, cover, felt, resonant, settings.voltage)
 
 
 def motor_of(drive: Drive, settings: MachineSettings) -> Choice | None:

@@ -5,10 +5,8 @@ turn the current of a phase over; the straight line of a DC motor between no loa
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.errors import DesignError
 from mechwright.standards.motors import GearMotor, Stepper
 
 MARGIN = 2.0
@@ -29,12 +27,11 @@ RESONANCE = (60.0, 120.0)
 
 @dataclass(frozen=True)
 class Demand:
-    """What a drive asks at the motor's shaft: rev/min, N m, and what of the peak is of inertia."""
+    """What a drive asks at the motor's shaft: greatest speed, rev/min, peak and rms torque, N m."""
 
     speed: float
     peak: float
     rms: float
-    inertia: float = 0.0
 
 
 def best_ratio(load: float, rotor: float) -> float:
@@ -91,61 +88,15 @@ def stepper_margin(motor: Stepper, demand: Demand, voltage: float = 24.0) -> flo
 
 
 def gear_motor_margin(motor: GearMotor, demand: Demand) -> float:
-    """The same: the least of what its line, its peak and its sustained torque cover."""
+    """The same: the least of what its line, its peak and its sustained torque cover; 0 where it never turns.
+
+    >>> from mechwright.standards.motors import motor
+    >>> gear_motor_margin(motor("37D 150:1"), Demand(70, 0.0, 0.0))  # 67 rev/min without load
+    0.0
+    """
+    if demand.speed >= motor.no_load:
+        return 0.0
     stall = motor.stall_torque
-    line = max(dc_torque(motor.no_load, stall, demand.speed), 0.0)
+    line = dc_torque(motor.no_load, stall, demand.speed)
     covers = [(line, demand.peak), (PEAK * stall, demand.peak), (SUSTAINED * stall, demand.rms)]
     return min(given / asked if asked > 0 else math.inf for given, asked in covers)
-
-
-def slower(demand: Demand, given: float) -> float:
-    """The speed at which a torque, N m, is enough: that of inertia falls with its square; 0 if none is.
-
-    The two peaks are taken to meet, so this is on the safe side.
-    """
-    rest = demand.peak - demand.inertia
-    if demand.inertia <= 0 or given <= rest:
-        return 0.0
-    return demand.speed * math.sqrt((given - rest) / demand.inertia)
-
-
-def choose_stepper(motors: Sequence[Stepper], demand: Demand, voltage: float = 24.0) -> tuple[Stepper, float]:
-    """The weakest motor that is enough, with its margin.
-
-    Raises
-    ------
-    DesignError
-        None is: the torque that is missing, and the speed at which the strongest would do.
-    """
-    for motor in motors:
-        margin = stepper_margin(motor, demand, voltage)
-        if margin >= 1:
-            return motor, margin
-    last = motors[-1]
-    given = stepper_margin(last, demand, voltage) * demand.peak
-    able = slower(demand, given)
-    advice = f"run it at {able:.3g} rev/min, or gear it down" if able > 0 else "gear it down"
-    raise DesignError(
-        f"{last.name}, the strongest stepper here, may give {given:.3g} N m at {demand.speed:g} rev/min "
-        f"with a margin of {MARGIN:g}; {demand.peak:.3g} N m are asked, "
-        f"{demand.peak - given:.3g} N m more: {advice}"
-    )
-
-
-def choose_gear_motor(motors: Sequence[GearMotor], demand: Demand) -> tuple[GearMotor, float]:
-    """The fastest gear motor that is enough, with its margin.
-
-    Raises
-    ------
-    DesignError
-        None is: what the best of them covers.
-    """
-    margins = [(gear_motor_margin(motor, demand), motor) for motor in motors]
-    for margin, motor in margins:
-        if margin >= 1:
-            return motor, margin
-    best, motor = max(margins, key=lambda one: one[0])
-    raise DesignError(
-        f"no gear motor gives {demand.peak:.3g} N m at {demand.speed:g} rev/min; the best, "
-        f"{motor.ratio:g}:1, covers {100 * best:.0f} % of it: run slower, or take a larger motor"
-    )
