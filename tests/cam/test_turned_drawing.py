@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.part import Instance, Part
-from mechwright.contracts.turned import Groove, KeySeat, Step, Turned, tube
+from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, tube
 from mechwright.errors import GeometryError
 from mechwright_cad.sheet.frame import MARGIN, SHEETS
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
@@ -34,6 +34,10 @@ SHAFT = Turned(
     chamfer=0.5,
     grooves=(Groove(59, 0.9, 7.6, 0.06),),
     seats=(KeySeat(20, 16, 4, 3.5),),
+)
+PILLAR = Turned(
+    (Step(8, 3.8, shaft_fit(8, "h6")), Step(12, 30), Step(8, 3.8, shaft_fit(8, "h6"))),
+    threads=(EndThread("lower", 5, 0.8, 10.3), EndThread("upper", 5, 0.8, 12.3)),
 )
 SPACER = tube(8, 11.9, 2, hole_fit(8, "H7"))
 
@@ -119,7 +123,20 @@ def test_a_cone_and_a_point_are_drawn():
     assert labels == ["⌀6", "⌀0 to ⌀6, cone"]
 
 
+def test_threads_in_the_ends_are_drawn_as_deep_as_they_are_and_named():
+    sheet = drawn(PILLAR)
+    labels = [one.text.text for one in dimensions(sheet, "y")]
+    assert sorted(text for text in labels if text.startswith("M")) == ["M5, 10.3 deep", "M5, 12.3 deep"]
+    level = [
+        abs(item.points[0][0] - item.points[1][0]) / sheet.scale
+        for item in sheet.items
+        if isinstance(item, Stroke) and item.layer == "HATCH" and item.points[0][1] == item.points[1][1]
+    ]
+    assert sorted(level) == pytest.approx([10.3] * 4 + [12.3] * 4)  # core and nominal diameter, both sides
+
+
 @example(SHAFT)
+@example(PILLAR)
 @example(replace(SHAFT, seats=(*SHAFT.seats, KeySeat(0, 9, 3, 3.2)), note="Hardened 58 HRC"))
 @given(turned_parts)
 @settings(max_examples=40, deadline=None)

@@ -1,6 +1,7 @@
 """Frames: bearings that have room, shafts that go together, pillars clear of what moves; closed forms."""
 
 import math
+from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -9,7 +10,20 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechwright import Channel, Hub, Instance, Loop, Motion, Mounting, Outline, Part, Poses, Spindle, circle
+from mechwright import (
+    Channel,
+    Hub,
+    Instance,
+    Loop,
+    Motion,
+    Mounting,
+    Outline,
+    Part,
+    Poses,
+    Rates,
+    Spindle,
+    circle,
+)
 from mechwright.contracts.holes import joined
 from mechwright.contracts.surroundings import OVER, Place, Surroundings, turned
 from mechwright.contracts.turned import TAP_RUN, EndThread, Step, Turned
@@ -28,6 +42,31 @@ from mechwright.standards.motors import motors
 
 PLATES = MachineSettings(frame="plates")
 BORES = (5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0)
+
+
+def test_rates_of_a_body_are_those_of_what_it_carries():
+    """Of a body that turns with 3 rad/s a point at 2 mm has 6 mm/s, and 18 mm/s² to the axis."""
+    t = np.linspace(0, 1, 5)
+    frames = np.zeros((2, 5, 3, 4))
+    c, s = np.cos(3 * t), np.sin(3 * t)
+    frames[0, :, 0, 0], frames[0, :, 0, 1], frames[0, :, 1, 0], frames[0, :, 1, 1] = (
+        -3 * s,
+        -3 * c,
+        3 * c,
+        -3 * s,
+    )
+    frames[1, :, 0, 0], frames[1, :, 0, 1], frames[1, :, 1, 0], frames[1, :, 1, 1] = (
+        -9 * c,
+        9 * s,
+        -9 * s,
+        -9 * c,
+    )
+    poses = replace(Poses.planar(0.0, 0.0, 3 * t), rates=Rates(*frames))
+    still = Motion("t", {"t": Channel(t, "s")}, {"crank": poses})
+    pin = Surroundings(places={"pin": Place((2.0, 0.0, 0.0), on="crank")}).around(still).poses["pin"]
+    assert pin.rates is not None
+    np.testing.assert_allclose(np.linalg.norm(pin.rates.first[:, :, 3], axis=1), 6)
+    np.testing.assert_allclose(pin.rates.second[:, :, 3], -9 * pin.position, atol=1e-12)
 
 
 def hub(bore, low=0.0, high=10.0, **more):

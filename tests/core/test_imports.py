@@ -15,6 +15,8 @@ ON_DEMAND = (
     "mechwright.mechanics.compiled",
     "mechwright.mechanics.laws.table",
     "mechwright.geometry.prepared",
+    "mechwright.machine.frame.",
+    "mechwright.machine.framed",
 )
 """What only those import who use it, with what it needs."""
 

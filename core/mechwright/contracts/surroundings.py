@@ -5,9 +5,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.joint import GROUND, Joint, Vector
-from mechwright.contracts.motion import Motion, Poses
+from mechwright.contracts.motion import Motion, Poses, Rates
 from mechwright.contracts.part import Part
 from mechwright.errors import KinematicsError
 
@@ -74,8 +75,17 @@ class Surroundings:
                 count = motion.samples
                 poses[name] = Poses(np.tile(origin, (count, 1)), np.tile(rotation, (count, 1, 1)))
             else:
-                carrier = poses[place.on]
-                poses[name] = Poses(carrier.transform(origin[None])[:, 0], carrier.rotation @ rotation)
+                poses[name] = _carried(poses[place.on], origin, rotation)
             if motion.joints:
                 joints[name] = Joint("fixed", place.on, name, place.origin)
         return replace(motion, poses=poses, joints=joints)
+
+
+def _carried(carrier: Poses, origin: Array, rotation: Array) -> Poses:
+    """The poses of what stands on a body, and their rates where those of the body are known."""
+    place = np.eye(4)
+    place[:3, :3], place[:3, 3] = rotation, origin
+    rates = carrier.rates
+    if rates is not None:
+        rates = Rates(rates.first @ place, rates.second @ place)
+    return Poses(carrier.transform(origin[None])[:, 0], carrier.rotation @ rotation, rates)

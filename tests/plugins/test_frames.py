@@ -1,0 +1,124 @@
+"""Frames of the built-in families: machines that run clear, and what is refused by name."""
+
+import csv
+import io
+import tomllib
+from pathlib import Path
+
+import pytest
+from by_night import by_night
+from typer.testing import CliRunner
+
+from mechwright import host
+from mechwright.cli.app import make_app
+from mechwright.contracts.finding import Severity, errors
+from mechwright.designs.design import design_of
+from mechwright.machine.frame.sweep import space_of
+from mechwright.remedies import tried
+from mechwright.testing import commands
+
+ROOT = Path(__file__).parents[2]
+MACHINES = ("elliptic-pair-machine", "geneva-machine")
+
+
+def content(name, machine=None, **parameters):
+    found = tomllib.loads((ROOT / "examples" / f"{name}.toml").read_text())
+    found["parameters"] |= parameters
+    if machine is not None:
+        found["machine"] = machine
+    return found
+
+
+def design(name, machine=None, **parameters):
+    return design_of(content(name, machine, **parameters), Path("frame.toml"), "", host())
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_no_plate_of_a_machine_meets_another(name, tmp_path):
+    assert commands.collisions(content(name), tmp_path, solids=False) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [(name, {}) for name in MACHINES] + [("geneva-machine", {"driver_direction": "backwards"})],
+)
+@by_night
+def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(name, changes, tmp_path):
+    import cadquery as cq
+
+    file = tmp_path / "machine.toml"
+    text = (ROOT / "examples" / f"{name}.toml").read_text()
+    for key, value in changes.items():
+        text = text.replace("[parameters]", f'[parameters]\n{key} = "{value}"')
+    file.write_text(text)
+    folder = tmp_path / "out"
+    done = CliRunner().invoke(make_app(), ["build", str(file), "-o", str(folder)])
+    assert done.exit_code == 0, done.output
+    rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
+    count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
+    solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
+    assert len(solids) == count == 64
+    assert all((folder / f"{plate}.nc").exists() for plate in ("lower-plate", "upper-plate", "base-plate"))
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_what_stands_is_clear_of_what_moves_by_more_than_play(name):
+    found = design(name)
+    (around,) = found.surroundings
+    motion = found.solve(121)
+    standing = {body for body, place in around.places.items() if place.on == ""}
+    columns = [
+        part
+        for part in around.parts
+        if part.name in {"pillar", "plain-pillar"} and all(one.body in standing for one in part.instances)
+    ]
+    moving = space_of(found.family.parts(found.params), motion).region
+    assert len(columns) == 2
+    for piece in space_of(columns, motion).pieces:
+        assert piece.region.distance(moving) > 2.9
+
+
+def test_a_design_without_a_frame_is_as_its_family_gives_it():
+    found = design("elliptic-pair")
+    assert found.surroundings == ()
+    assert [*found.parts()] == [*found.family.parts(found.params)]
+    assert set(found.solve(3).poses) == {"gear-2", "gear-4", "coupler"}
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "code", "words"),
+    [
+        ("crank-rocker-three-poles", {}, "frame.mounting", "the family four-bar does not say where"),
+        ("slider-crank-quick-return", {}, "frame.mounting", "the family slider-crank does not say where"),
+        ("spherical-crank-rocker", {}, "frame.mounting", "the family spherical"),
+        ("figure-eight-train", {}, "frame.mounting", "a train stands on its own base plate"),
+        ("elliptic-pair", {"bore": 0}, "frame.mounting", "gears without a bore have no shafts"),
+        ("geneva-prototype", {}, "frame.in-the-way", "passes the axis of spindle wheel at 8.81 mm"),
+    ],
+)
+def test_what_has_no_frame_is_refused_by_name(name, parameters, code, words):
+    found = design(name, {"frame": "plates"}, **parameters).check()
+    assert errors(found)
+    for one in errors(found):
+        assert one.code == code
+        assert words in one.message
+        assert one.remedy
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "machine", "fix"),
+    [
+        ("elliptic-pair", {"bore": 4}, {}, {"parameters.bore": 5}),
+        ("elliptic-pair", {"bore": 5}, {"frame": "base", "motor": "auto"}, {"parameters.bore": 8}),
+        ("elliptic-pair", {"bore": 5}, {"bearing": "618"}, {"machine.bearing": "auto"}),
+        ("geneva-prototype", {}, {}, {"parameters.axial_gap": 1.1}),
+    ],
+)
+def test_what_a_refusal_advises_has_been_tried(name, parameters, machine, fix):
+    found = design(name, {"frame": "plates", **machine}, **parameters)
+    told = tried(found, found.check())
+    fixes = [one.fix for one in told if one.severity is Severity.ERROR]
+    assert fixes
+    for one in fixes:
+        assert one == fix
+        assert errors(found.changed(one).check()) == []
