@@ -193,7 +193,7 @@ def test_what_is_written_is_told_as_json(run: Run, tmp_path: Path) -> None:
     assert told["missing"] == told["faults"] == []
 
 
-@pytest.mark.parametrize("command", ["solve", "model", "cam", "build"])
+@pytest.mark.parametrize("command", ["solve", "cam"])
 def test_what_is_refused_is_told_as_json(run: Run, tmp_path: Path, command: str) -> None:
     path = tmp_path / "stuck.toml"
     path.write_text('format = 1\nfamily = "four-bar"\n[parameters]\nground = 1000\n')

@@ -30,6 +30,16 @@ def test_the_page_on_python_says_what_happens():
     assert done.failed == 0
 
 
+def test_the_lines_of_the_readme_run(capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    (block,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
+    assert len(block[block.index("pair =") :].splitlines()) <= 5
+    exec(compile(block, "README.md", "exec"), {})  # noqa: S102 - our own page
+    *sweep, proof = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in sweep] == ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6"]
+    assert re.fullmatch(r"<Proof of gear: proven, \d+ checks, [\d.]+ min>", proof)
+
+
 def test_every_name_of_a_mechanism_in_the_page_is_there(pair):
     page = (ROOT / "docs" / "python.md").read_text()
     table = page[page.index("## What a mechanism has") : page.index("What is wrong is one line")]
