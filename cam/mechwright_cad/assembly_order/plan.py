@@ -35,11 +35,10 @@ class Plan:
 
 def plan_of(build: Build) -> Plan:
     """The plan at the start of the motion; where that holds bodies fast, at the first place that does not."""
-    family, params = build.design.family, build.design.params
-    first = _at(build, family.solve(params, 2), 0)
+    first = _at(build, build.design.solve(2), 0)
     if all(step.way is not None for step in first.steps):
         return first
-    motion = family.solve(params, LOOKS)
+    motion = build.design.solve(LOOKS)
     for sample in range(1, LOOKS):
         found = _at(build, motion, sample)
         if all(step.way is not None for step in found.steps):
