@@ -176,6 +176,11 @@ def test_the_drawing_has_the_items_and_is_sound(crank_rocker):
     words = [text.dxf.text for text in document.modelspace().query("TEXT")]
     assert {"Item", "ground", "coupler", "pin-a, pin-b"} <= set(words)
     assert str(len(plan.bodies)) in words, "the sum of the bodies"
+    for solid in document.modelspace().query("SOLID"):
+        a, b, d, c = (
+            corner.vec2 for corner in (solid.dxf.vtx0, solid.dxf.vtx1, solid.dxf.vtx2, solid.dxf.vtx3)
+        )
+        assert shapely.Polygon([a, b, c, d]).is_valid, "a dot, no bow tie"
     assert files["assembly-drawing.pdf"].startswith(b"%PDF-1.4")
 
 

@@ -197,7 +197,9 @@ CASES = [
     pytest.param("figure-eight-train", marks=by_night),
     pytest.param("figure-eight-variable", marks=by_night),
     pytest.param("four-bar-double-rocker", marks=by_night),
+    pytest.param("double-crank", marks=by_night),
     pytest.param("spherical-crank-rocker", marks=by_night),
+    pytest.param("spherical-five-bar-projected", marks=by_night),
 ]
 
 

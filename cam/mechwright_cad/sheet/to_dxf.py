@@ -83,7 +83,9 @@ def _draw(document: Drawing, space: BaseLayout, item: Item, scale: float) -> Non
             else:
                 space.add_lwpolyline([at(point) for point in points], dxfattribs=attributes)
         case Fill(points, layer):
-            space.add_solid([at(point) for point in points], dxfattribs={"layer": layer})
+            corners = [at(point) for point in points]
+            corners[2:] = corners[:1:-1]  # of four, a SOLID has the last two the other way round
+            space.add_solid(corners, dxfattribs={"layer": layer})
         case Text():
             text = space.add_text(
                 _coded(item.text), height=item.height / scale, dxfattribs={"layer": item.layer}
