@@ -38,6 +38,9 @@ FACE = 4.0
 LEAST_RING = 3.0
 """Height of a ring, mm, below which it bends between its screws."""
 
+MILLED = 2.0
+"""Depth, in diameters, to which thread mills reach; the screw ends a pitch before the thread does."""
+
 LETTER = 2.5
 """Height of the scale's numbers, mm."""
 
@@ -145,8 +148,8 @@ def clamp_of(params: EllipticGearParams) -> Clamp:
 def ring_and_length(params: EllipticGearParams, screw: float) -> tuple[float, float | None]:
     """Height of the ring and length of the screws, mm, for a thread.
 
-    The shortest screw that is sold and finds enough thread in gear 3. Where it would come out below, the ring
-    is made higher, so that it ends flush.
+    The shortest screw that is sold and finds enough thread in gear 3. Where it would go deeper than a thread
+    is milled, or come out below, the ring is made higher.
     """
     ring = max(LEAST_RING, screw)
     grip = ring + params.thickness + params.spacing
@@ -154,7 +157,8 @@ def ring_and_length(params: EllipticGearParams, screw: float) -> tuple[float, fl
     sold = [length for length in lengths(screw) if length >= grip + bites]
     if bites > params.thickness or not sold:
         return ring, None
-    return ring + max(0.0, sold[0] - grip - params.thickness), float(sold[0])
+    deepest = min(params.thickness, max(bites, MILLED * screw - screw_size(screw).pitch))
+    return round(ring + max(0.0, sold[0] - grip - deepest), 6), float(sold[0])
 
 
 def least_thread(params: EllipticGearParams, screw: float) -> float:

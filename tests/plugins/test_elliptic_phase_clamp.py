@@ -103,9 +103,10 @@ def test_the_clamp_is_screwed_together():
     screw, under_head = parts["clamp-screw"], parts["clamp-screw"].instances[0].z
     assert screw.bought.designation == "ISO 4762 - M4 x 25 - 8.8"
     box = screw.build().BoundingBox()
-    # 9 mm of it stand in gear 3, whose thread is a pitch deeper, and its head is below the coupler.
-    assert under_head + box.zmin == pytest.approx(layout.lower + 10 - 9)
-    assert [thread.depth for thread in threads] == pytest.approx([9.7] * 4)
+    # 7.3 mm of it stand in gear 3, whose thread is a pitch deeper, and its head is below the coupler.
+    assert clamp.ring == pytest.approx(5.7)
+    assert under_head + box.zmin == pytest.approx(layout.lower + 10 - 7.3)
+    assert [thread.depth for thread in threads] == pytest.approx([8.0] * 4)
     assert under_head + box.zmax == pytest.approx(layout.link - 0.5)
     # The ring presses on gear 4, not on the register.
     register = parts["clamp-register"]
@@ -155,8 +156,11 @@ def test_screws_are_of_a_sold_length_and_find_their_thread(material, thickness, 
         return
     assert clamp.length in LENGTHS
     assert clamp.length <= SOLD[screw]
-    assert ENGAGEMENT[material] * screw - 1e-9 <= clamp.length - grip <= thickness + 1e-9
-    assert clamp.ring == max(3.0, screw) or clamp.length - grip == pytest.approx(thickness)
+    assert ENGAGEMENT[material] * screw - 1e-6 <= clamp.length - grip <= thickness + 1e-6
+    deepest = max(ENGAGEMENT[material] * screw, 2 * screw - clamp.of.pitch)
+    assert clamp.length - grip <= deepest + 1e-6
+    # The ring is no higher than that takes.
+    assert clamp.ring == max(3.0, screw) or clamp.length - grip == pytest.approx(min(thickness, deepest))
 
 
 @pytest.mark.parametrize(
