@@ -72,6 +72,17 @@ def _compensated() -> list[str]:
     ]
 
 
+def _rapids_where_cleared() -> list[str]:
+    passes = [f"G1 X{15 * (-1) ** k} Y{-15 + k / 20:.3f}" for k in range(600)]
+    places = (f"G0 X{_RNG.uniform(-14, 14):.3f} Y{_RNG.uniform(-14, 14):.3f}" for _ in range(MANY - 600))
+    return ["G0 X-15 Y-15", "G1 Z-1 F1000", *passes, *places]
+
+
+def _one_sub() -> list[str]:
+    sub = ["O100 sub", "G91 G1 X.01 Y.001 F500", "G1 X-.01", "G90", "O100 endsub"]
+    return [*sub, "G0 X0 Y0", "G1 Z-.5 F100", *["O100 call"] * (MANY // 2)]
+
+
 CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 cuts in air": lambda: ["G1 Z1 F1000", *(f"G1 {p}" for p in _places(MANY))],
     "100,000 rapids": lambda: [f"G0 {p}" for p in _places(MANY)],
@@ -86,9 +97,15 @@ CASES: dict[str, Callable[[], list[str]]] = {
     ],
     "50,000 small circles": lambda: ["G1 Z-.5 F1000", *_small_circles()],
     "50,000 small through circles": lambda: ["G1 Z-4.3 F1000", *_small_circles()],
+    "100,000 circles in one place": lambda: ["G0 X5 Y0", "G1 Z-1 F1000", *["G2 I-5 J0"] * MANY],
+    "100,000 turns up and down": lambda: [
+        *("G0 X5 Y0", "G1 Z0 F1000"),
+        *["G2 X5 Y0 Z-.5 I-5 J0", "G2 X5 Y0 Z0 I-5 J0"] * (MANY // 2),
+    ],
     "33,000 holes": lambda: ["G98 G81 X0 Y0 Z-1 R1 F100", *_places(MANY // 3), "G80"],
     "100,000 moves of pecks": lambda: ["G98 G83 X0 Y0 Z-3 R1 Q.4 F100", *_places(MANY // 30), "G80"],
     "100,000 rapids in stock": lambda: ["G0 Z-1", *(f"G0 {p}" for p in _places(MANY))],
+    "99,400 rapids where cleared": _rapids_where_cleared,
     "100,000 moves in the bore": lambda: ["G0 X0 Y0", *_up_and_down()],
     "100,000 changes of speed": lambda: [f"S{k % 9000} M3" for k in range(MANY)],
     "100,000 dwells": lambda: ["G4 P0.1"] * MANY,
@@ -107,6 +124,7 @@ CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 values": lambda: [f"#31=[#31+{k}]" for k in range(MANY)],
     "an endless loop": lambda: ["O1 while [1]", "#1=[#1+1]", "O1 endwhile"],
     "30,000 subs, 400,000 calls": _calls,
+    "50,000 calls of one sub": _one_sub,
     "pecks of a micrometre": lambda: [f"G98 G83 {p} Z-5 R1 Q.001 F100" for p in _places(1000)],
     "arcs of 1,000 turns in ZX": lambda: ["G18 F100", *(["G2 X0 Z5 I5 K0 P1000"] * 1000)],
 }

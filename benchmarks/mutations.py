@@ -35,6 +35,7 @@ from block_mutants import PLACES, faults, inserted, kinds, wrong
 from by_control import BY_NAME, prove, read
 from mutants import FAULTS, STATES, Mutant, differences, mutant, trace
 
+from mechwright.contracts.details import Chamfer
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
@@ -187,13 +188,24 @@ def judge(source: Source, text: str) -> tuple[tuple[str, ...], str, str]:
         spots = shapely.points(before.x[x], before.y[y])
         walls = shapely.union_all([shapely.boundary(band.keep) for band in bands(source.job)])
         inner = shapely.intersects(source.job.target, spots)
-        if (inner & ~shapely.dwithin(walls, spots, WALL)).any():
-            return differs, UNEXPLAINED, told
+        beyond = inner & ~shapely.dwithin(walls, spots, WALL)
+        if beyond.any():
+            on_slopes = shapely.dwithin(slopes(source.job), spots[beyond], WALL).all()
+            sloping = "a cell of the height map on a chamfer, which details measures"
+            return differs, sloping if on_slopes and off.max() < PITCH else UNEXPLAINED, told
         where = "a cell of the height map at a wall" if inner.any() else "another piece of the waste"
         return differs, where, told
     if told := "; ".join(_harder(stamps, more)):
         return differs, "harder work, within chips, plunges, depth-of-cut and power", told
     return differs, *_feeds(run, other, "the same plate is left")
+
+
+def slopes(job: Job) -> shapely.Geometry:
+    """Where chamfers are, in plan view: at 45 degrees the height of a cell is as uncertain as it is wide."""
+    chamfers = [detail for detail in job.details if isinstance(detail, Chamfer)]
+    return shapely.union_all(
+        [shapely.buffer(shapely.LinearRing(one.loop.flatten()), one.width) for one in chamfers]
+    )
 
 
 def _harder(stamps: np.ndarray, more: np.ndarray) -> list[str]:

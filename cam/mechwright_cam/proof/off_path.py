@@ -178,12 +178,12 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float, *, any_one: bool 
         met = np.flatnonzero(within[kind])
         less = reach[widest[met]] < wide[kind[met]]
         found[pieces.step[widest[met[~less]]]] = True
+        if any_one and found.any():
+            break
         some = pieces.only(widest[met[less]])
         for now in lots(paths, some):
             own = shapely.dwithin(keep, paths.lines(some.only(now)), reach[widest[met[less][now]]])
             found[some.step[now[own]]] = True
-        if any_one and found.any():
-            break
     return found
 
 

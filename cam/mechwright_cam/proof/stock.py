@@ -31,10 +31,10 @@ LAST = 2000
 """So many of the last cuts are asked before all others whether they have cleared the way."""
 FEW = 16
 """So many cuts are taken off at first, and then twice as many each time, until nothing is left."""
-ASKED, COMPARED, GROWN = 500, 20, 75
+ASKED, COMPARED, GROWN = 500, 20, 150
 """What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs, besides one
 for each of its corners."""
-MOST_WORK = 10_000_000
+MOST_WORK = 4_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
@@ -80,10 +80,10 @@ class Stock:
         """The steps that cut before a step, and not before another, within ``reach`` of a shape."""
         least, most = self.extents
         self._count(before, ASKED)
-        group = np.sort(self._tree.query(body, predicate="dwithin", distance=reach + NEAR))
+        x0, y0, x1, y1 = shapely.bounds(body)
+        group = np.sort(self._tree.query(shapely.box(x0 - reach, y0 - reach, x1 + reach, y1 + reach)))
         index = (group[:, None] * TOGETHER + np.arange(TOGETHER)).ravel()
         index = index[slice(*np.searchsorted(index, np.searchsorted(self.cuts, (since, before))))]
-        x0, y0, x1, y1 = shapely.bounds(body)
         apart = (least[index] > (x1 + reach, y1 + reach)) | (most[index] < (x0 - reach, y0 - reach))
         steps = self.cuts[index[~apart.any(axis=1)]]
         self._count(before, index.size // COMPARED + steps.size)

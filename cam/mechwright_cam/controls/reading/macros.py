@@ -143,12 +143,12 @@ class Macros(Values):
 
     def _start(self, label: str, word: str) -> int:
         """The first line of the subroutine of a label, which has the word."""
-        starts = [place for place in self.places.get(label, ()) if self.words[place][1] == word]
-        if not starts:
+        start = next((place for place in self.places.get(label, ()) if self.words[place][1] == word), None)
+        if start is None:
             raise ValueError(f"there is no subroutine {label} in this file; no other is read")
         if len(self.frames) > DEEPEST:
             raise ValueError(f"calls are nested more than {DEEPEST} deep")
-        return starts[0]
+        return start
 
     def _enter(self, frame: Frame) -> None:
         self.frames.append(frame)
