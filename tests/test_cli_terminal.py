@@ -140,6 +140,7 @@ def test_shells_complete_commands_and_design_files(shell: str) -> None:
     assert set(re.findall(r"examples/[\w-]+\.toml", files)) == {
         "examples/elliptic-pair.toml",
         "examples/elliptic-pair-haas.toml",
+        "examples/elliptic-pair-machine.toml",
     }
 
 

@@ -147,6 +147,9 @@ def test_a_family_without_an_analysis_says_so_in_one_line(run, tmp_path, monkeyp
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_the_page_of_an_example(path):
     with Build(path, host(), Wanted("build")) as build:
+        if type(build.design.family).tolerances is Family.tolerances:
+            assert TolerancePage().files(build) == {}
+            return
         page = TolerancePage().files(build)["tolerances.html"]
         assert page == TolerancePage().files(build)["tolerances.html"]
         family, params = build.design.family, build.design.params

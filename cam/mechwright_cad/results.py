@@ -3,33 +3,34 @@
 from typing import TYPE_CHECKING
 
 from mechwright.build import Build
-from mechwright.contracts.part import Part
 from mechwright.contracts.result import Result
 
 if TYPE_CHECKING:
     import cadquery as cq
 
+    from mechwright.contracts.part import Part
 
-class PartSolid(Result[Part]):
+
+class PartSolid(Result["Part"]):
     """``part.solid``."""
 
     name = "solid"
-    of = Part
+    of = "part"
 
-    def make(self, subject: Part) -> "cq.Solid":
+    def make(self, subject: "Part") -> "cq.Solid":
         """The checked solid, recesses cut; imports the CAD kernel."""
         from mechwright_cad.solids.solid import part_solid
 
         return part_solid(subject)
 
 
-class PartPicture(Result[Part]):
+class PartPicture(Result["Part"]):
     """``part.picture``."""
 
     name = "picture"
-    of = Part
+    of = "part"
 
-    def make(self, subject: Part) -> str:
+    def make(self, subject: "Part") -> str:
         """The plate from above with its features, or the solid in three views, as SVG."""
         from mechwright_cad.part_picture import part_picture
 
@@ -40,7 +41,7 @@ class Assembled(Result[Build]):
     """``build.assembly``."""
 
     name = "assembly"
-    of = Build
+    of = "build"
 
     def make(self, subject: Build) -> "cq.Assembly":
         """All instances in their poses; imports the CAD kernel."""

@@ -16,7 +16,7 @@ class Programs(Result[Build]):
     """``build.programs``."""
 
     name = "programs"
-    of = Build
+    of = "build"
 
     def make(self, subject: Build) -> "Named[Machined]":
         """Every program with its proof; raises as :attr:`mechwright.build.Build.programs` says."""

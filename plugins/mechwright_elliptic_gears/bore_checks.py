@@ -4,9 +4,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import KDTree
 
-from mechwright import Finding, Severity, kept
+from mechwright import Array, Finding, Severity, kept
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
@@ -121,7 +120,8 @@ def _without_relief(params: EllipticGearParams) -> float:
 def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
     """Least distance, mm, of points (n, 2), part frame, from the root curve; negative beyond it."""
     ellipse = ellipse_of(params)
-    nearest = float(_pitch_points(ellipse).query(points)[0].min())
+    on_pitch = _pitch_points(ellipse)
+    nearest = min(float(np.hypot(*(on_pitch - point).T).min()) for point in points)
     level = ((points[:, 0] - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (
         points[:, 1] / ellipse.semi_minor
     ) ** 2
@@ -129,6 +129,7 @@ def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtyp
 
 
 @kept
-def _pitch_points(ellipse: Ellipse) -> KDTree:
-    """The pitch curve in points; the openings of many designs are held against the same one."""
-    return KDTree(ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point)
+def _pitch_points(ellipse: Ellipse) -> Array:
+    """The pitch curve in points (n, 2); the openings of many designs are held against the same one."""
+    around = np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)
+    return ellipse.frame(around).point

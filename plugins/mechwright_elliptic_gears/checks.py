@@ -68,18 +68,23 @@ def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 def judged(params: EllipticGearParams) -> tuple[Finding, ...]:
     """The same without the mesh proof, which takes ten times as long as the rest."""
-    return until_error(params, _of_the_parts, _backlash)
+    return until_error(params, _of_the_parts, _of_the_load, _backlash)
 
 
 @kept
 def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
-    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive, strength_findings)
+    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive)
     return tuple(at_stage(Stage.PARTS, until_error(params, *checks)))
 
 
 @of_stage(Stage.PARTS)
 def _of_the_mesh(params: EllipticGearParams) -> tuple[Finding, ...]:
-    return until_error(params, _mesh, _figures)
+    return until_error(params, _mesh, strength_findings, _figures)
+
+
+@of_stage(Stage.PARTS)
+def _of_the_load(params: EllipticGearParams) -> Iterator[Finding]:
+    yield from strength_findings(params)
 
 
 def _rack(params: EllipticGearParams) -> Iterator[Finding]:

@@ -7,7 +7,6 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
-from mechwright.standards.screws import screw_sizes
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
@@ -56,6 +55,8 @@ TRAIN_ONLY = (
 
 def cap_screws() -> list[float]:
     """Threads of the screws that can clamp, mm: those with a socket head."""
+    from mechwright.standards.screws import screw_sizes  # it imports numpy, which a listing has no use for
+
     return [one.size for one in screw_sizes() if one.head]
 
 

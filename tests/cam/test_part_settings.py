@@ -23,6 +23,7 @@ def design(tmp_path, text):
 
 
 OVERRIDES = {
+    "fitting_marks": True,
     "work_offset": "G57",
     "origin": "corner",
     "tools": ["mill-3"],

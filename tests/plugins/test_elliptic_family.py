@@ -190,7 +190,8 @@ def test_a_train_is_no_pair():
 
 def test_all_fields_are_perturbed():
     joint = {"phase_joint", "phases", "clamp_screw", "clamp_screws"}  # see the tests of phase joints
-    assert {*PERTURBED, *TRAIN_PERTURBED, *joint, "module", "stages"} == set(Params.model_fields)
+    loads = {"load_torque"}  # see the tests of strength
+    assert {*PERTURBED, *TRAIN_PERTURBED, *joint, *loads, "module", "stages"} == set(Params.model_fields)
 
 
 def cut(params, radius):

@@ -14,6 +14,9 @@ from mechwright.errors import PluginError
 
 S = TypeVar("S")
 
+SUBJECTS = ("part", "build")
+"""What there are results of, named so that a plugin that makes some imports neither."""
+
 
 class Result(Plugin, Generic[S]):
     r"""Something that is made of a part, or of a build.
@@ -22,7 +25,7 @@ class Result(Plugin, Generic[S]):
 
         class Masses(Result[Build]):
             name = "masses"
-            of = Build
+            of = "build"
 
             def make(self, build):
                 return {part.name: density(part) * part.outline.area for part in build.parts}
@@ -30,15 +33,13 @@ class Result(Plugin, Generic[S]):
 
     kind = "result"
     plural = "results"
-    of: ClassVar[type]
-    """What can be asked for it: ``Part`` or ``Build``."""
+    of: ClassVar[str]
+    """What can be asked for it: ``"part"`` or ``"build"``."""
 
     @classmethod
     def fault(cls) -> str:
         """Whether it says what it is made of."""
-        return (
-            "" if isinstance(getattr(cls, "of", None), type) else "of is no class, such as mechwright.Build"
-        )
+        return "" if getattr(cls, "of", None) in SUBJECTS else 'of is none of "part" and "build"'
 
     @abstractmethod
     def make(self, subject: S) -> Any:
@@ -61,6 +62,10 @@ def found_by(installed: Installed) -> None:
     _installed[:] = [installed]
 
 
+def _kinds(subject: object) -> set[str]:
+    return {base.__name__.lower() for base in type(subject).__mro__}
+
+
 def maker(subject: object, name: str, known: Mapping[str, Result[Any]] | None = None) -> Result[Any]:
     """Who makes a result of a subject, among those that are ``known`` or installed.
 
@@ -68,7 +73,7 @@ def maker(subject: object, name: str, known: Mapping[str, Result[Any]] | None = 
     """
     if known is None:
         known = _installed[0]() if _installed else {}
-    fitting = {one.name: one for one in known.values() if isinstance(subject, one.of)}
+    fitting = {one.name: one for one in known.values() if one.of in _kinds(subject)}
     if name in fitting:
         return fitting[name]
     there = ", ".join(sorted(fitting)) or "none is installed"

@@ -46,7 +46,7 @@ class Mechanism(Build):
         Parameters
         ----------
         changes
-            Parameters by their names; a table, such as ``cam={"control": "haas"}``, changes the keys it has.
+            Parameters by their names; a table, such as ``cam={"clearance": 8}``, changes the keys it has.
 
         Raises
         ------

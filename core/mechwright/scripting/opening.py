@@ -40,7 +40,7 @@ def design(family: str, /, *, name: str = "", **parameters: object) -> Mechanism
     name
         That of the design; by default the family's.
     parameters
-        Of the family by their names; a table, such as ``cam={"control": "haas"}``, by its own.
+        Of the family by their names; a table, such as ``cam={"clearance": 8}``, by its own.
 
     Raises
     ------

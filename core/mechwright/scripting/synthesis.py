@@ -160,7 +160,7 @@ def synthesize(
     progress
         Told how far it is.
     asked
-        The requirement of a family; a table, such as ``cam={"control": "haas"}``, goes into the designs.
+        The requirement of a family; a table, such as ``cam={"clearance": 8}``, goes into the designs.
 
     Raises
     ------
