@@ -14,7 +14,7 @@ from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.shape import Shape, box
 from mechwright.contracts.turned import Step as Length
-from mechwright.contracts.turned import Turned, tube
+from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
 from mechwright.standards.circlips import shaft_circlip
@@ -125,6 +125,18 @@ def test_a_screw_follows_what_it_holds_even_from_below():
         (["screw"], UP),
         (["lid"], DOWN),
     ]
+
+
+def test_a_screw_goes_into_the_thread_in_the_end_of_a_pillar_and_not_into_a_hole_of_the_core():
+    held = Part("screw", None, 0.0, "steel", (Instance("base", 30.0),), bought=screw(6, 20).bought)
+    lid = plate("lid", "base", 24.0, ((0, 0), 6.6), half=30.0, thick=6.0)
+
+    def put(pillar):
+        return ordered((turned("pillar", "base", 0.0, pillar), lid, held), base="ground")
+
+    threaded = Turned((Length(16.0, 24.0),), threads=(EndThread("upper", 6.0, 1.0, 16.0),))
+    assert put(threaded) == [(["pillar"], ["lid"], UP), (["screw"], ["pillar", "lid"], DOWN)]
+    assert put(Turned((Length(16.0, 24.0),), bore=5.0))[-1][2] is None, "a screw does not pass a plain core"
 
 
 def test_a_key_in_a_closed_seat_comes_from_the_side_before_its_wheel():
