@@ -21,7 +21,7 @@ LETTER = 3.2
 """Height of numbers on that paper, mm."""
 
 
-SEEN = 0.5
+SEEN = 0.6
 """What comes from below is drawn from below where less than this share of its lines is seen from above."""
 
 
