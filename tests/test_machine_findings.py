@@ -76,7 +76,14 @@ def test_the_page_draws_each_part_of_the_torque_and_says_it_the_same_way_twice(t
     pictures = [piece.partition("</svg>")[0] + "</svg>" for piece in html.split("<svg")[1:]]
     assert len(pictures) == 5
     for picture in pictures:
-        assert len(ElementTree.fromstring("<svg" + picture)) > 10  # noqa: S314 - our own
+        drawn = ElementTree.fromstring("<svg" + picture)  # noqa: S314 - our own
+        assert len(drawn) > 10
+        height = float(drawn.attrib["viewBox"].split()[3])
+        words = [one for one in drawn.iter() if one.tag.endswith("text")]
+        assert words
+        for one in words:
+            size, y = float(one.attrib["font-size"]), float(one.attrib["y"])
+            assert size < y < height - size / 4, f"{one.text} is cut off at {y} of {height}"
     build = build_of(tmp_path, FOUR_BAR, "speed = 90\nload = 0.05")
     figures = json.loads(DrivePage().files(build)["drive.json"])["figures"]
     assert figures.keys() < FIGURES.keys()

@@ -55,7 +55,11 @@ def _along(solid: Manifold, way: np.ndarray) -> tuple[float, float]:
 
 
 def _solids(body: Body, sample: int) -> tuple[Manifold, Manifold]:
-    """A body where it stands, and the same without its skin."""
+    """A body where it stands, and the same without its skin; a circlip's core is spread to its shaft."""
     surface = surface_of(joined(body.part), body.instance)
     place = np.column_stack((body.poses.rotation[sample], body.poses.position[sample]))
-    return surface.manifold.transform(place), surface.core.manifold.transform(place)
+    core, bought = surface.core.manifold, body.part.bought
+    if bought is not None and bought.standard == "DIN 471":
+        shaft = float(bought.designation.split(" - ")[1].split(" x ")[0]) / 2
+        core -= Manifold.cylinder(1000.0, shaft, circular_segments=360, center=True)
+    return surface.manifold.transform(place), core.transform(place)

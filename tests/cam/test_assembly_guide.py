@@ -13,20 +13,28 @@ from by_night import by_night
 from mechwright import Instance, Part
 from mechwright.build import Build, Wanted
 from mechwright.contracts.fits import hole_fit, shaft_fit
+from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Bore
+from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
-from mechwright.contracts.turned import Turned, tube
+from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
+from mechwright.standards.bearings import bearings
 from mechwright.standards.circlips import shaft_circlip
+from mechwright.standards.couplings import coupling_for
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_guide.balloons import APART, balloons
 from mechwright_cad.assembly_guide.exploded import Boxes, exploded, lifted
 from mechwright_cad.assembly_guide.fits import matches
 from mechwright_cad.assembly_guide.page import AssemblyGuide
+from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_guide.view import View
+from mechwright_cad.assembly_guide.words import Words
 from mechwright_cad.assembly_order.layers import frame_of
-from mechwright_cad.assembly_order.plan import plan_of
+from mechwright_cad.assembly_order.order import Order
+from mechwright_cad.assembly_order.plan import Plan, plan_of
 from mechwright_cad.bill.page import order_of
 from mechwright_cad.bodies import bodies_of
 
@@ -203,3 +211,65 @@ def test_every_item_of_a_train_is_seen_in_the_exploded_view(name):
         page = AssemblyGuide().files(build)["assembly.html"]
     listed = {int(n) for n in re.findall(r'<td class="n">(\d+)</td><td class="n">', page)}
     assert {int(n) for n in re.findall(r'text-anchor="middle">(\d+)<', page)} == listed
+
+
+def told(parts, **fixed_to):
+    """What each step says of parts that all stand at the origin, in one piece, and the pictures."""
+    names = sorted({instance.body for part in parts for instance in part.instances})
+    still = Poses.planar(0.0, 0.0, np.zeros(2))
+    joints = {name: Joint("fixed", GROUND, name) for name in fixed_to.get("still", ())}
+    motion = Motion("t", {"t": Channel(np.zeros(2), "rad")}, dict.fromkeys(names, still), joints=joints)
+    bodies = tuple(bodies_of(parts, motion))
+    order = Order(bodies, motion, 0)
+    plan = Plan(bodies, order.steps, motion, 0, order)
+    numbers = {part.name: k for k, part in enumerate(parts, start=1)}
+    words, pictures = Words(plan, numbers), Pictures(plan, numbers)
+    return [(" ".join(words.sentences(s)), pictures.step(s, words.title(s))) for s in plan.steps]
+
+
+def test_a_shaft_is_fast_in_its_bearing_and_in_its_coupling():
+    bearing = next(one for one in bearings() if one.name == "6000")
+    journal = shaft_fit(10.0, "j6")
+    shaft = turned("shaft", Turned((Length(10.0, 20.0), Length(10.0, 8.0, journal), Length(14.0, 9.0))))
+    on = Part("bearing", None, 0.0, "steel", (Instance("axis", 20.0),), bought=bearing.bought)
+    ((words, _),) = told((shaft, on), still=("axis",))
+    assert "is a push fit" in words
+    assert "turn freely" not in words
+    clamped = Part(
+        "coupling", None, 0.0, "steel", (Instance("a", -15.0),), bought=coupling_for(6, 10, 0.1).bought
+    )
+    motor = turned("motor", Turned((Length(37.0, 50.0), Length(6.0, 13.0))), -65.0, "still")
+    found = [words for words, _ in told((shaft, clamped, motor), still=("still",))]
+    assert any("motor (3) goes into coupling (2): tighten its screw there." in words for words in found)
+    assert any("Tighten its screw on this shaft" in words for words in found)
+    assert not any("turn freely" in words for words in found)
+
+
+def test_a_pillar_with_threads_in_its_ends_needs_no_compound_and_screws_go_into_them():
+    fit = shaft_fit(8.0, "h6")
+    thread = EndThread("lower", 5.0, 0.8, 12.0)
+    seat = Bore("seat", (0.0, 0.0), 8.0, 0.0, 6.0, hole_fit(8.0, "H7"))
+    rim = Loop.polygon([(-20.0, -20.0), (20.0, -20.0), (20.0, 20.0), (-20.0, 20.0)])
+    pierced = Outline(rim, (Loop((circle((0.0, 0.0), 4.0, clockwise=True),)),))
+    plate = Part("plate", pierced, 6.0, "steel", (Instance("a", 0.0),), machined=(seat,))
+    for threads, held in (((), False), ((thread,), True)):
+        steps = (Length(8.0, 4.0, fit), Length(12.0, 30.0))
+        pillar = turned("pillar", Turned(steps, threads=threads), 2.0)
+        ((words, _),) = told((plate, pillar))
+        assert "slides in" in words
+        assert ("Nothing else holds it" in words) is not held
+    stud = Part("stud", None, 0.0, "steel", (Instance("a", 10.0),), bought=screw(5, 16, "set").bought)
+    steps = told((turned("pillar", Turned((Length(12.0, 30.0),), threads=(thread,))), stud))
+    assert "stud (2) screws into pillar (1)." in steps[0][0]
+
+
+def test_what_comes_from_below_is_seen_from_below_where_it_would_be_hidden():
+    rim = Loop.polygon([(-40.0, -40.0), (40.0, -40.0), (40.0, 40.0), (-40.0, 40.0)])
+    plate = Part("plate", Outline(rim), 5.0, "steel", (Instance("a", 0.0),))
+    pin = turned("pin", Turned((Length(8.0, 10.0),)), -10.0)
+    ((words, picture),) = told((plate, pin))
+    assert "from below" in words
+    assert "seen from below" in picture
+    wide = turned("disc", Turned((Length(110.0, 10.0),)), -10.0)
+    ((_, picture),) = told((plate, wide))
+    assert "seen from below" not in picture

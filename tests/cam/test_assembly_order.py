@@ -13,17 +13,18 @@ from mechwright.build import Build, Wanted
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.shape import Shape, box
+from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
-from mechwright.contracts.turned import Turned, tube
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
+from mechwright.standards.bearings import bearings
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_order.groups import connected
 from mechwright_cad.assembly_order.heights import CELL, Heights
 from mechwright_cad.assembly_order.layers import frame_of
 from mechwright_cad.assembly_order.order import Order
-from mechwright_cad.assembly_order.plan import alike, plan_of, sequence
+from mechwright_cad.assembly_order.plan import alike, gathered, plan_of, sequence
 from mechwright_cad.bodies import bodies_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -127,6 +128,18 @@ def test_a_screw_follows_what_it_holds_even_from_below():
     ]
 
 
+def test_a_screw_goes_into_the_thread_in_the_end_of_a_pillar_and_not_into_a_hole_of_the_core():
+    held = Part("screw", None, 0.0, "steel", (Instance("base", 30.0),), bought=screw(6, 20).bought)
+    lid = plate("lid", "base", 24.0, ((0, 0), 6.6), half=30.0, thick=6.0)
+
+    def put(pillar):
+        return ordered((turned("pillar", "base", 0.0, pillar), lid, held), base="ground")
+
+    threaded = Turned((Length(16.0, 24.0),), threads=(EndThread("upper", 6.0, 1.0, 16.0),))
+    assert put(threaded) == [(["pillar"], ["lid"], UP), (["screw"], ["pillar", "lid"], DOWN)]
+    assert put(Turned((Length(16.0, 24.0),), bore=5.0))[-1][2] is None, "a screw does not pass a plain core"
+
+
 def test_a_key_in_a_closed_seat_comes_from_the_side_before_its_wheel():
     slot = box((2.0, 9.0), (-2.0, 2.0), (5.0, 15.0))
     shaft = Shape((Turned((Length(12.0, 20.0),)).shape.pieces[0],), (slot,))
@@ -138,6 +151,73 @@ def test_a_key_in_a_closed_seat_comes_from_the_side_before_its_wheel():
     ((moved, onto, way),) = ordered(parts)
     assert (moved, onto) == (["key"], ["shaft"])
     assert way == (-1.0, 0.0, 0.0)
+
+
+def test_a_machine_begins_with_the_plate_of_its_shafts_and_stands_on_its_base_last():
+    shaft = Turned((Length(10.0, 8.0), Length(14.0, 4.0), Length(10.0, 16.0)))
+    bearing = next(one for one in bearings() if one.name == "6000")
+    parts = (
+        plate("base", "still", 0.0, half=60.0, thick=10.0),
+        turned("leg", "still", 10.0, tube(40.0, 50.0, 30.0)),
+        plate("lower", "still", 40.0, ((0, 0), 26.0), half=40.0, thick=10.0),
+        Part("bearing", None, 0.0, "steel", (Instance("axis", 42.0),), bought=bearing.bought),
+        turned("shaft", "wheel", 42.0, shaft),
+        plate("wheel", "wheel", 54.0, ((0, 0), 10.0), half=15.0),
+        turned("pillar", "still", 50.0, tube(60.0, 70.0, 30.0)),
+        plate("upper", "still", 80.0, half=40.0, thick=10.0),
+    )
+    assert [(moved, way) for moved, _, way in ordered(parts, still="ground", axis="ground")] == [
+        (["pillar"], DOWN),
+        (["bearing"], UP),
+        (["wheel"], DOWN),
+        (["bearing", "shaft", "wheel"], DOWN),
+        (["upper"], DOWN),
+        (["leg"], UP),
+        (["base"], UP),
+    ]
+
+
+def test_what_a_screw_with_a_head_holds_goes_to_its_place_with_it():
+    held = Part("screw", None, 0.0, "steel", (Instance("still", 18.0),), bought=screw(6, 16).bought)
+    parts = (
+        turned("motor", "still", 0.0, tube(6.0, 20.0, 15.0)),
+        plate("mount", "still", 15.0, ((0, 0), 6.6), half=10.0, thick=3.0),
+        held,
+        plate("lid", "still", 30.0, half=40.0),
+    )
+    assert ordered(parts, still="ground") == [
+        (["mount"], ["motor"], DOWN),
+        (["screw"], ["motor", "mount"], DOWN),
+        (["motor", "mount", "screw"], ["lid"], UP),
+    ]
+
+
+def test_copies_come_one_after_the_other_where_nothing_between_them_minds():
+    places = {"a": (-20.0, 0.0), "b": (20.0, 0.0), "base": (0.0, 0.0)}
+    still = {name: Poses.planar(x, y, np.zeros(2)) for name, (x, y) in places.items()}
+    joints = {name: Joint("fixed", GROUND, name) for name in places}
+    motion = Motion("theta", {"theta": Channel(np.zeros(2), "rad")}, still, joints=joints)
+    pillar = Turned((Length(12.0, 30.0),), threads=(EndThread("lower", 6.0, 1.0, 10.0),))
+    head = Shape((*Turned((Length(10.0, 6.0), Length(6.0, 16.0))).shape.pieces,))
+    screw_below = replace(screw(6, 16).bought, shape=head)
+
+    def both(z):
+        return Instance("a", z), Instance("b", z)
+
+    parts = (
+        plate("base", "base", 0.0, ((-20, 0), 6.6), ((20, 0), 6.6), half=40.0, thick=8.0),
+        Part("pillar", None, 0.0, "steel", both(8.0), turned=pillar),
+        Part("screw", None, 0.0, "steel", both(-6.0), bought=screw_below),
+    )
+    order = Order(bodies_of(parts, motion), motion, 0)
+
+    def names(steps):
+        return [[order.bodies[k].part.name for k in step.moved] for step in steps]
+
+    assert names(order.steps) == [["pillar"], ["screw"], ["pillar"], ["screw"]]
+    steps = alike(gathered(order), order.bodies)
+    assert names(steps) == [["pillar", "pillar"], ["screw", "screw"]]
+    assert met(steps, order.bodies, 0) == []
 
 
 def test_links_of_a_chain_that_hold_each_other_are_said_to_have_no_way():
@@ -193,6 +273,12 @@ CASES = [
     "elliptic-pair",
     "geneva-prototype",
     "crank-rocker-finished",
+    pytest.param("elliptic-pair-machine", marks=by_night),
+    pytest.param("geneva-machine", marks=by_night),
+    pytest.param("geneva-motor", marks=by_night),
+    pytest.param("five-bar-published", marks=by_night),
+    pytest.param("five-bar-slots", marks=by_night),
+    pytest.param("five-bar-three-phases", marks=by_night),
     pytest.param("slider-crank-quick-return", marks=by_night),
     pytest.param("figure-eight-train", marks=by_night),
     pytest.param("figure-eight-variable", marks=by_night),
@@ -215,6 +301,33 @@ def test_every_step_of_an_example_passes_what_is_there(name):
         return  # two plates beside each other come from either side
     backwards = tuple(replace(step, way=tuple(-x for x in step.way)) for step in plan.steps)
     assert met(backwards, plan.bodies, plan.sample), "the replay sees an order that cannot be followed"
+
+
+@by_night
+@pytest.mark.parametrize("name", ["elliptic-pair-machine", "geneva-machine"])
+def test_a_machine_of_the_examples_goes_together_in_an_order_that_a_mechanic_follows(name):
+    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
+        plan = plan_of(build)
+    moved = [[plan.bodies[k].part.name for k in step.moved] for step in plan.steps]
+
+    def last(part):
+        return max(place for place, those in enumerate(moved) if part in those)
+
+    assert plan.bodies[plan.order.root].part.name == "lower-plate"
+    shafts = [k for k, those in enumerate(moved) if any(one.startswith("shaft-") for one in those)]
+    assert len(shafts) == 2, "each shaft goes to its plate once, and with all that it carries"
+    for place in shafts:
+        assert sum(one.startswith("bearing-") for one in moved[place]) == 2
+        assert any(one.startswith("circlip-") for one in moved[place])
+    following = (
+        last("pillar"),
+        *shafts,
+        *map(last, ("upper-plate", "coupling", "motor", "leg", "base-plate")),
+    )
+    assert sorted(following) == list(following)
+    assert moved.count(["motor-pillar"] * 4) == 1
+    assert {"foot", "base-plate"} <= set(moved[last("base-plate")])
+    assert len(moved) <= 30
 
 
 def test_copies_of_a_part_are_one_step_and_come_to_hand_in_order():

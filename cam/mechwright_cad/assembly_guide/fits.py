@@ -114,6 +114,9 @@ def _own(part: Part) -> Iterator[_Own]:
                 yield (0.0, 0.0), low, low + step.length, step.diameter, False, step.fit, False
         if turned.bore:
             yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, False
+        for thread in turned.threads:
+            low = 0.0 if thread.end == "lower" else turned.length - thread.depth
+            yield (0.0, 0.0), low, low + thread.depth, thread.diameter, True, None, True
         return
     for piece in shape.pieces:
         if isinstance(piece, Revolve):
@@ -135,8 +138,8 @@ def matches(bodies: Sequence[Body], sample: int, moved: Sequence[int], onto: Seq
             pairs = [(one, two, a, b) for a in faces[one] for b in faces[two] if not a.inside and b.inside]
             pairs += [(two, one, b, a) for a in faces[one] for b in faces[two] if a.inside and not b.inside]
             fitting = [Match(pin, hole, a, b) for pin, hole, a, b in pairs if _fits(a, b)]
-            if fitting:  # the tightest of them says how the two go together
-                found.append(min(fitting, key=lambda match: match.play))
+            if fitting:  # the tightest of those that the drawing says tells how the two go together
+                found.append(min(fitting, key=lambda match: (not match.said, match.play)))
     return found
 
 

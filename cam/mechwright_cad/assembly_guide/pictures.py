@@ -1,6 +1,7 @@
 """Pictures of a plan as SVG: the exploded view with its balloons, and one for each step."""
 
 from collections.abc import Iterable, Mapping
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -9,7 +10,7 @@ from mechwright.arrays import Array
 from mechwright.output.svg import element, number, picture, text
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.exploded import Boxes, Shifts, exploded, lifted
-from mechwright_cad.assembly_guide.view import Lines, View
+from mechwright_cad.assembly_guide.view import EYE, Lines, View
 from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
 
@@ -20,8 +21,12 @@ LETTER = 3.2
 """Height of numbers on that paper, mm."""
 
 
+SEEN = 0.6
+"""What comes from below is drawn from below where less than this share of its lines is seen from above."""
+
+
 class Pictures:
-    """All pictures of a plan, seen from one side."""
+    """All pictures of a plan, seen from above; steps from below that are hidden there, from below."""
 
     def __init__(self, plan: Plan, numbers: Mapping[str, int]) -> None:
         self.plan = plan
@@ -54,14 +59,28 @@ class Pictures:
     def step(self, step: Step, label: str) -> str:
         """What stands there, thin, and what comes, thick, outside of its seat."""
         shifts = lifted(step, self.boxes)
-        lines = self.view.lines(shifts)
+        view, lines = self.view, self.view.lines(shifts)
         moved = set(step.moved) if step.onto else set()
+        if step.way is not None and step.way[2] > 0 and self._hidden(step, shifts, lines):
+            view, lines = self.under, self.under.lines(shifts)
+            label += ", seen from below"
         parts = [
             _drawn((lines[k] for k in lines if k not in moved), "there"),
-            _dashed(self._lines_of(step, shifts)),
+            _dashed(self._lines_of(step, shifts, view)),
             _drawn((lines[k] for k in lines if k in moved), "comes"),
         ]
         return self._framed(parts, lines, [], 2.0, label)
+
+    @cached_property
+    def under(self) -> View:
+        """All bodies as they are seen from below."""
+        return View(self.plan.bodies, self.plan.sample, EYE * (1.0, 1.0, -1.0))
+
+    def _hidden(self, step: Step, shifts: Shifts, lines: Lines) -> bool:
+        """Whether most of what comes stands behind what is there."""
+        alone = self.view.lines({k: shifts[k] for k in step.moved})
+        seen = sum(float(lines[k].length) for k in step.moved)
+        return seen < SEEN * sum(float(one.length) for one in alone.values())
 
     def _framed(
         self, parts: list[str], lines: Lines, corners: list[tuple[float, float]], edge: float, label: str
@@ -73,9 +92,13 @@ class Pictures:
 
     def traces(self) -> list[Array]:
         """Lines (2, 2), mm, from where each thing is drawn to what it goes onto."""
-        return [line for step in self.plan.steps for line in self._lines_of(step, self.shifts, relative=True)]
+        return [
+            line
+            for step in self.plan.steps
+            for line in self._lines_of(step, self.shifts, self.view, relative=True)
+        ]
 
-    def _lines_of(self, step: Step, shifts: Shifts, *, relative: bool = False) -> list[Array]:
+    def _lines_of(self, step: Step, shifts: Shifts, view: View, *, relative: bool = False) -> list[Array]:
         """From each round body of a step, or from its largest, to where it is put; ends (2, 2)."""
         if step.way is None or not step.onto:
             return []
@@ -88,7 +111,7 @@ class Pictures:
         for k in rounds:
             at = self.boxes.centre(k)
             seat = at + (shifts[base] if relative else 0.0)
-            ends.append(self.view.flat(np.array((at + shifts[k], seat))))
+            ends.append(view.flat(np.array((at + shifts[k], seat))))
         return ends
 
 

@@ -30,8 +30,15 @@ def screwed(part: Part) -> str:
     return f"Tool: hexagon key {key:g} mm; tighten to {torque:.2g} N m ({grade}, oiled; half of it in POM)."
 
 
+def is_coupling(part: Part) -> bool:
+    """Whether it is clamped on the ends of two shafts."""
+    return part.bought is not None and part.bought.designation.startswith("flexible coupling")
+
+
 def fitted(part: Part) -> str:
-    """What to mind with a circlip, a bearing or a dowel; empty for the rest."""
+    """What to mind with a circlip, a bearing, a dowel or a coupling; empty for the rest."""
+    if is_coupling(part):
+        return "Tighten its screw on this shaft; that on the other shaft comes once both stand."
     standard = part.bought.standard if part.bought is not None else ""
     match standard:
         case "DIN 471" | "DIN 472":

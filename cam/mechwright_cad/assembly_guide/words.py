@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mechwright_cad.assembly_guide.fits import Match, matches, rounds_of
-from mechwright_cad.assembly_guide.tools import fitted, screwed
-from mechwright_cad.assembly_order.groups import rigid
+from mechwright_cad.assembly_guide.tools import fitted, is_coupling, screwed
+from mechwright_cad.assembly_order.groups import is_bearing, rigid
 from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
 
@@ -18,6 +18,9 @@ IN_PLACE = "Support that part right under the hole and draw the pin in with a cl
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
+
+ROOM = 0.1
+"""Play that no seat has, mm."""
 
 _TRIED = {
     "prismatic": "slides freely on",
@@ -37,6 +40,7 @@ class Words:
         self.plan, self.numbers = plan, numbers
         self._heads = rigid(plan.motion)
         self._last = {k: step for step in plan.steps for k in step.moved}
+        self._first = {k: step for step in reversed(plan.steps) for k in step.moved}
         self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}
         self._said: set[frozenset[str]] = set()
 
@@ -77,8 +81,9 @@ class Words:
         bench = len({self._head(k) for k in (*step.onto, *step.moved)}) == 1
         press = PRESS if bench else IN_PLACE
         said += dict.fromkeys(self._tight(match, press) for match in found if self._fast(match))
-        said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in step.moved)))
-        said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in step.moved)))
+        new = [k for k in step.moved if self._first[k] is step]
+        said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in new)))
+        said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
             mark.note
             for k in (*step.onto, *step.moved)
@@ -128,14 +133,20 @@ class Words:
         return "along the axis that the picture shows"
 
     def _fast(self, match: Match) -> bool:
-        one, two = (self._head(k) for k in (match.pin, match.hole))
-        return one == two
+        """Whether a pin does not turn in its hole: no bearing does in its seat, no shaft in its coupling."""
+        one, two = (self.plan.bodies[k] for k in (match.pin, match.hole))
+        alike = self._head(match.pin) == self._head(match.hole)
+        return alike or any(is_bearing(body) or is_coupling(body.part) for body in (one, two))
 
     def _tight(self, match: Match, press: str) -> str:
         pin, hole = self.name(match.pin), self.name(match.hole)
         least, most = (round(value, 4) + 0.0 for value in match.play)
         if match.inside.threaded:
             return f"{pin} screws into {hole}."
+        if is_coupling(self.plan.bodies[match.hole].part):
+            return f"{pin} goes into {hole}: tighten its screw there."
+        if not match.said and least > ROOM:
+            return f"{pin} in {hole}: {match.text}, which is room and no seat; what screws it down holds it."
         if not match.said:
             return f"{pin} in {hole}: {match.text}, no fit is said; it has to sit fast, or is bonded."
         if most <= 0:
@@ -153,7 +164,8 @@ class Words:
         pin, hole = (self.plan.bodies[k].part for k in (match.pin, match.hole))
         ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
         keyed = pin.turned is not None and pin.turned.seats
-        if ring or keyed or pin.bought is not None or hole.bought is not None:
+        screwed_down = pin.turned is not None and pin.turned.threads
+        if ring or keyed or screwed_down or pin.bought is not None or hole.bought is not None:
             return ""
         return " Nothing else holds it: secure it, with retaining compound if it stays for good."
 

@@ -107,10 +107,19 @@ def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list
 
 
 def bonds(bodies: Sequence[Body], motion: Motion, standing: Standing) -> list[tuple[int, int]]:
-    """Pairs of bodies that move as one and touch."""
-    heads = rigid(motion)
+    """Pairs of bodies that move as one and touch; a ball bearing counts with the shaft that it is put on."""
+    rigidly = rigid(motion)
+    heads = [rigidly[body.instance.body] for body in bodies]
+    moving = [k for k, head in enumerate(heads) if head != GROUND]
+    for k in [k for k, body in enumerate(bodies) if is_bearing(body)]:
+        heads[k] = next((heads[m] for m in moving if m != k and standing.touch(k, m)), heads[k])
     return [
         (one, two)
         for one, two in combinations(range(len(bodies)), 2)
-        if heads[bodies[one].instance.body] == heads[bodies[two].instance.body] and standing.touch(one, two)
+        if heads[one] == heads[two] and standing.touch(one, two)
     ]
+
+
+def is_bearing(body: Body) -> bool:
+    """Whether it is a ball bearing: its inner ring sits tight on a shaft."""
+    return body.part.bought is not None and body.part.bought.standard == "ISO 15"

@@ -79,10 +79,10 @@ def own_layers(part: Part) -> tuple[Layer, ...] | None:
 
     What is pressed or screwed into a hole is meant to be there: holes are as wide as what goes in.
     """
-    if part.outline is not None:
-        found = [Layer(slab.polygon, slab.bottom, slab.top) for slab in slabs_of(joined(part), Instance(""))]
-        return tuple(found)
-    shape = getattr(part.build, "__self__", None)
+    met = joined(part)
+    if met.outline is not None:
+        return tuple(Layer(slab.polygon, slab.bottom, slab.top) for slab in slabs_of(met, Instance("")))
+    shape = getattr(met.build, "__self__", None)
     return tuple(_of_shape(shape)) if isinstance(shape, Shape) else None
 
 

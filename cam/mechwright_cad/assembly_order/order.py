@@ -9,20 +9,28 @@ first, then single bodies; a group that has left is taken apart by itself.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
-from scipy.sparse.csgraph import connected_components
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright_cad.assembly_order.barred import Ways
 from mechwright_cad.assembly_order.groups import Standing, bonds, connected, rigid
-from mechwright_cad.assembly_order.layers import PARALLEL, UP, axis_of, own_layers
+from mechwright_cad.assembly_order.layers import LEVEL, PARALLEL, UP, axis_of, own_layers
 from mechwright_cad.bodies import Body
 
-HOLDERS = frozenset({"ISO 4762", "ISO 10642", "ISO 4026", "ISO 7089", "DIN 471", "DIN 472"})
-"""Standards of what holds others: it comes off before them, and is put on right after."""
+CLAMPS = frozenset({"ISO 4762", "ISO 10642"})
+"""Standards of screws with a head: what one touches leaves after it, or with it."""
+
+HOLDERS = CLAMPS | {"ISO 4026", "ISO 7089", "DIN 471", "DIN 472"}
+"""Standards of what holds others: it comes off before them if it can, and is put on right after."""
+
+SHARE = 0.1
+"""Of the size of the largest plate that stands still: a smaller one is not what all goes onto."""
 
 Units = Sequence[tuple[int, ...]]
 """Sets of bodies, by number."""
@@ -124,15 +132,53 @@ class Order:
         along = way @ corners
         return float(along.min() if low else along.max())
 
-    def _root(self, members: tuple[int, ...]) -> int:
-        """What the others are put on: the largest that stands still, or the best of the lowest group.
+    @cached_property
+    def _base(self) -> int:
+        """What all goes onto: of the plates that stand still the one in the middle; -1 if nothing does.
 
-        The best is the one that touches most.
+        In the middle is the one from which the others are fewest contacts away: of a machine on legs it is
+        the plate that carries the shafts, not the one on the floor. Without plates it is the largest body.
         """
         still = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] == GROUND]
-        base = max(still, key=lambda k: (self._sizes[k], -k), default=-1)
-        if base in members:
-            return base
+        plates = [k for k in still if self.bodies[k].is_plate]
+        most = max((self._sizes[k] for k in plates), default=0.0)
+        large = [k for k in plates if self._sizes[k] >= SHARE * most]
+        if len(large) < 2:
+            return max(large or still, key=lambda k: (self._sizes[k], -k), default=-1)
+        count = len(self.bodies)
+        touching = np.zeros((count, count))
+        for one, two in combinations(range(count), 2):
+            touching[one, two] = self.standing.touch(one, two)
+        away = dijkstra(touching, directed=False, unweighted=True, indices=large)
+        away[np.isinf(away)] = count
+        return min(zip(away.sum(axis=1), -self._sizes[large], large, strict=True))[2]
+
+    @cached_property
+    def _below(self) -> frozenset[int]:
+        """What hangs below the base of a machine that stands on another plate: it comes last, from below."""
+        if self._base < 0:
+            return frozenset()
+        floor = self.standing.box(self._base)[0, 2] + LEVEL
+        under = [k for k in range(len(self.bodies)) if self.standing.box(k)[1, 2] <= floor]
+        stands = any(
+            self.bodies[k].is_plate and self.heads[self.bodies[k].instance.body] == GROUND for k in under
+        )
+        return frozenset(under if stands else ())
+
+    @cached_property
+    def _clamped(self) -> NDArray[np.bool_]:
+        """A table (n, n): whether body i is held by screw j."""
+        count = len(self.bodies)
+        table = np.zeros((count, count), dtype=bool)
+        for j, body in enumerate(self.bodies):
+            if body.part.bought is not None and body.part.bought.standard in CLAMPS:
+                table[:, j] = [i != j and self.standing.touch(i, j) for i in range(count)]
+        return table
+
+    def _root(self, members: tuple[int, ...]) -> int:
+        """What the others are put on: the base, or of the lowest group the one that touches most."""
+        if self._base in members:
+            return self._base
         groups = connected(members, self._bonds)
         boxes = [np.array([self.standing.box(k)[:, 2] for k in group]) for group in groups]
         lowest = min(zip(groups, boxes, strict=True), key=lambda one: (one[1].min() + one[1].max(), one[0]))[
@@ -160,13 +206,21 @@ class Order:
         groups, singles = connected(members, self._bonds), [(k,) for k in members]
         root = self._root(members)
         found = (
-            self._first(groups, root, self._shaft)
+            self._downwards(singles, root)
+            or self._first(groups, root, self._shaft)
             or self._first(singles, root, lambda units: len(units) == 1)
             or self._first(groups, root, lambda _: True)
             or self._first(singles, root, lambda _: True)
             or self._sideways(members, root)
         )
         return found and (self._holder(members, found) or found)
+
+    def _downwards(self, units: Units, root: int) -> _Leaving | None:
+        """The lowest of what hangs below the base and can leave downwards."""
+        if root != self._base or not self._below:
+            return None
+        sets = [one for one in self._free(units, -UP) if self._below.issuperset(one.bodies)]
+        return min(sets, key=lambda one: (len(one.bodies), *self._worth(one)[1:]), default=None)
 
     def _first(
         self, units: Sequence[tuple[int, ...]], root: int, fit: Callable[[Units], bool]
@@ -205,7 +259,7 @@ class Order:
         """The least sets that can leave the others along a way."""
         if len(units) < 2:
             return
-        barred = self.table.barred(way)
+        barred = self.table.barred(way) | self._clamped
         graph = np.array([[a is not b and barred[np.ix_(a, b)].any() for b in units] for a in units])
         count, of = connected_components(graph, directed=True, connection="strong")
         for which in range(count if count > 1 else 0):

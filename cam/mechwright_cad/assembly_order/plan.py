@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from mechwright.build import Build
 from mechwright.contracts.motion import Motion
 from mechwright_cad.assembly_order.order import Order, Step
@@ -49,7 +51,47 @@ def plan_of(build: Build) -> Plan:
 def _at(build: Build, motion: Motion, sample: int) -> Plan:
     bodies = tuple(bodies_of(build.parts, motion, sample))
     order = Order(bodies, motion, sample)
-    return Plan(bodies, tuple(alike(order.steps, bodies)), motion, sample, order)
+    return Plan(bodies, tuple(alike(gathered(order), bodies)), motion, sample, order)
+
+
+def gathered(order: Order) -> list[Step]:
+    """The steps, each copy of a part right after the last one, where nothing between the two minds.
+
+    Pillar, screw, pillar, screw become two pillars and two screws.
+    """
+    found: list[Step] = []
+    for step in order.steps:
+        place, tried = len(found), [step]
+        while place and not _copy(order, found[place - 1], tried[0]):
+            before = found[place - 1]
+            if not _may_wait(order, before, tried[0]):
+                break
+            later = replace(before, onto=tuple(sorted((*before.onto, *step.moved))))
+            tried[:1] = [replace(tried[0], onto=before.onto), later]
+            place -= 1
+        if place and _copy(order, found[place - 1], tried[0]):
+            found[place:] = tried
+        else:
+            found.append(step)
+    return found
+
+
+def _copy(order: Order, one: Step, two: Step) -> bool:
+    """Whether two steps put a copy of one part onto the same, the same way."""
+    return (
+        len(one.moved) == len(two.moved) == 1
+        and one.way == two.way is not None
+        and order.bodies[one.moved[0]].part.name == order.bodies[two.moved[0]].part.name
+        and set(two.onto) == {*one.onto, *one.moved}
+    )
+
+
+def _may_wait(order: Order, one: Step, two: Step) -> bool:
+    """Whether a step can as well be done after the next one, which needs nothing of it."""
+    if one.way is None or len(two.moved) > 1 or set(two.onto) != {*one.onto, *one.moved}:
+        return False
+    barred = order.table.barred(-np.array(one.way))
+    return not any(barred[k, two.moved[0]] or order.standing.touch(k, two.moved[0]) for k in one.moved)
 
 
 def alike(steps: Sequence[Step], bodies: Sequence[Body]) -> list[Step]:

@@ -9,11 +9,12 @@ from mechwright.arrays import Array
 from mechwright.output import svg
 from mechwright.output.ticks import ticks
 
-WIDTH, HEIGHT = 480.0, 270.0
-LEFT, RIGHT, TOP, BOTTOM = 62.0, 20.0, 12.0, 36.0
+WIDTH, HEIGHT = 480.0, 284.0
+LEFT, RIGHT, TOP, BOTTOM = 62.0, 20.0, 26.0, 36.0
 INK, SOFT, LINE = "#22303c", "#4b5965", "#d3d9de"
 COLOURS = ("#1f5fa8", "#b3261e", "#2e7d32", "#8a5a00")
-LETTERS = 13.0
+LETTERS, LIFT = 13.0, 8.0
+"""Size of letters, and by how much the words of a mark stand above it; ``TOP`` has room for both."""
 MOST = 361
 """Points of a line that is drawn."""
 
@@ -56,10 +57,12 @@ def plot(lines: Sequence[Line], across: str, up: str, marks: Sequence[tuple[floa
         right = place[0] > WIDTH * 0.6
         look = {"text_anchor": "end"} if right else {}
         shift = -8.0 if right else 8.0
-        drawn.append(svg.text(float(place[0]) + shift, float(place[1]) + 8, words, LETTERS, fill=INK, **look))
+        drawn.append(
+            svg.text(float(place[0]) + shift, float(place[1]) + LIFT, words, LETTERS, fill=INK, **look)
+        )
     middle = (LEFT + WIDTH - RIGHT) / 2
     drawn.append(
-        svg.text(middle, -HEIGHT + 3, f"{up} over {across}", LETTERS, fill=INK, text_anchor="middle")
+        svg.text(middle, -HEIGHT + 5, f"{up} over {across}", LETTERS, fill=INK, text_anchor="middle")
     )
     return svg.picture("".join(drawn), (0, 0, WIDTH, HEIGHT), f"{up} over {across}")
 
