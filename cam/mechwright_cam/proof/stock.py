@@ -1,5 +1,6 @@
 """Is there material where the tool goes now? Computed only for the few moves that need the answer."""
 
+import math
 from functools import cached_property
 from itertools import islice
 from typing import Any
@@ -11,13 +12,14 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array, first_of_each
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.controls.reading.run import Ints, SpindleChange
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import quarter
+from mechwright_cam.shop.cutter import cutter
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
@@ -44,7 +46,7 @@ class Stock:
     """The plate while the program runs."""
 
     def __init__(self, paths: Paths, job: Job) -> None:
-        self.paths = paths
+        self.paths, self.thickness = paths, job.thickness
         self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
         edge = stock_shape(job)
         around = shapely.buffer(edge, UNEVEN, join_style="mitre")
@@ -160,6 +162,28 @@ class Stock:
         plate = self.rough if rough else self.plate
         body = shapely.intersection(grow(paths.room(pieces)[0], reach, ACCURACY), plate)
         if self._meets(step, z, body):
+            return True
+        self._free[key] = step
+        return False
+
+    def touches(self, change: SpindleChange) -> bool:
+        """Whether the tool stands less than ``UNEVEN`` off the stock that is left, where the spindle changes.
+
+        A tool of another job, or in a place that the text does not say, touches nothing.
+        """
+        x, y, z = change.place
+        tool = self.paths.tools.get(change.tool)
+        if tool is None or not math.isfinite(x + y) or not z < UNEVEN - NEAR:
+            return False
+        key = (change.tool, *change.place)
+        if key in self._free:
+            return False
+        self._asked += 1
+        tip = z - UNEVEN
+        reach = float(cutter(tool).radius_at(-tip)) + UNEVEN
+        body = shapely.intersection(grow(shapely.Point(x, y), reach, ACCURACY), self.plate)
+        step = min(change.step, len(self.paths.run) - 1)
+        if self._meets(step, max(tip, -self.thickness), body):
             return True
         self._free[key] = step
         return False
