@@ -38,6 +38,8 @@ ASKED, COMPARED, GROWN = 500, 20, 150
 for each of its corners."""
 MOST_WORK = 4_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
+MOST_CORNERS = 2000
+"""A shape with more corners is not worth remembering."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -56,6 +58,8 @@ class Stock:
         self._work = self._asked = 0
         self._free: dict[tuple[Any, ...], int] = {}
         """Ways that have met nothing, and when: material does not come back."""
+        self._cleared: dict[tuple[int, float], tuple[int, Shape]] = {}
+        """By tool and height, where a question has found nothing of the plate above that height, and when."""
         self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
 
     @cached_property
@@ -190,6 +194,12 @@ class Stock:
 
     def _meets(self, step: int, z: float, body: Shape) -> bool:
         """Whether material is left in some of the plate, above a height, when a step begins."""
+        key = int(self.paths.run.tool[step]), z
+        since, cleared = self._cleared.get(key, (step, shapely.Point()))
+        if since > step:
+            cleared = shapely.Point()
+        self._count(step, ASKED + int(shapely.get_num_coordinates(cleared)))
+        body = shapely.difference(body, cleared)
         if body.is_empty:
             return False
         rest = self._left(step, z, body)
@@ -197,6 +207,9 @@ class Stock:
             if air.top > z + NEAR and shapely.intersects(rest, air.shape):
                 over = self._left(step, air.top, shapely.intersection(rest, air.shape))
                 rest = shapely.union(shapely.difference(rest, air.shape), over)
+        cleared = shapely.union(cleared, shapely.difference(body, rest))
+        if shapely.get_num_coordinates(cleared) < MOST_CORNERS:
+            self._cleared[key] = step, cleared
         return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
 
     def _left(self, step: int, z: float, body: Shape) -> Shape:
