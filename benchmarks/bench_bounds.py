@@ -135,7 +135,7 @@ def one(name: str) -> None:
     job = made("profile-outside", "linuxcnc")[0]
     lines = job.text.splitlines()
     last = next(k for k, line in enumerate(lines) if line.startswith("M9"))
-    text = "\n".join([*lines[:last], "G0 Z5", *CASES[name](), *lines[last:], ""])
+    text = "\n".join([*lines[:last], "G0 Z5", *CASES[name](), "G0 Z5", *lines[last:], ""])
     words = re.compile("([A-Z])([-+.0-9]+)")
     start = time.process_time()
     for line in ["G1 X12.345 Y-6.789 F1000"] * MANY:

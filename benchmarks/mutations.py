@@ -35,14 +35,14 @@ from block_mutants import PLACES, faults, inserted, kinds, wrong
 from by_control import BY_NAME, prove, read
 from mutants import FAULTS, STATES, Mutant, differences, mutant, trace
 
-from mechwright.contracts.details import Chamfer
+from mechwright.contracts.details import Chamfer, Engraving
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.bands import bands
-from mechwright_cam.proof.paths import Paths
+from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import Tool
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 PROCESSES = 2
 RANDOM = 2
@@ -190,14 +190,37 @@ def judge(source: Source, text: str) -> tuple[tuple[str, ...], str, str]:
         inner = shapely.intersects(source.job.target, spots)
         beyond = inner & ~shapely.dwithin(walls, spots, WALL)
         if beyond.any():
-            on_slopes = shapely.dwithin(slopes(source.job), spots[beyond], WALL).all()
-            sloping = "a cell of the height map on a chamfer, which details measures"
-            return differs, sloping if on_slopes and off.max() < PITCH else UNEXPLAINED, told
+            depths = [deepest_point(one, source.job) for one in (run, other)]
+            reason = on_details(source.job, spots[beyond], off[y, x][beyond], depths)
+            return differs, reason, told
         where = "a cell of the height map at a wall" if inner.any() else "another piece of the waste"
         return differs, where, told
     if told := "; ".join(_harder(stamps, more)):
         return differs, "harder work, within chips, plunges, depth-of-cut and power", told
     return differs, *_feeds(run, other, "the same plate is left")
+
+
+def deepest_point(run: Run, job: Job) -> float:
+    """How deep the pointed tools go, mm."""
+    pointed = [tool.number for tool in job.tools if tool.kind is ToolKind.CHAMFER]
+    return float(np.max(-run.end[run.cutting & np.isin(run.tool, pointed), 2], initial=0.0))
+
+
+def on_details(job: Job, spots: np.ndarray, off: np.ndarray, depths: Sequence[float]) -> str:
+    """Why heights may differ by ``off`` (n,), mm, at places (n,) on details; pointed tools went so deep, mm.
+
+    On the slope of a chamfer a cell is uncertain. A line of a mark may be a little longer or run a little
+    aside while it keeps within the width and the depth that the design gives it; that all strokes are there,
+    ``details`` asks.
+    """
+    if shapely.dwithin(slopes(job), spots, WALL).all() and off.max() < PITCH:
+        return "a cell of the height map on a chamfer, which details measures"
+    for mark in job.details:
+        if isinstance(mark, Engraving) and max(depths) <= mark.depth + NEAR:
+            strokes = shapely.MultiLineString(list(mark.strokes))
+            if shapely.dwithin(strokes, spots, mark.width / 2 + PITCH / 2).all():
+                return "a line of a mark, within the width and the depth that it may have"
+    return UNEXPLAINED
 
 
 def slopes(job: Job) -> shapely.Geometry:

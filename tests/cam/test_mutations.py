@@ -270,6 +270,21 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
     assert tried
 
 
+@pytest.mark.parametrize("depth", ["1.", "-1."])
+@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+def test_a_feed_move_from_the_upper_end_is_refused_in_a_line(control: str, depth: str) -> None:
+    """Its length is not known; nor does it make the fall to the stock slower than it is fed."""
+    one = made("pocket-contour", control)
+    lines = one.text.splitlines()
+    at = next(k for k, line in enumerate(lines) if re.search(r"\bZ5\b", line))
+    lines[at : at + 1] = [lines[at].replace("Z5.", "").replace("Z5", ""), f"G1 Z{depth} F9000.", "G0 Z5."]
+    lines[at] = re.sub("G1 |G0 ", "", lines[at])
+    found = prove("\n".join([*lines, ""]), one.job, BY_NAME[control])
+    assert re.match(rf"line {at + 2}: moves from an unknown height", found.checks["positions"].message)
+    assert found.checks["plunges"].passed is (depth == "1.")
+    assert sum(each.cutting_mm for each in found.operations) < 1000
+
+
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "grbl"])
 def test_what_stands_behind_the_end_is_not_taken_for_proven(control: str) -> None:
     one = made("profile-outside", control)

@@ -119,6 +119,19 @@ def test_a_detail_that_differs_fails(planned, asked):
     assert not prove(LinuxCnc().write(program), job(detailed(asked), *TOOLS)).ok
 
 
+@pytest.mark.parametrize(("longer", "good"), [(0.03, True), (0.08, True), (0.1, False)])
+def test_a_line_of_a_mark_may_be_longer_within_its_width(longer, good):
+    """The point's cone is 0.085 mm narrower at the top than the line that the design allows, on either side."""
+    _, program, proof = made(mark := Engraving("line", (((4.0, -12.0), (8.0, -12.0)),), 0.2, 0.6))
+    text = LinuxCnc().write(program)
+    assert proof.ok
+    assert text.count("\nX8 F120\n") == 1
+    found = prove(text.replace("\nX8 F120\n", f"\nX{8 + longer:g} F120\n"), job(detailed(mark), *TOOLS))
+    assert found.ok is good, [check.message for check in found.failures]
+    short = prove(text.replace("\nX8 F120\n", "\nX7.8 F120\n"), job(detailed(mark), *TOOLS))
+    assert [check.name for check in short.failures] == ["details"]
+
+
 def across(depth, floor_radius, width):
     """A chamfered rim, with a recess across it whose floor has a fillet."""
     over = Pocket("over", rounded_box(24, 12, 4).moved(30.0, 2.0), (), 0.0, depth, floor_radius)

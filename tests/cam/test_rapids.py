@@ -105,3 +105,19 @@ def test_from_where_the_tool_was_left_x_and_y_move_above_the_clamp() -> None:
     assert "moves below Z15 from a place in X and Y that the text does not say" in found.message
     assert positions(scene(low.replace("Z10", "Z20"), clamped())).passed
     assert positions(scene(low, plate_job())).passed
+
+
+def test_many_rapids_where_many_cuts_have_cleared_the_way_are_worked_out() -> None:
+    """What one question has found clear no other asks again; what is not clear is found behind any number."""
+    passes = "\n".join(f"X{10 * (-1) ** k} Y{-10 + k / 5:g}" for k in range(101))
+    to_and_fro = "\n".join(f"G0 X{k % 19 - 9} Y{k * 7 % 17 - 8}" for k in range(300))
+    low = f"G0 X-10 Y-10\nG43 H3 Z5\nG1 Z-1 F500\n{passes}\nX-10\n{to_and_fro}"
+    found = rapids_in_stock(scene(f"{low}\nX10.1", plate_job()))
+    assert found.message.startswith(f"line {4 + 3 + 102 + 300 + 1}: a rapid into the stock (1 in all)")
+
+
+def test_what_is_clear_later_was_not_clear_before() -> None:
+    stock = scene("G0 X0 Y0\nG43 H3 Z5\nG0 Z-1\nX20\nG0 Z5\nX0\nG1 Z-1 F500\nX20\nG0 X0", plate_job()).stock
+    along = [step for step in stock.paths.rapids.tolist() if stock.paths.low[step] == -1]
+    early, late = along[1], along[-1]
+    assert [stock.meets(step) for step in (late, early, late)] == [False, True, False]

@@ -67,7 +67,7 @@ def chips(scene: Scene) -> Check:
     for tool, data in cutting_data(scene):
         steps = working[run.tool[working] == tool.number]
         way = paths.end[steps] - paths.start[steps]
-        plunge = (way[:, 2] < 0) & (np.nan_to_num(run.length[steps]) <= -way[:, 2] + NEAR)
+        plunge = (way[:, 2] < 0) & (paths.length[steps] <= -way[:, 2] + NEAR)
         if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
             steps, plunge = steps[plunge], plunge[plunge]
         # Straight down a flat end has no place where chips are thin.

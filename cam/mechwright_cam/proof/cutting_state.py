@@ -8,22 +8,33 @@ from copy import copy
 import numpy as np
 
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.proof.machine_rules import retract
 from mechwright_cam.proof.off_path import deepest_off_path
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
+from mechwright_cam.proof.stock import UNEVEN
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
 
 
 def spindle(scene: Scene) -> Check:
-    """The spindle turns clockwise while the cutter is in the work."""
-    turning = scene.run.of_states(lambda state: state.spindle if state.rpm > 0 else 0)
+    """The spindle turns clockwise while the cutter is in the work, and starts and stops clear of it."""
+    turning = scene.run.of_states(lambda state: state.turning)
     if (step := first(in_work(scene) & (turning != 1))) is not None:
         how = f"backwards ({scene.control.m(4)})" if turning[step] == -1 else "not at all"
         message = f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}"
         return scene.bad(step, message)
+    for change in scene.run.spindle_changes:
+        if scene.stock.touches(change):
+            place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", change.place, strict=True))
+            message = (
+                f"the spindle starts or stops while T{change.tool} stands less than {UNEVEN:g} mm off the "
+                f"stock; before it {retract(scene)}, at {place}"
+            )
+            message = f"{scene.spot(change.line, change.file)}: {message}"
+            return Check(False, message, change.line, None, UNEVEN, "mm", change.place)
     return Check(True, "the spindle turns clockwise whenever the cutter is in the work")
 
 

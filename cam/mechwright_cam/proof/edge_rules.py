@@ -96,7 +96,7 @@ def _too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
     run, paths = scene.run, scene.paths
     rpm = run.of_states(lambda state: state.rpm)
     drop = paths.start[:, 2] - paths.end[:, 2]
-    down = run.feed * np.clip(drop / np.maximum(np.nan_to_num(run.length), NEAR), 0.0, 1.0)
+    down = run.feed * np.clip(drop / np.maximum(paths.length, NEAR), 0.0, 1.0)
     cuts = paths.cuts[(drop[paths.cuts] > NEAR) & (paths.low[paths.cuts] < -NEAR)]
     for tool, data in cutting_data(scene):
         if tool.kind not in MILLS and tool.kind is not ToolKind.CHAMFER:

@@ -113,7 +113,7 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
     own = paths.radius if radius is None else np.full(len(scene.run), radius)
     # No path leads further than its length.
     away = shapely.distance(shapely.points(paths.start[pieces.step, :2]), one.shape)
-    near = away - np.nan_to_num(scene.run.length[pieces.step]) < one.radius + own[pieces.step]
+    near = away - paths.length[pieces.step] < one.radius + own[pieces.step]
     pieces = pieces.only(near)
     if len(pieces) == 0:
         return None

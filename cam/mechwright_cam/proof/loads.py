@@ -68,7 +68,7 @@ class Taken:
         fall = np.sign(np.where(first, 0.0, way[:, 2]))
         turns = fall[:-1] != fall[1:]  # lowest and highest places of the way
         apart = np.diff(np.floor(so_far / (spacing / 2))) > 0
-        long = np.nan_to_num(paths.run.length[step]) >= spacing / 2
+        long = paths.length[step] >= spacing / 2
         keep = np.flatnonzero(first | np.append(first[1:] | turns | apart, True) | long)
         way = np.where(first[keep, None], 0.0, np.diff(point[keep], axis=0, prepend=point[keep[:1]]))
         return cls(

@@ -91,6 +91,14 @@ class Paths:
         return np.minimum(self.start[:, 2], self.end[:, 2])
 
     @cached_property
+    def length(self) -> Array:
+        """(n,) length of each step, mm; 0 where an end is unknown, and the upper end is ``FAR_ABOVE``."""
+        move = self.end - self.start
+        arc = self.run.kind == Kind.ARC
+        flat = np.where(arc, np.abs(self.run.sweep) * self.run.radius, np.hypot(*move[:, :2].T))
+        return np.nan_to_num(np.hypot(flat, move[:, 2]))
+
+    @cached_property
     def radius(self) -> Array:
         """(n,) radius of the tool in the spindle, mm; NaN for an unknown one."""
         return self.of_tool(lambda tool: tool.radius)
@@ -169,7 +177,7 @@ class Paths:
     def samples(self, steps: Ints, spacing: float) -> tuple[Array, Array, Ints]:
         """Places (k, 2) and heights (k,) along the moves, ends included, and the step (k,) of each."""
         run = self.run
-        count = np.maximum(np.ceil(np.nan_to_num(run.length[steps]) / spacing), 1).astype(np.int64) + 1
+        count = np.maximum(np.ceil(self.length[steps] / spacing), 1).astype(np.int64) + 1
         place, share = _spread(count)
         owner = steps[place]
         start, end = self.start[owner], self.end[owner]

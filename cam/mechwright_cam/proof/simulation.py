@@ -80,7 +80,7 @@ def simulate(paths: Paths, job: Job) -> Simulation:
         floors[_inside(air.shape, job, shape, cell)] = air.top
     through = floors >= -NEAR
     heights[through] = -job.thickness
-    length, idle = np.nan_to_num(run.length), 0.0
+    length, idle = paths.length, 0.0
     taken = []
     for number, mine in _runs_of_one_tool(run, steps):
         taken.append(_cut(paths, job, tools[number], mine, heights, floors, cell))
@@ -98,7 +98,7 @@ def _spacing(tool: Tool, cell: float) -> float:
 
 def _cell_for(paths: Paths, steps: Ints) -> float:
     """Cell, mm, with which a path has so many places as there may be; 0 without a path."""
-    radius, length = paths.radius[steps], np.nan_to_num(paths.run.length[steps])
+    radius, length = paths.radius[steps], paths.length[steps]
     if not steps.size:
         return 0.0
     wanted = length / np.sqrt(8 * radius)  # places are this over the root of a cell

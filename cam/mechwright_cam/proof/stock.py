@@ -1,5 +1,6 @@
 """Is there material where the tool goes now? Computed only for the few moves that need the answer."""
 
+import math
 from functools import cached_property
 from itertools import islice
 from typing import Any
@@ -11,13 +12,14 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array, first_of_each
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.controls.reading.run import Ints, SpindleChange
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import quarter
+from mechwright_cam.shop.cutter import cutter
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
@@ -36,6 +38,8 @@ ASKED, COMPARED, GROWN = 500, 20, 150
 for each of its corners."""
 MOST_WORK = 4_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
+MOST_CORNERS = 2000
+"""A shape with more corners is not worth remembering."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -44,7 +48,7 @@ class Stock:
     """The plate while the program runs."""
 
     def __init__(self, paths: Paths, job: Job) -> None:
-        self.paths = paths
+        self.paths, self.thickness = paths, job.thickness
         self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
         edge = stock_shape(job)
         around = shapely.buffer(edge, UNEVEN, join_style="mitre")
@@ -54,6 +58,8 @@ class Stock:
         self._work = self._asked = 0
         self._free: dict[tuple[Any, ...], int] = {}
         """Ways that have met nothing, and when: material does not come back."""
+        self._cleared: dict[tuple[int, float], tuple[int, Shape]] = {}
+        """By tool and height, where a question has found nothing of the plate above that height, and when."""
         self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
 
     @cached_property
@@ -164,8 +170,36 @@ class Stock:
         self._free[key] = step
         return False
 
+    def touches(self, change: SpindleChange) -> bool:
+        """Whether the tool stands less than ``UNEVEN`` off the stock that is left, where the spindle changes.
+
+        A tool of another job, or in a place that the text does not say, touches nothing.
+        """
+        x, y, z = change.place
+        tool = self.paths.tools.get(change.tool)
+        if tool is None or not math.isfinite(x + y) or not z < UNEVEN - NEAR:
+            return False
+        key = (change.tool, *change.place)
+        if key in self._free:
+            return False
+        self._asked += 1
+        tip = z - UNEVEN
+        reach = float(cutter(tool).radius_at(-tip)) + UNEVEN
+        body = shapely.intersection(grow(shapely.Point(x, y), reach, ACCURACY), self.plate)
+        step = min(change.step, len(self.paths.run) - 1)
+        if self._meets(step, max(tip, -self.thickness), body):
+            return True
+        self._free[key] = step
+        return False
+
     def _meets(self, step: int, z: float, body: Shape) -> bool:
         """Whether material is left in some of the plate, above a height, when a step begins."""
+        key = int(self.paths.run.tool[step]), z
+        since, cleared = self._cleared.get(key, (step, shapely.Point()))
+        if since > step:
+            cleared = shapely.Point()
+        self._count(step, ASKED + int(shapely.get_num_coordinates(cleared)))
+        body = shapely.difference(body, cleared)
         if body.is_empty:
             return False
         rest = self._left(step, z, body)
@@ -173,6 +207,9 @@ class Stock:
             if air.top > z + NEAR and shapely.intersects(rest, air.shape):
                 over = self._left(step, air.top, shapely.intersection(rest, air.shape))
                 rest = shapely.union(shapely.difference(rest, air.shape), over)
+        cleared = shapely.union(cleared, shapely.difference(body, rest))
+        if shapely.get_num_coordinates(cleared) < MOST_CORNERS:
+            self._cleared[key] = step, cleared
         return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
 
     def _left(self, step: int, z: float, body: Shape) -> Shape:

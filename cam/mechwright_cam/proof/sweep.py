@@ -139,7 +139,7 @@ def _settled(paths: Paths, pieces: Pieces, level: float) -> Pieces:
     """Pieces of known width at ``level``: a round cutter on a ramp counts where it is as wide as it gets."""
     nose = paths.cutter.nose[pieces.step]
     drop = np.abs(paths.start[pieces.step, 2] - paths.end[pieces.step, 2])
-    ramps = (nose > 0) & (drop > 0) & (np.nan_to_num(paths.run.length[pieces.step]) > drop + NEAR)
+    ramps = (nose > 0) & (drop > 0) & (paths.length[pieces.step] > drop + NEAR)
     if not ramps.any():
         return pieces
     parts = [pieces.only(~ramps)]

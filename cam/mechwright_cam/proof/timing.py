@@ -51,7 +51,7 @@ def stretches(run: Run) -> list[tuple[str, int, int]]:
 
 def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
     """Times by operation, see :func:`stretches`."""
-    path = np.where(run.cutting, np.nan_to_num(run.length), 0.0)
+    path = np.where(run.cutting, np.nan_to_num(run.length, posinf=0.0), 0.0)
     out = []
     for name, first, last in stretches(run):
         # After the last cut the next file may already have named its tool.

@@ -11,7 +11,7 @@ from mechwright_cam.controls.dialect import RETURN, Dialect
 from mechwright_cam.controls.reading.blocks import Block, check_points, fail
 from mechwright_cam.controls.reading.groups import GROUPS, spell
 from mechwright_cam.controls.reading.motions import Moving
-from mechwright_cam.controls.reading.run import Kind, Remark
+from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
 
 AXES_TAKEN = frozenset({100, 280, RETURN, 431})
 """G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
@@ -65,12 +65,15 @@ class Machine(Moving):
             self._check_codes(block)
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect)
-        words = block.words
+        words, before = block.words, self.state
         self._units(block)  # first, so that every length of this line is read in the units it states
         self._speeds(block, words)
         self._tool(block, words)
         if block.m:
             self._spindle_and_coolant(block)
+        if self.state.turning != before.turning:
+            place = self.x, self.y, self.z
+            self.spindle_changes.append(SpindleChange(block.line, before.tool, place, self.steps))
         if 40 in block.g:
             bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
             seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")

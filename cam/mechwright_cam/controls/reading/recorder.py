@@ -17,6 +17,7 @@ from mechwright_cam.controls.reading.run import (
     Remark,
     Run,
     Selection,
+    SpindleChange,
     State,
     TableWrite,
 )
@@ -50,6 +51,7 @@ class Recorder:
         self.machine_xy: list[int] = []
         self.writes: list[TableWrite] = []
         self.selections: list[Selection] = []
+        self.spindle_changes: list[SpindleChange] = []
         self.remarks: list[Remark] = []
 
     def _row(
@@ -172,4 +174,5 @@ class Recorder:
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),
             selected=tuple(self.selections),
+            spindle_changes=tuple(self.spindle_changes),
         )

@@ -71,6 +71,11 @@ class State:
     blend: float = 0.0
     """What of ``off_path`` is for rounding corners, mm; 0 in an exact mode."""
 
+    @property
+    def turning(self) -> int:
+        """1 or -1 while the spindle turns, as ``spindle`` has it; 0 also at a speed of 0."""
+        return self.spindle if self.rpm > 0 else 0
+
 
 COLUMNS: dict[str, int | slice] = {
     "kind": 0,
@@ -107,6 +112,20 @@ class TableWrite:
     number: int
     values: Mapping[str, float]
     incremental: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SpindleChange:
+    """Where the spindle starts, stops or turns back.
+
+    Its line, the tool and the place of its tip, mm, the number of steps before it, and the index of its file.
+    """
+
+    line: int
+    tool: int
+    place: tuple[float, float, float]
+    step: int
+    file: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +183,8 @@ class Run:
     """What the program writes into tables of the control (G10), in order."""
     selected: tuple[Selection, ...] = ()
     """The T words in order, with or without a change to the tool; one that repeats itself is left out."""
+    spindle_changes: tuple[SpindleChange, ...] = ()
+    """Where the spindle starts, stops or turns back, in order."""
     files: tuple[str, ...] = ()
     """Names of the files that were run one after the other; empty if it was one text."""
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
@@ -197,7 +218,13 @@ class Run:
     def only(self, steps: Ints) -> "Run":
         """Some of the steps, without remarks and what else counts steps."""
         names = (*COLUMNS, *(name for name in ("piece", "machine_xy", "file") if getattr(self, name).size))
-        return replace(self, **{name: getattr(self, name)[steps] for name in names}, remarks=(), writes=())
+        return replace(
+            self,
+            **{name: getattr(self, name)[steps] for name in names},
+            remarks=(),
+            writes=(),
+            spindle_changes=(),
+        )
 
     def of_states(self, value: "Callable[[State], Any]") -> NDArray[Any]:
         """(n,) a value of the state that each step runs in."""
@@ -219,6 +246,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     remarks: list[Remark] = []
     writes: list[TableWrite] = []
     selected: list[Selection] = []
+    changes: list[SpindleChange] = []
     first: list[int] = []
     step = 0
     for file, run in enumerate(runs):
@@ -227,6 +255,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
         writes += [replace(write, step=write.step + step) for write in run.writes]
         selected += [replace(selection, file=file) for selection in run.selected]
+        changes += [replace(change, step=change.step + step, file=file) for change in run.spindle_changes]
         step += len(run)
 
     return Run(
@@ -239,6 +268,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         remarks=tuple(remarks),
         writes=tuple(writes),
         selected=tuple(selected),
+        spindle_changes=tuple(changes),
         ended=all(run.ended for run in runs),
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),

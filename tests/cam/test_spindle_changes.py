@@ -1,0 +1,75 @@
+"""The spindle starts and stops where the tool stands clear of the stock."""
+
+import re
+
+import pytest
+from by_control import BY_NAME, prove
+from golden_operations import CONTROLS, made
+
+from mechwright_cam.proof import Check
+
+
+def judged(lines: list[str], operation: str, control: str) -> Check:
+    """The check of the spindle for a text of an operation's part."""
+    one = made(operation, control)[0]
+    return prove("\n".join([*lines, ""]), one.job, BY_NAME[control]).checks["spindle"]
+
+
+def lines_of(operation: str, control: str) -> list[str]:
+    return made(operation, control)[0].text.splitlines()
+
+
+def in_cut(lines: list[str]) -> int:
+    """How many lines there are before the last retract: after them the mill is on the floor."""
+    return max(k for k, line in enumerate(lines) if re.match(r"(N\d+ )?G0 Z5", line))
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("stop", [["M5", "M3"], ["S0", "S8000"], ["M5", "G4 P0.5", "M3"], ["M3", "M5", "M3"]])
+def test_a_spindle_that_stops_in_the_material_is_refused(stop: list[str], control: str) -> None:
+    if control in {"fanuc", "haas"}:
+        stop = [word.replace("P0.5", "P500") for word in stop]
+    lines = lines_of("pocket-contour", control)
+    at = in_cut(lines)
+    found = judged([*lines[:at], *stop, *lines[at:]], "pocket-contour", control)
+    line = at + 1 + stop.index("M5") if "M5" in stop else at + 1
+    wanted = rf"line {line}: the spindle starts or stops while T23 stands less than 0.2 mm off the stock"
+    assert re.match(wanted, found.message)
+    assert found.line == line
+    # Behind the retract, and said again while it turns, it does no harm.
+    assert judged([*lines[: at + 1], *stop, *lines[at + 1 :]], "pocket-contour", control).passed
+    assert judged([*lines[:at], "M3", *lines[at:]], "pocket-contour", control).passed
+
+
+@pytest.mark.parametrize(
+    ("way", "passed"),
+    [
+        ("G0 Z5\nX0 Y0\nG1 Z-1.5 F500", True),  # above the floor of the recess, in its middle
+        ("G0 Z5\nX0 Y0\nG1 Z-1.9 F500", False),  # too near to its floor
+        ("G0 Z5\nX9.9 Y0\nG1 Z-1.5 F500", False),  # too near to its wall
+        ("G0 Z5\nX17 Y0\nG1 Z0.25 F500", True),  # over the stock
+        ("G0 Z5\nX17 Y0\nG1 Z0.15 F500", False),
+        ("G0 Z5\nX25 Y0\nG1 Z-1 F500", True),  # beside the plate
+        ("G0 Z5\nX24.1 Y0\nG1 Z-1 F500", False),
+    ],
+)
+def test_a_tool_that_stands_clear_may_be_stopped(way: str, passed: bool) -> None:
+    lines = lines_of("pocket-contour", "linuxcnc")
+    at = in_cut(lines)
+    found = judged([*lines[:at], *way.split("\n"), "M5", "M3", *lines[at:]], "pocket-contour", "linuxcnc")
+    assert found.passed is passed, found.message
+
+
+def test_a_spindle_that_starts_in_the_material_is_refused() -> None:
+    """Told at the stop; without a stop before it, where the tool has gone down with the spindle at rest."""
+    lines = lines_of("pocket-contour", "linuxcnc")
+    start = next(k for k, line in enumerate(lines) if line.endswith("M3"))
+    down = next(k for k, line in enumerate(lines) if line.startswith("G1 Z0"))
+    late = [*lines[:start], lines[start].removesuffix(" M3"), *lines[start + 1 : down + 1], "M3"]
+    found = judged([*late, *lines[down + 1 :]], "pocket-contour", "linuxcnc")
+    assert found.line == down + 2
+
+
+def test_a_text_that_breaks_off_there_is_no_error() -> None:
+    lines = lines_of("pocket-contour", "linuxcnc")
+    assert not judged([*lines[: in_cut(lines)], "M5"], "pocket-contour", "linuxcnc").passed
