@@ -4,12 +4,14 @@ import math
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.mounting import GroundPlate
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.drive import SAMPLES, drive_of
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around, refusal
+from mechwright.machine.frame.grounded import base_under
 from mechwright.machine.frame.sweep import LOOKS
 from mechwright.machine.motors import motor_of
 from mechwright.machine.settings import MachineSettings
@@ -43,7 +45,10 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         settings.margin * drive.rms,
         drive.speed * 60 / math.tau,
     )
-    return frame_around(settings, mounting, parts, family.solve(params, LOOKS), wanted)
+    motion = family.solve(params, LOOKS)
+    if isinstance(mounting, GroundPlate):
+        return base_under(settings, mounting, parts, motion, wanted)
+    return frame_around(settings, mounting, parts, motion, wanted)
 
 
 def _refused(code: str, error: DesignError) -> Surroundings:
