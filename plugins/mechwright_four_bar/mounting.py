@@ -29,4 +29,5 @@ def mounting_of(params: FourBarParams) -> GroundPlate:
         "parameters.screw_offset",
         "parameters.screw_hole",
         "parameters.pin_diameter",
+        "parameters.ground_thickness",
     )

@@ -107,6 +107,7 @@ def test_no_plate_meets_another(tmp_path):
         ({}, {"screw_offset": None}, "frame.ground-offset", {"parameters.screw_offset": 83}),
         ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
+        ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),

@@ -153,8 +153,8 @@ class GroundPlate:
         Of the shaft, and the height of its lower end, mm.
     offset_key
         The design-file key of the distance of all four holes from y = 0.
-    hole_key, diameter_key
-        Those of ``hole`` and ``diameter``.
+    hole_key, diameter_key, thickness_key
+        Those of ``hole`` and ``diameter``, and of the plate's thickness.
 
     Raises
     ------
@@ -174,6 +174,7 @@ class GroundPlate:
     offset_key: str
     hole_key: str
     diameter_key: str
+    thickness_key: str
 
     def __post_init__(self) -> None:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]

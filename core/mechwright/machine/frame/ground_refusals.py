@@ -19,7 +19,7 @@ from mechwright.machine.frame.pillars import PILLAR, SCREW
 from mechwright.machine.frame.standing import CLEARANCE
 from mechwright.machine.frame.sweep import Space
 from mechwright.standards.couplings import BORES, Coupling, coupling_for
-from mechwright.standards.screws import screw_size
+from mechwright.standards.screws import lengths, screw_size
 
 WITHOUT = ("bearing", "plate_thickness", "cover")
 """Keys of bearing plates, of which there are none here."""
@@ -89,6 +89,12 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
                 "frame.ground-holes", ground.hole_key, said, ground.hole, HOLE, f"make it {HOLE:g}", (change,)
             )
         )
+    thick, most = ground.high - ground.low, lengths(SCREW, "cap")[-1] - SCREW
+    if thick > most:
+        key = ground.thickness_key
+        said = f"no screw M{SCREW:g} is long enough for a ground plate of {thick:g} mm: {most:g} mm at most"
+        remedy = f"make it {most:g}"
+        found.append(_fault("frame.ground-thickness", key, said, thick, most, remedy, ({key: most},)))
     return found
 
 
