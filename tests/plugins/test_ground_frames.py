@@ -130,6 +130,22 @@ def test_the_offset_that_is_advised_is_the_least_that_works():
 
 
 @by_night
+def test_heads_are_clear_in_the_other_phases_too():
+    """A coupler that comes near the heads goes farther out in phase 2, and phase 1 asks for as much."""
+    asked = {}
+    for phases in (0, 1):
+        for phase in range(1, 2 + phases):
+            table = content({"motor": "none", "axial_gap": 4}, coupler_point_x=40, coupler_point_y=70)
+            del table["parameters"]["screw_offset"]
+            if phases:
+                table["parameters"] |= {"setting_angle": 70, "phases": [{"crank_turn": -40}], "phase": phase}
+            found = design_of(table, Path("phases.toml"), "", host())
+            (fault,) = errors(found.surroundings[0].findings)
+            asked[phases, phase] = fault.limit
+    assert asked[1, 1] == asked[1, 2] > asked[0, 1]
+
+
+@by_night
 def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(tmp_path):
     import cadquery as cq
 

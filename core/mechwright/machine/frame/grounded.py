@@ -11,7 +11,6 @@ from dataclasses import replace
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import GroundPlate
-from mechwright.contracts.part import Part
 from mechwright.contracts.surroundings import Place, Surroundings
 from mechwright.contracts.turned import TAP_RUN
 from mechwright.errors import DesignError
@@ -42,20 +41,23 @@ from mechwright.machine.frame.pillars import (
 )
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
-from mechwright.machine.frame.sweep import space_of
+from mechwright.machine.frame.sweep import Space
 from mechwright.standards.screws import screw_size
 
 
 def base_under(
-    keys: FrameKeys, ground: GroundPlate, parts: Sequence[Part], motion: Motion, wanted: Wanted
+    keys: FrameKeys, ground: GroundPlate, space: Space, motion: Motion, wanted: Wanted
 ) -> Surroundings:
-    """Base, legs and motor under a ground plate; no parts where a finding is an error."""
+    """Base, legs and motor under a ground plate; no parts where a finding is an error.
+
+    ``space``: what the mechanism takes in all its settings.
+    """
     faults = key_faults(keys, ground)
     if faults:
         return Surroundings(findings=tuple(faults))
     try:
         coupling = coupling_on(ground, wanted)
-        angle = foot_of(keys, ground, space_of(parts, motion), motion, wanted, coupling)
+        angle = foot_of(keys, ground, space, motion, wanted, coupling)
         coupled = None
         if wanted.motor is not None and coupling is not None:
             low = ground.end - coupling.of.length / 2
