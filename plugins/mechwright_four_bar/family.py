@@ -9,7 +9,17 @@ from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        GroundPlate,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class FourBars(Family[FourBarParams]):
@@ -50,6 +60,13 @@ class FourBars(Family[FourBarParams]):
 
         refuse(self.check(params))
         return parts_of(in_phase(params))
+
+    def mounting(self, params: FourBarParams) -> "GroundPlate":
+        """Its one ground plate with the crank's shaft."""
+        from mechwright_four_bar.mounting import mounting_of
+        from mechwright_four_bar.phases import in_phase
+
+        return mounting_of(in_phase(params))
 
     def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
         """The other phases that the pivots of the coupler are set to."""

@@ -47,15 +47,20 @@ class Layout:
         Plate to its outline in its body's frame: origin in its first joint, x to its second.
     stack
         The layers.
-    posts
-        Axes of the posts between two ground plates, x + i y in the ground's frame, mm; none with one plate.
+    screws, hole
+        Axes of the holes in the ground plates' corners, x + i y in the ground's frame, and their diameter,
+        mm.
+    sides
+        On how many sides of the links a ground plate stands.
     raised
         By how much plates stand over their layers' undersides, mm.
     """
 
     outlines: Mapping[str, Outline]
     stack: Stack
-    posts: tuple[complex, ...] = ()
+    screws: tuple[complex, ...]
+    hole: float
+    sides: int
     raised: Mapping[str, float] = field(default_factory=dict)
 
     def bottom(self, plate: str) -> float:
@@ -63,9 +68,9 @@ class Layout:
         return self.stack.bottom(plate) + self.raised.get(plate, 0.0)
 
     @property
-    def sides(self) -> int:
-        """On how many sides of the links a ground plate stands."""
-        return 2 if self.posts else 1
+    def posts(self) -> tuple[complex, ...]:
+        """Axes of the posts between two ground plates; none with one plate."""
+        return self.screws if self.sides == 2 else ()
 
 
 def laid_out(params: FourBarParams, phases: Sequence[Mapping[str, Poses]], sides: int) -> Layout:
@@ -93,23 +98,26 @@ def laid_out(params: FourBarParams, phases: Sequence[Mapping[str, Poses]], sides
     plates = [
         Plate(name, name, outline, params.thickness + up.get(name, 0.0)) for name, outline in outlines.items()
     ]
-    low, high = _corners(params, own)
+    corner, hole = _corner(params), params.pin_diameter
+    if sides == 1 and params.screw_hole is not None:
+        hole = params.screw_hole
+        corner = hole / 2 + params.rim
+    low, high = _corners(params, own, corner)
     if sides == 2:
         bounds = [Closeness(plates, (), one, params.clearance).swept(MOVING) for one in phases]
         y0, y1 = min(one[1] for one in bounds), max(one[3] for one in bounds)
         # The posts stand on whole millimetres outside of it.
-        corner = _corner(params)
         low = complex(low.real, math.floor(min(y0 - corner, low.imag + corner)) - corner)
         high = complex(high.real, math.ceil(max(y1 + corner, high.imag - corner)) + corner)
-    screws = _screws(params, low, high)
-    holes = [Boss(at, _corner(params), params.pin_diameter, "screw") for at in screws]
+    screws = _screws(corner, low, high)
+    holes = [Boss(at, corner, hole, "screw") for at in screws]
     bodies = ("ground", "ground-2")[:sides]
     for name in bodies:
-        outlines[name] = rectangle(low, high, _corner(params), (*own[name], *holes))
+        outlines[name] = rectangle(low, high, corner, (*own[name], *holes))
         layers = (0,) if name == "ground" else ()
         plates.append(Plate(name, "ground", outlines[name], params.ground_thickness, layers))
     posts = screws if sides == 2 else ()
-    return Layout(outlines, _dealt(params, plates, posts, phases), posts, up)
+    return Layout(outlines, _dealt(params, plates, posts, phases), screws, hole, sides, up)
 
 
 def _dealt(
@@ -196,16 +204,16 @@ def _corner(params: FourBarParams) -> float:
     return params.pin_diameter / 2 + params.rim
 
 
-def _corners(params: FourBarParams, own: Mapping[str, tuple[Boss, ...]]) -> tuple[complex, complex]:
-    """A plate under both pivots, with a bore for a screw of the pins' diameter in each corner."""
-    corner = _corner(params)
+def _corners(
+    params: FourBarParams, own: Mapping[str, tuple[Boss, ...]], corner: float
+) -> tuple[complex, complex]:
+    """A plate under both pivots, with a hole for a screw in each corner, whose radius is ``corner``, mm."""
     reach = max(boss.radius for boss in own["ground"])
-    low = complex(-reach - 2 * corner, -reach - corner)
+    low = complex(-reach - 2 * corner, -max(reach, params.screw_offset or 0.0) - corner)
     return low, complex(params.ground, 0) - low
 
 
-def _screws(params: FourBarParams, low: complex, high: complex) -> tuple[complex, ...]:
-    corner = _corner(params)
+def _screws(corner: float, low: complex, high: complex) -> tuple[complex, ...]:
     return tuple(
         complex(x, y)
         for x in (low.real + corner, high.real - corner)

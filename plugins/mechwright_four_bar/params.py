@@ -135,6 +135,16 @@ class FourBarParams(Parameters):
         "auto",
         description="Ground plates: one below the links, two with the links between, or one where that goes.",
     )
+    screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None,
+        description="Diameter of the holes in the corners of one ground plate; left out, that of the pins. "
+        "Between two ground plates the bolts of their posts go through.",
+    )
+    screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
+        None,
+        description="Least distance of the holes in the ground plate's corners from the line A0-B0; left "
+        "out, as near as the bores leave room.",
+    )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     @model_validator(mode="after")

@@ -88,7 +88,8 @@ def test_a_design_without_a_frame_is_as_its_family_gives_it():
 @pytest.mark.parametrize(
     ("name", "parameters", "code", "words"),
     [
-        ("crank-rocker-three-poles", {}, "frame.mounting", "the family four-bar does not say where"),
+        ("crank-rocker-three-poles", {}, "frame.own-ground", "no bearing plates go around it"),
+        ("double-crank", {}, "frame.mounting", "the links stand between two ground plates"),
         ("slider-crank-quick-return", {}, "frame.mounting", "the family slider-crank does not say where"),
         ("spherical-crank-rocker", {}, "frame.mounting", "the family spherical"),
         ("figure-eight-train", {}, "frame.mounting", "a train stands on its own base plate"),

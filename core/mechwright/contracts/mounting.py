@@ -128,3 +128,57 @@ class Mounting:
     def others(self, spindle: Spindle) -> Sequence[Spindle]:
         """All but one."""
         return [one for one in self.spindles if one is not spindle]
+
+
+@dataclass(frozen=True)
+class GroundPlate:
+    """What a family says of a ground plate of its own, whose input's shaft stands out below.
+
+    Parameters
+    ----------
+    body
+        Of the motion, which does not move; what follows is in its frame.
+    low, high
+        Heights of the plate's faces, mm.
+    holes
+        Where screws go through: corners of a rectangle, as far above y = 0 as below, counter-clockwise from
+        (least x, least y), mm.
+    hole
+        Their diameter, mm.
+    shaft
+        The body that turns with the input; its origin is on the axis.
+    axis
+        Where it stands, mm.
+    diameter, end
+        Of the shaft, and the height of its lower end, mm.
+    offset_key
+        The design-file key of the distance of all four holes from y = 0.
+    hole_key, diameter_key, thickness_key
+        Those of ``hole`` and ``diameter``, and of the plate's thickness.
+
+    Raises
+    ------
+    GeometryError
+        The holes are no such rectangle, or the shaft ends in the plate.
+    """
+
+    body: str
+    low: float
+    high: float
+    holes: tuple[Point, Point, Point, Point]
+    hole: float
+    shaft: str
+    axis: Point
+    diameter: float
+    end: float
+    offset_key: str
+    hole_key: str
+    diameter_key: str
+    thickness_key: str
+
+    def __post_init__(self) -> None:
+        (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
+        if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 == -y1 < 0):
+            raise GeometryError("the holes of a ground plate are the corners of no rectangle about y = 0")
+        if not self.end < self.low < self.high:
+            raise GeometryError("the shaft of a ground plate does not stand out below it")

@@ -1,16 +1,19 @@
 """The frame of a design: what its family says of its shafts, and what its drive asks of them."""
 
 import math
+from contextlib import suppress
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.mounting import GroundPlate
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.drive import SAMPLES, drive_of
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around, refusal
-from mechwright.machine.frame.sweep import LOOKS
+from mechwright.machine.frame.grounded import base_under
+from mechwright.machine.frame.sweep import LOOKS, Space, space_of
 from mechwright.machine.motors import motor_of
 from mechwright.machine.settings import MachineSettings
 
@@ -43,7 +46,24 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         settings.margin * drive.rms,
         drive.speed * 60 / math.tau,
     )
-    return frame_around(settings, mounting, parts, family.solve(params, LOOKS), wanted)
+    motion = family.solve(params, LOOKS)
+    if isinstance(mounting, GroundPlate):
+        try:
+            space = _set_space(family, params)
+        except DesignError as error:
+            return Surroundings(findings=(refusal("frame.design", "machine.frame", str(error)),))
+        return base_under(settings, mounting, space, motion, wanted)
+    return frame_around(settings, mounting, parts, motion, wanted)
+
+
+def _set_space(family: Family[Any], params: Parameters) -> Space:
+    """What the mechanism takes as it is set and in those of its other settings that go."""
+    pieces = [*space_of(family.parts(params), family.solve(params, LOOKS)).pieces]
+    for other in family.settings(params).values():
+        # The findings of a setting that does not go are its own.
+        with suppress(DesignError):
+            pieces += space_of(family.parts(other), family.solve(other, LOOKS)).pieces
+    return Space(tuple(pieces))
 
 
 def _refused(code: str, error: DesignError) -> Surroundings:

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.mounting import Mounting
+from mechwright.contracts.mounting import GroundPlate, Mounting
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
@@ -49,9 +49,11 @@ class FrameTests:
         assert not refusal or _REFUSAL.fullmatch(refusal), f"{refusal!r} names no key, or no cure"
         if mounting is None:
             pytest.skip("the family does not say where its shafts stand")
-        found = [
-            *mounting_faults(mounting, self.family().parts(params), self.family().solve(params, _SAMPLES))
-        ]
+        parts, motion = self.family().parts(params), self.family().solve(params, _SAMPLES)
+        if isinstance(mounting, GroundPlate):
+            found = [*ground_faults(mounting, parts, motion)]
+        else:
+            found = [*mounting_faults(mounting, parts, motion)]
         assert not found, "; ".join(found)
 
     def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
@@ -97,6 +99,39 @@ def mounting_faults(mounting: Mounting, parts: Sequence[Part], motion: Motion) -
         low, high = min((a for a, _ in here), default=math.inf), max((b for _, b in here), default=-math.inf)
         if one.hub.low < low - TOLERANCES.closure or one.hub.high > high + TOLERANCES.closure:
             yield f"spindle {one.name}: its hub from {one.hub.low:g} to {one.hub.high:g} mm is no part of it"
+
+
+def ground_faults(ground: GroundPlate, parts: Sequence[Part], motion: Motion) -> Iterator[str]:
+    """A plate that moves or lacks a hole, or a shaft that does not end or turn where it is said."""
+    if ground.body not in motion.poses or ground.shaft not in motion.poses:
+        yield f"the motion has no body {ground.body!r} or none {ground.shaft!r}"
+        return
+    plate, shaft = motion.poses[ground.body], motion.poses[ground.shaft]
+    if max(np.ptp(plate.position, axis=0).max(), np.ptp(plate.rotation, axis=0).max()) > TOLERANCES.closure:
+        yield f"body {ground.body!r} moves"
+    axis = plate.transform(np.array([[*ground.axis, 0.0]]))[:, 0]
+    off = float(np.abs(shaft.position - axis)[:, :2].max())
+    if off > TOLERANCES.closure:
+        yield f"body {ground.shaft!r} turns {off:g} mm off the axis"
+    plates = [
+        part.outline
+        for part in parts
+        for at in part.instances
+        if at.body == ground.body
+        and part.outline is not None
+        and abs(at.z - ground.low) + abs(at.z + part.thickness - ground.high) < TOLERANCES.closure
+    ]
+    for x, y in ground.holes:
+        if not any(
+            math.dist(((a + c) / 2, (b + d) / 2), (x, y)) <= TOLERANCES.flatten
+            and abs(c - a - ground.hole) <= 2 * TOLERANCES.flatten
+            for one in plates
+            for a, b, c, d in (loop.bounds for loop in one.inner)
+        ):
+            yield f"the ground plate has no hole of {ground.hole:g} mm in ({x:g}, {y:g})"
+    ends = [at.z for part in parts for at in part.instances if at.body == ground.shaft and part.turned]
+    if not any(abs(z - ground.end) < TOLERANCES.closure for z in ends):
+        yield f"no shaft of body {ground.shaft!r} ends at {ground.end:g} mm"
 
 
 def frame_faults(family: Family[Any], params: Parameters, kind: str) -> Iterator[str]:

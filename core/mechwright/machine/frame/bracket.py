@@ -6,93 +6,51 @@ motor has two bearings of its own.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import shapely
 
-from mechwright.contracts.bought import Bought
-from mechwright.contracts.holes import threaded
-from mechwright.contracts.shape import Revolve, Shape, ring
 from mechwright.contracts.surroundings import OVER, Place, turned
 from mechwright.contracts.turned import EndThread, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
+from mechwright.machine.frame.coupled import (
+    BESIDE,
+    GAP,
+    PLATE,
+    TURNS,
+    Coupled,
+    Motor,
+    add_motor,
+    face_below,
+    fasten_motor,
+    motor_holes,
+)
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import EDGE, PILLAR, PITCH, SCREW, SPARE, put_screw
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Disc, Standing
 from mechwright.standards.couplings import BORES, Coupling, coupling_for
-from mechwright.standards.motors import GearMotor, MotorFace, Stepper
 from mechwright.standards.screws import screw, screw_size
-
-Motor = Stepper | GearMotor
-
-PLATE = 6.0
-"""Thickness of the plate that carries the motor, mm: thin, for the motor's shaft goes through it."""
-
-GAP = 1.0
-"""Between coupling and bearing plate, and over the heads of the motor's screws, mm."""
-
-FLANGE = 5.0
-"""Thickness of a flange with through holes, mm: NEMA 23 motors have 4.8 to 5."""
-
-PILOT = 0.2
-"""By how much the plate's hole is larger than the motor's pilot, mm: the coupling takes what it is off."""
-
-REACH, GRIP = 4.0, 3.0
-"""How deep screws go into a motor with threaded holes, mm, at most, for they are 4.5 deep; and at least."""
-
-BESIDE = 2.0
-"""Between a pillar and what is beside it, mm."""
-
-TURNS = tuple(math.radians(angle) for angle in (0, 15, 30, 45, 60, 75))
-"""Attitudes of the bracket that are tried, rad: a quarter turn brings the square of pillars back."""
 
 WIDER = 40
 """Its square of pillars is tried up to so much wider than it need be, mm."""
 
 
 @dataclass(frozen=True)
-class Bracket:
-    """The motor, its coupling, and where everything stands.
+class Bracket(Coupled):
+    """With the plate that carries it on pillars of its own.
 
     Parameters
     ----------
-    axis
-        Of the input, mm.
-    angle
-        By which the motor is turned, rad.
     half
         Half the side of the square of its pillars, mm.
     stub
         Diameter and length, mm, of the shaft below the lower bearing.
-    coupling_low, face
-        Heights of the coupling's lower end and of the motor's face, mm.
     """
 
-    motor: Motor
-    coupling: Coupling
-    axis: Point
-    angle: float
     half: float
     stub: tuple[float, float]
-    coupling_low: float
-    face: float
-
-    @property
-    def top(self) -> float:
-        """Upper face of the motor's plate, mm."""
-        return self.face + PLATE
-
-    @property
-    def low(self) -> float:
-        """Lower end of the motor, mm."""
-        return self.face - self.motor.length
-
-    def at(self, place: Point) -> Point:
-        """A place of the motor's plate in the ground, mm."""
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        return self.axis[0] + c * place[0] - s * place[1], self.axis[1] + s * place[0] + c * place[1]
 
     @property
     def corners(self) -> list[Point]:
@@ -154,7 +112,6 @@ def bracket_for(
     diameter, coupling = stub_for(bore, face.shaft, torque)
     long, size = coupling.of.length, screw_size(SCREW)
     low = under - GAP - long
-    inserted = min(long / 2, face.shaft_length - PLATE - screw_head(face) - GAP / 2)
     stub = (diameter, (inner - width) - (low + long / 2))
     least = max(face.spread / 2, coupling.of.outside / 2) + (PILLAR + size.head) / 2 + BESIDE
     head = size.counterbore / 2 + BESIDE
@@ -165,10 +122,10 @@ def bracket_for(
                 coupling,
                 axis,
                 angle,
+                low,
+                face_below(face, low, long),
                 round(least) + wider,
                 stub,
-                low,
-                low + inserted - face.shaft_length,
             )
             clear = all(
                 math.dist(corner, one.point) >= one.radius + head
@@ -192,62 +149,21 @@ def pillar_holes(bracket: Bracket, thickness: float) -> list[Hole]:
     ]
 
 
-def screw_head(face: MotorFace) -> float:
-    """Height of the motor's screws over its plate, mm."""
-    return screw_size(face.thread).head_height if face.thread else 0.0
-
-
-def screw_places(face: MotorFace) -> list[Point]:
-    """Where a motor's screws stand, from its shaft, mm."""
-    x, half = -face.offset, face.spread / 2
-    if not face.round:
-        return [(a, b) for a in (-half, half) for b in (-half, half)]
-    # The shaft stands off the middle towards the gap between two screws.
-    turns = (math.tau * (k + 0.5) / face.holes for k in range(face.holes))
-    return [(x + half * math.cos(turn), half * math.sin(turn)) for turn in turns]
-
-
-def drilled(motor: Motor) -> Bought:
-    """The motor with the holes of its screws; behind a flange with through holes their heads have room."""
-    face, bought = motor.face, motor.bought
-    assert bought.shape is not None  # noqa: S101 - the table's motors have one
-    if face.thread:
-        holes = [ring(0.0, face.thread, REACH + SPARE, -REACH - SPARE)]
-    else:
-        head = screw_size(SCREW).head + 1.0
-        holes = [
-            ring(0.0, face.hole, FLANGE, -FLANGE),
-            ring(0.0, head, motor.length - FLANGE, -motor.length),
-        ]
-    less = [Revolve(hole.profile, place) for place in screw_places(face) for hole in holes]
-    return replace(bought, shape=Shape(bought.shape.pieces, (*bought.shape.less, *less)))
-
-
 def add_bracket(kit: Kit, bracket: Bracket, body: str, levels: tuple[float, float], material: str) -> None:
     """Motor, coupling, plate, pillars and screws; ``body`` of the motion turns with the input."""
-    face, axis = bracket.motor.face, bracket.axis
-    kit.places["motor"] = Place((*axis, 0.0), turned(bracket.angle))
-    kit.places["motor-carrier"] = Place((*axis, 0.0), turned(bracket.angle))
-    kit.places["motor-shaft"] = Place(on=body)
-    kit.bought("motor", drilled(bracket.motor), "motor", bracket.face)
-    kit.bought("coupling", bracket.coupling.bought, "motor-shaft", bracket.coupling_low)
+    add_motor(kit, bracket, body)
+    kit.places["motor-carrier"] = Place((*bracket.axis, 0.0), turned(bracket.angle))
     half, size = bracket.half, screw_size(SCREW)
     corners = ((-half, -half), (half, -half), (half, half), (-half, half))
-    hole = screw_size(face.thread).clearance() if face.thread else SCREW
-    holes = [
-        Hole.through("pilot", (0.0, 0.0), face.pilot + PILOT, PLATE),
-        *(Hole.through(f"pillar-{k}", p, size.clearance(), PLATE) for k, p in enumerate(corners, start=1)),
-        *(Hole.through(f"screw-{k}", p, hole, PLATE) for k, p in enumerate(screw_places(face), start=1)),
+    pilot, *screws = motor_holes(bracket.motor.face)
+    pillars = [
+        Hole.through(f"pillar-{k}", p, size.clearance(), PLATE) for k, p in enumerate(corners, start=1)
     ]
+    holes = [pilot, *pillars, *screws]
     standing = Standing(-half, -half, half, half)
     add_plate(kit, "motor-plate", standing, EDGE, PLATE, material, holes, "motor-carrier", bracket.face)
-    if not face.thread:
-        plate = kit.parts["motor-plate"]
-        for k in range(1, len(screw_places(face)) + 1):
-            plate = threaded(plate, f"screw-{k}", f"M{SCREW:g}")
-        kit.parts["motor-plate"] = plate
     _add_pillars(kit, bracket, levels)
-    _add_motor_screws(kit, bracket)
+    fasten_motor(kit, bracket)
 
 
 def _add_pillars(kit: Kit, bracket: Bracket, levels: tuple[float, float]) -> None:
@@ -268,17 +184,3 @@ def _add_pillars(kit: Kit, bracket: Bracket, levels: tuple[float, float]) -> Non
         kit.turned("motor-pillar", form, body, bracket.top)
         put_screw(kit, above, body, seat)
         put_screw(kit, below, f"{body}-below", -bracket.face)
-
-
-def _add_motor_screws(kit: Kit, bracket: Bracket) -> None:
-    """From above into the motor's threads, or from behind its flange into the plate's."""
-    face = bracket.motor.face
-    for k, place in enumerate(screw_places(face), start=1):
-        body = f"motor-screw-{k}"
-        origin = (*bracket.at(place), 0.0)
-        if face.thread:
-            kit.places[body] = Place(origin)
-            put_screw(kit, screw(face.thread, PLATE + GRIP), body, bracket.top)
-        else:
-            kit.places[body] = Place(origin, OVER)
-            put_screw(kit, screw(SCREW, FLANGE + PLATE - 1.0), body, FLANGE - bracket.face)

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from mechwright.machine.frame.bracket import Bracket, Motor
+from mechwright.machine.frame.bracket import Bracket
+from mechwright.machine.frame.coupled import Motor
 from mechwright.machine.frame.seats import Seat
 from mechwright.machine.frame.shafts import Levels
 from mechwright.machine.frame.standing import Standing

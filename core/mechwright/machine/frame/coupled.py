@@ -1,0 +1,155 @@
+"""A motor in the axis of the input with its coupling, its screws, and the holes that a plate needs for it."""
+
+import math
+from dataclasses import dataclass, replace
+
+import shapely
+from shapely import affinity
+
+from mechwright.contracts.bought import Bought
+from mechwright.contracts.holes import threaded
+from mechwright.contracts.shape import Revolve, Shape, ring
+from mechwright.contracts.surroundings import OVER, Place, turned
+from mechwright.geometry.segments import Point
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import SCREW, SPARE, put_screw
+from mechwright.machine.frame.plates import Hole
+from mechwright.standards.couplings import Coupling
+from mechwright.standards.motors import GearMotor, MotorFace, Stepper
+from mechwright.standards.screws import screw, screw_size
+
+Motor = Stepper | GearMotor
+
+PLATE = 6.0
+"""Thickness of the plate that carries the motor, mm: thin, for the motor's shaft goes through it."""
+
+GAP = 1.0
+"""Between coupling and bearing plate, and over the heads of the motor's screws, mm."""
+
+FLANGE = 5.0
+"""Thickness of a flange with through holes, mm: NEMA 23 motors have 4.8 to 5."""
+
+PILOT = 0.2
+"""By how much the plate's hole is larger than the motor's pilot, mm: the coupling takes what it is off."""
+
+REACH, GRIP = 4.0, 3.0
+"""How deep screws go into a motor with threaded holes, mm, at most, for they are 4.5 deep; and at least."""
+
+BESIDE = 2.0
+"""Between a pillar and what is beside it, mm."""
+
+TURNS = tuple(math.radians(angle) for angle in (0, 15, 30, 45, 60, 75))
+"""Attitudes of the bracket that are tried, rad: a quarter turn brings the square of pillars back."""
+
+
+@dataclass(frozen=True)
+class Coupled:
+    """The motor and its coupling, and where they stand.
+
+    Parameters
+    ----------
+    axis
+        Of the input, mm.
+    angle
+        By which the motor is turned, rad.
+    coupling_low, face
+        Heights of the coupling's lower end and of the motor's face, mm.
+    """
+
+    motor: Motor
+    coupling: Coupling
+    axis: Point
+    angle: float
+    coupling_low: float
+    face: float
+
+    @property
+    def top(self) -> float:
+        """Upper face of the motor's plate, mm."""
+        return self.face + PLATE
+
+    @property
+    def low(self) -> float:
+        """Lower end of the motor, mm."""
+        return self.face - self.motor.length
+
+    def at(self, place: Point) -> Point:
+        """A place of the motor's plate in the ground, mm."""
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        return self.axis[0] + c * place[0] - s * place[1], self.axis[1] + s * place[0] + c * place[1]
+
+
+def face_below(face: MotorFace, low: float, long: float) -> float:
+    """Height of a motor's face, mm, under a coupling of a length whose lower end is at ``low``."""
+    inserted = min(long / 2, face.shaft_length - PLATE - screw_head(face) - GAP / 2)
+    return low + inserted - face.shaft_length
+
+
+def outline(face: MotorFace, axis: Point, angle: float) -> shapely.Geometry:
+    """What a motor takes, seen from above, its shaft in ``axis`` and turned by an angle, rad."""
+    x, half = -face.offset, face.across / 2
+    plan = shapely.Point(x, 0.0).buffer(half) if face.round else shapely.box(x - half, -half, x + half, half)
+    return affinity.translate(affinity.rotate(plan, angle, (0, 0), use_radians=True), *axis)
+
+
+def screw_head(face: MotorFace) -> float:
+    """Height of the motor's screws over its plate, mm."""
+    return screw_size(face.thread).head_height if face.thread else 0.0
+
+
+def screw_places(face: MotorFace) -> list[Point]:
+    """Where a motor's screws stand, from its shaft, mm."""
+    x, half = -face.offset, face.spread / 2
+    if not face.round:
+        return [(a, b) for a in (-half, half) for b in (-half, half)]
+    # The shaft stands off the middle towards the gap between two screws.
+    turns = (math.tau * (k + 0.5) / face.holes for k in range(face.holes))
+    return [(x + half * math.cos(turn), half * math.sin(turn)) for turn in turns]
+
+
+def drilled(motor: Motor) -> Bought:
+    """The motor with the holes of its screws; behind a flange with through holes their heads have room."""
+    face, bought = motor.face, motor.bought
+    assert bought.shape is not None  # noqa: S101 - the table's motors have one
+    if face.thread:
+        holes = [ring(0.0, face.thread, REACH + SPARE, -REACH - SPARE)]
+    else:
+        head = screw_size(SCREW).head + 1.0
+        holes = [
+            ring(0.0, face.hole, FLANGE, -FLANGE),
+            ring(0.0, head, motor.length - FLANGE, -motor.length),
+        ]
+    less = [Revolve(hole.profile, place) for place in screw_places(face) for hole in holes]
+    return replace(bought, shape=Shape(bought.shape.pieces, (*bought.shape.less, *less)))
+
+
+def motor_holes(face: MotorFace) -> list[Hole]:
+    """Of the plate that carries a motor, from the motor's shaft: pilot and screws."""
+    hole = screw_size(face.thread).clearance() if face.thread else SCREW
+    return [
+        Hole.through("pilot", (0.0, 0.0), face.pilot + PILOT, PLATE),
+        *(Hole.through(f"screw-{k}", p, hole, PLATE) for k, p in enumerate(screw_places(face), start=1)),
+    ]
+
+
+def add_motor(kit: Kit, coupled: Coupled, body: str) -> None:
+    """Motor and coupling; ``body`` of the motion turns with the input."""
+    kit.places["motor"] = Place((*coupled.axis, 0.0), turned(coupled.angle))
+    kit.places["motor-shaft"] = Place(on=body)
+    kit.bought("motor", drilled(coupled.motor), "motor", coupled.face)
+    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low)
+
+
+def fasten_motor(kit: Kit, coupled: Coupled) -> None:
+    """To the part ``motor-plate``: from above into the motor's threads, or from below into the plate's."""
+    face = coupled.motor.face
+    for k, place in enumerate(screw_places(face), start=1):
+        body = f"motor-screw-{k}"
+        origin = (*coupled.at(place), 0.0)
+        if face.thread:
+            kit.places[body] = Place(origin)
+            put_screw(kit, screw(face.thread, PLATE + GRIP), body, coupled.top)
+        else:
+            kit.parts["motor-plate"] = threaded(kit.parts["motor-plate"], f"screw-{k}", f"M{SCREW:g}")
+            kit.places[body] = Place(origin, OVER)
+            put_screw(kit, screw(SCREW, FLANGE + PLATE - 1.0), body, FLANGE - coupled.face)

@@ -1,0 +1,140 @@
+"""A base under a mechanism with a ground plate of its own.
+
+From above: the ground plate, pillars under its four holes, the plate with the motor, legs, and the base plate
+on its feet. Without a motor the legs go up to the ground plate. All of it stands in the ground plate's frame.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.mounting import GroundPlate
+from mechwright.contracts.surroundings import Place, Surroundings
+from mechwright.contracts.turned import TAP_RUN
+from mechwright.errors import DesignError
+from mechwright.machine.frame.base import UNDER, add_base, leg_screw, thickness_for
+from mechwright.machine.frame.coupled import (
+    PLATE,
+    Coupled,
+    add_motor,
+    face_below,
+    fasten_motor,
+    motor_holes,
+    outline,
+)
+from mechwright.machine.frame.decided import Wanted
+from mechwright.machine.frame.ground_refusals import coupling_on, foot_of, key_faults, refusal
+from mechwright.machine.frame.keys import FrameKeys
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import (
+    EDGE,
+    PITCH,
+    SPARE,
+    Column,
+    cap_screw,
+    columns,
+    pillar,
+    put_screw,
+    stud,
+)
+from mechwright.machine.frame.plates import Hole, add_plate
+from mechwright.machine.frame.standing import Standing
+from mechwright.machine.frame.sweep import Space
+from mechwright.standards.screws import screw_size
+
+
+def base_under(
+    keys: FrameKeys, ground: GroundPlate, space: Space, motion: Motion, wanted: Wanted
+) -> Surroundings:
+    """Base, legs and motor under a ground plate; no parts where a finding is an error.
+
+    ``space``: what the mechanism takes in all its settings.
+    """
+    faults = key_faults(keys, ground)
+    if faults:
+        return Surroundings(findings=tuple(faults))
+    try:
+        coupling = coupling_on(ground, wanted)
+        angle = foot_of(keys, ground, space, motion, wanted, coupling)
+        coupled = None
+        if wanted.motor is not None and coupling is not None:
+            low = ground.end - coupling.of.length / 2
+            face = face_below(wanted.motor.face, low, coupling.of.length)
+            coupled = Coupled(wanted.motor, coupling, ground.axis, angle, low, face)
+        kit = built(ground, coupled, keys.plate_material)
+    except DesignError as error:
+        return Surroundings(findings=(refusal(error),))
+    places = {
+        name: replace(place, on=ground.body) if place.on == GROUND else place
+        for name, place in kit.places.items()
+    }
+    return Surroundings(tuple(kit.parts.values()), places)
+
+
+def built(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
+    """All parts, in the ground plate's frame; raises DesignError where no screw is long enough."""
+    kit = Kit()
+    (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
+    standing = Standing(x0, y0, x1, y1)
+    posts = columns(standing.corners)
+    fixing = cap_screw(ground.high - ground.low)
+    depth = fixing.length - (ground.high - ground.low)
+    for post in posts:
+        post.place(kit)
+        put_screw(kit, fixing, post.name, ground.high)
+    under, lowest = ground.low, ground.end
+    if coupled is not None:
+        depth = _add_motor(kit, ground, coupled, (standing, posts), depth, material)
+        under, lowest = coupled.face, coupled.low
+    thickness = thickness_for(standing)
+    foot = leg_screw(thickness).length - thickness
+    top = min(lowest - UNDER, under - _least(foot, depth))
+    add_base(kit, standing, posts, under, top, depth, material)
+    return kit
+
+
+def _least(one: float, two: float) -> float:
+    """Length of a round bar with screws so deep in both ends, mm."""
+    return one + two + 2 * (SPARE + TAP_RUN * PITCH) + 1.0
+
+
+def _add_motor(
+    kit: Kit,
+    ground: GroundPlate,
+    coupled: Coupled,
+    where: tuple[Standing, Sequence[Column]],
+    depth: float,
+    material: str,
+) -> float:
+    """Pillars and the motor's plate with the motor; gives the depth of the studs in pillars and legs, mm."""
+    standing, posts = where
+    joint = stud(PLATE, depth + SPARE)
+    below = (joint.length - PLATE) / 2
+    height = ground.low - coupled.top
+    if height < _least(below, depth):
+        raise DesignError(
+            f"{ground.diameter_key}: pillars of {height:.1f} mm have no room for threads in both ends; take "
+            "a thicker shaft, which is longer"
+        )
+    add_motor(kit, coupled, ground.shaft)
+    x0, y0, x1, y1 = outline(coupled.motor.face, coupled.axis, coupled.angle).bounds
+    wide = Standing(
+        min(standing.left, math.floor(x0) + EDGE),
+        min(standing.below, math.floor(y0) + EDGE),
+        max(standing.right, math.ceil(x1) - EDGE),
+        max(standing.above, math.ceil(y1) - EDGE),
+    )
+    clear = screw_size(joint.of.size).clearance()
+    holes = [replace(hole, point=coupled.at(hole.point)) for hole in motor_holes(coupled.motor.face)]
+    holes += [Hole.through(post.name, post.point, clear, PLATE) for post in posts]
+    carrier = "motor-carrier"
+    kit.places[carrier] = Place()
+    add_plate(kit, "motor-plate", wide, EDGE, PLATE, material, holes, carrier, coupled.face)
+    for post in posts:
+        form = pillar(height, below, depth, spigot=False)
+        kit.turned("pillar", form, post.name, coupled.top)
+        put_screw(kit, joint, post.name, coupled.top + below)
+    fasten_motor(kit, coupled)
+    return below

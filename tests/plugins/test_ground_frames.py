@@ -1,0 +1,159 @@
+"""A base under a mechanism's own ground plate: legs, motor and heads that are clear, and what is refused."""
+
+import csv
+import io
+import math
+import tomllib
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+import shapely
+from by_night import by_night
+from typer.testing import CliRunner
+
+from mechwright import host
+from mechwright.cli.app import make_app
+from mechwright.contracts.finding import Severity, errors
+from mechwright.designs.design import design_of
+from mechwright.machine.frame.base import FOOT, UNDER
+from mechwright.machine.frame.coupled import PLATE
+from mechwright.machine.frame.sweep import space_of
+from mechwright.remedies import tried
+from mechwright.testing import commands
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "four-bar-machine.toml"
+
+
+def content(machine=None, **parameters):
+    found = tomllib.loads(EXAMPLE.read_text())
+    found["parameters"] |= parameters
+    found["machine"] |= machine or {}
+    return found
+
+
+def design(machine=None, **parameters):
+    return design_of(content(machine, **parameters), Path("ground.toml"), "", host())
+
+
+def heights(found):
+    """Of each part that stands around the mechanism, screws apart: lower and upper end of its copies, mm."""
+    (around,) = found.surroundings
+    parts = [part for part in around.parts if not part.name.startswith("screw")]
+    space = space_of(parts, found.solve(2))
+    return {
+        part.name: (
+            min(one.low for one in space.pieces if one.part == part.name),
+            max(one.high for one in space.pieces if one.part == part.name),
+        )
+        for part in parts
+    }
+
+
+def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next():
+    found = design()
+    assert errors(found.check()) == []
+    at, ground = heights(found), found.family.mounting(found.params)
+    tower = [
+        (ground.low, ground.high),
+        *(at[k] for k in ("pillar", "motor-plate", "leg", "base-plate", "foot")),
+    ]
+    for (low, _), (_, high) in pairwise(tower):
+        assert low == pytest.approx(high)
+    low, high = at["foot"]
+    assert high - low == FOOT[1]
+    assert at["motor-plate"][1] - at["motor-plate"][0] == PLATE
+    # The shaft ends in the middle of its coupling, and below the motor there is room for its cable.
+    assert sum(at["coupling"]) / 2 == pytest.approx(ground.end)
+    assert at["coupling"][1] < ground.low
+    assert at["motor"][0] - at["base-plate"][1] == pytest.approx(UNDER)
+
+
+def test_without_a_motor_legs_go_up_to_the_ground_plate():
+    found = design({"motor": "none"})
+    assert errors(found.check()) == []
+    at, ground = heights(found), found.family.mounting(found.params)
+    assert "motor-plate" not in at
+    assert at["leg"][1] == pytest.approx(ground.low)
+    assert at["base-plate"][1] <= ground.end - UNDER
+
+
+@pytest.mark.parametrize("turn", [{}, {"ground_angle": 37.0, "pivot_x": 12.0, "pivot_y": -5.0}])
+def test_columns_stand_under_the_holes_wherever_the_ground_plate_lies(turn):
+    found = design(**turn)
+    ground, motion = found.family.mounting(found.params), found.solve(121)
+    angle = math.radians(turn.get("ground_angle", 0.0))
+    (around,) = found.surroundings
+    (pillar,) = [part for part in around.parts if part.name == "pillar"]
+    for one, (x, y) in zip(pillar.instances, ground.holes, strict=True):
+        at = motion.poses[one.body].position[0]
+        assert at[0] == pytest.approx(turn.get("pivot_x", 0.0) + x * math.cos(angle) - y * math.sin(angle))
+        assert at[1] == pytest.approx(turn.get("pivot_y", 0.0) + x * math.sin(angle) + y * math.cos(angle))
+    heads = shapely.multipoints([motion.poses[one.body].position[0, :2] for one in pillar.instances])
+    space = space_of(found.family.parts(found.params), motion)
+    over = [piece for piece in space.between(ground.high, ground.high + 5.0) if piece.body != "ground"]
+    assert over
+    for piece in over:
+        assert piece.region.distance(heads) > 4.25 + 2.9
+
+
+def test_no_plate_meets_another(tmp_path):
+    assert commands.collisions(content(), tmp_path, solids=False) == []
+
+
+@pytest.mark.parametrize(
+    ("machine", "parameters", "code", "fix"),
+    [
+        ({}, {"screw_offset": None}, "frame.ground-offset", {"parameters.screw_offset": 83}),
+        ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
+        ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
+        ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
+        ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
+        ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
+        ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),
+        ({"plate_thickness": 12.0}, {}, "frame.own-ground", {"machine.plate_thickness": None}),
+    ],
+)
+def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, parameters, code, fix):
+    table = content(machine, **parameters)
+    table["parameters"] = {key: value for key, value in table["parameters"].items() if value is not None}
+    found = design_of(table, Path("ground.toml"), "", host())
+    (one,) = [told for told in tried(found, found.check()) if told.severity is Severity.ERROR]
+    assert (one.code, one.fix) == (code, fix)
+    assert errors(found.changed(fix).check()) == []
+
+
+def test_the_offset_that_is_advised_is_the_least_that_works():
+    assert errors(design(screw_offset=83).check()) == []
+    (fault,) = errors(design(screw_offset=82).check())
+    assert fault.proposed == ({"parameters.screw_offset": 83},)
+
+
+@by_night
+def test_heads_are_clear_in_the_other_phases_too():
+    """A coupler that comes near the heads goes farther out in phase 2, and phase 1 asks for as much."""
+    asked = {}
+    for phases in (0, 1):
+        for phase in range(1, 2 + phases):
+            table = content({"motor": "none", "axial_gap": 4}, coupler_point_x=40, coupler_point_y=70)
+            del table["parameters"]["screw_offset"]
+            if phases:
+                table["parameters"] |= {"setting_angle": 70, "phases": [{"crank_turn": -40}], "phase": phase}
+            found = design_of(table, Path("phases.toml"), "", host())
+            (fault,) = errors(found.surroundings[0].findings)
+            asked[phases, phase] = fault.limit
+    assert asked[1, 1] == asked[1, 2] > asked[0, 1]
+
+
+@by_night
+def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(tmp_path):
+    import cadquery as cq
+
+    folder = tmp_path / "out"
+    done = CliRunner().invoke(make_app(), ["build", str(EXAMPLE), "-o", str(folder)])
+    assert done.exit_code == 0, done.output
+    rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
+    count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
+    solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
+    assert len(solids) == count == 50
+    assert all((folder / f"{plate}.nc").exists() for plate in ("ground", "motor-plate", "base-plate"))
