@@ -18,7 +18,7 @@ from hatchling.builders.wheel import WheelBuilder
 from mechwright.build import Wanted
 from mechwright.cli import completing, demo
 from mechwright.cli.perform import perform
-from mechwright.cli.progress import fraction
+from mechwright.cli.progress import IN_LINES, fraction, line_of
 from mechwright.contracts.finding import Stage
 from mechwright.output import folder
 
@@ -308,10 +308,13 @@ def test_the_keyboard_stops_a_real_run_at_once(tmp_path: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        env={**os.environ, IN_LINES: "1"},
     )
-    time.sleep(2.0)
+    assert line_of(process.stderr.readline()) is not None
     process.send_signal(signal.SIGINT)
     said, err = process.communicate(timeout=60)
     assert (process.returncode, said) == (130, "")
-    assert re.fullmatch(r"mechwright: stopped; .*\n", err)
+    told = [line for line in err.splitlines() if line_of(line) is None]
+    assert len(told) == 1
+    assert re.fullmatch(r"mechwright: stopped; .*", told[0])
     assert list(tmp_path.iterdir()) == []

@@ -54,7 +54,7 @@ class TestFiveBars(FamilyContract):
     )
     input_rate = "omega_a"
     samples = 721
-    max_examples = 30 if NIGHT else 8
+    max_examples = 30 if NIGHT else 3
     variations: ClassVar = {
         "ground_angle": (30,),
         "load_x": (20,),
