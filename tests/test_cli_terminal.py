@@ -309,6 +309,8 @@ def test_the_keyboard_stops_a_real_run_at_once(tmp_path: Path) -> None:
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, IN_LINES: "1"},
+        # A job in the background of a shell ignores the keyboard, and so would what it starts.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     assert line_of(process.stderr.readline()) is not None
     process.send_signal(signal.SIGINT)
