@@ -1,6 +1,7 @@
 """The check as the command line and the testing kit run it."""
 
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from mechwright.geometry import Loop, Outline
 from mechwright.plugins.host import host
 from mechwright.testing import commands
 from mechwright_cad.interference import check as module
-from mechwright_cad.interference import faithful_motion, interference, report, slabs, surface
+from mechwright_cad.interference import interference, report, slabs, smooth_motion, surface
 
 PAGE = Path(__file__).parents[2] / "docs" / "interference.md"
 DESIGN = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
@@ -89,7 +90,7 @@ def test_samples_are_added_until_the_motion_is_smooth_between_them():
             t = np.linspace(0, 2 * np.pi, samples)
             return Motion("t", {"t": Channel(t, "rad")}, {"a": Poses.planar(50 * np.sin(9 * t), 0.0, 9 * t)})
 
-    motion = faithful_motion(Jerky(), None, [])
+    motion = smooth_motion(partial(Jerky().solve, None), [])
     assert asked[0] == module.FEWEST_SAMPLES
     assert motion.samples == asked[-1] > module.FEWEST_SAMPLES
     # Half-way between two samples the cubic is as near as is promised.

@@ -1,6 +1,7 @@
 """A train whose phase a clamp sets: its torque, its scale under the mark, and one machine for all phases."""
 
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from mechwright.contracts.holes import joined
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright.standards.screws import ENGAGEMENT, LENGTHS
-from mechwright_cad.interference import faithful_motion, interference
+from mechwright_cad.interference import interference, smooth_motion
 from mechwright_elliptic_gears.clamp import MARK, SETTING, Clamp, clamp_of
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.joint_load import greatest_torque
@@ -78,7 +79,7 @@ def test_one_machine_has_any_phase(phase):
             other.instances,
         )
     report = interference(
-        list(parts.values()), faithful_motion(FAMILY, params, list(parts.values())), solids=False
+        list(parts.values()), smooth_motion(partial(FAMILY.solve, params), list(parts.values())), solids=False
     )
     assert report.clear, report.collisions
     assert {finding.severity for finding in FAMILY.check(params)} == {Severity.NOTE}
@@ -87,7 +88,7 @@ def test_one_machine_has_any_phase(phase):
 def test_no_solid_stands_in_another():
     params = Params(**CLAMP, keyway_width=4, keyway_relief=2)
     parts = [joined(part) if part.outline is not None else part for part in FAMILY.parts(params)]
-    report = interference(parts, faithful_motion(FAMILY, params, parts))
+    report = interference(parts, smooth_motion(partial(FAMILY.solve, params), parts))
     assert report.clear, report.collisions
 
 

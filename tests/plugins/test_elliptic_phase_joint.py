@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from mechwright.contracts.holes import joined
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_cad.interference import faithful_motion, interference, interference_findings
+from mechwright_cad.interference import interference, interference_findings, smooth_motion
 from mechwright_elliptic_gears.dividing import PITCH, START, direction
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figures import point_peaks, point_window
@@ -166,7 +167,7 @@ def test_the_pin_stands_in_a_hole_of_both_gears_at_all_times(phase):
 def test_nothing_collides_at_any_phase(phase):
     params = at(phase)
     parts = FAMILY.parts(params)
-    report = interference(parts, faithful_motion(FAMILY, params, parts), solids=False)
+    report = interference(parts, smooth_motion(partial(FAMILY.solve, params), parts), solids=False)
     assert report.clear, report.collisions
     assert {finding.severity for finding in FAMILY.check(params)} == {Severity.NOTE}
 
@@ -218,13 +219,13 @@ def test_a_collision_at_another_phase_is_an_error_that_says_which():
 
 def test_no_solid_stands_in_another_with_the_pin_in():
     parts = FAMILY.parts(VARIABLE)
-    report = interference(parts, faithful_motion(FAMILY, VARIABLE, parts))
+    report = interference(parts, smooth_motion(partial(FAMILY.solve, VARIABLE), parts))
     assert report.clear, report.collisions
     # A pin of twice the radius of its hole is found.
     wide = VARIABLE.model_copy(update={"dowel_diameter": 5.0})
     thick = next(part for part in FAMILY.parts(wide) if part.name == "phase-pin")
     changed = [thick if part.name == "phase-pin" else part for part in parts]
-    hits = interference(changed, faithful_motion(FAMILY, VARIABLE, changed)).collisions
+    hits = interference(changed, smooth_motion(partial(FAMILY.solve, VARIABLE), changed)).collisions
     assert {name for hit in hits for name in (hit.first, hit.second)} >= {"phase-pin", "gear-3", "gear-4"}
 
 

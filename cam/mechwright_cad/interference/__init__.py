@@ -1,5 +1,5 @@
 """Interference: whether two bodies of a mechanism stand in each other at any instant of its motion."""
 
-from mechwright_cad.interference.check import faithful_motion, interference, interference_findings
+from mechwright_cad.interference.check import interference, interference_findings, smooth_motion
 
-__all__ = ["faithful_motion", "interference", "interference_findings"]
+__all__ = ["interference", "interference_findings", "smooth_motion"]

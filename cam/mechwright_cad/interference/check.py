@@ -3,16 +3,13 @@
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from itertools import combinations, product
-from typing import Any
 
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.holes import joined
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
 from mechwright.designs.design import Design
 from mechwright_cad.bodies import Body, bodies_of
@@ -49,7 +46,7 @@ _CLOSER = np.array((-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0))
 def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) -> Report:
     """Look for bodies that stand in each other at any instant of a motion.
 
-    The motion is sampled so finely that a cubic through the samples is the motion (:func:`faithful_motion`).
+    The motion is sampled so finely that a cubic through the samples is the motion (:func:`smooth_motion`).
     Parts of one body are compared as well, at rest. Plates that stay parallel are compared exactly in the
     plane; all other bodies as triangles in space if ``solids`` are asked for, which takes the CAD kernel
     where a part is a solid. Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
@@ -156,11 +153,6 @@ def _instant(motion: Motion, time: float) -> Instant:
     channel = motion.channels[motion.input_name]
     value = float(np.interp(time, np.arange(motion.samples), channel.values))
     return Instant(motion.input_name, value, channel.unit)
-
-
-def faithful_motion(family: Family[Any], params: Parameters, parts: Sequence[Part]) -> Motion:
-    """The motion of a design with as many samples as a cubic between them needs."""
-    return smooth_motion(partial(family.solve, params), parts)
 
 
 def smooth_motion(solve: Callable[[int], Motion], parts: Sequence[Part]) -> Motion:
