@@ -27,7 +27,7 @@ from mechwright_four_bar.reach import (
     within,
 )
 from mechwright_four_bar.room import above, room_findings
-from mechwright_four_bar.strength_checks import bearing_findings, strength_findings
+from mechwright_four_bar.strength_checks import bearing_findings, strength_findings, strength_judged
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -43,9 +43,20 @@ LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 @kept
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
+    return until_error(params, _sound, strength_findings, clamps_hold)
+
+
+@kept
+def judged(params: FourBarParams) -> tuple[Finding, ...]:
+    """The same without the sizes that would bear a load."""
+    return until_error(params, _sound, strength_judged, clamps_hold)
+
+
+@kept
+def _sound(params: FourBarParams) -> tuple[Finding, ...]:
     return until_error(
         params, _joined, _accelerates, _turning, _transmission, room_findings, places_apart, _layers,
-        _figures, bearing_findings, strength_findings, clamps_hold,
+        _figures, bearing_findings,
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """The family ``four-bar``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, refuse
@@ -38,13 +38,14 @@ class FourBars(Family[FourBarParams]):
     def check(self, params: FourBarParams) -> Sequence[Finding]:
         """Closure, rotation of the crank, transmission angle, room for bores and webs, layers."""
         from mechwright_four_bar.checks import findings
-        from mechwright_four_bar.phase_checks import setting_findings
-        from mechwright_four_bar.phases import in_phase
 
-        own = tuple(setting_findings(params))
-        if errors(own):
-            return own
-        return (*findings(in_phase(params)), *own)
+        return _with_settings(params, findings)
+
+    def judge(self, params: FourBarParams) -> Sequence[Finding]:
+        """The same without the sizes that would bear a load."""
+        from mechwright_four_bar.checks import judged
+
+        return _with_settings(params, judged)
 
     def solve(self, params: FourBarParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed, or its swing there and back."""
@@ -105,3 +106,16 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.pole_synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)
+
+
+def _with_settings(
+    params: FourBarParams, findings: Callable[[FourBarParams], Sequence[Finding]]
+) -> Sequence[Finding]:
+    """What is found of the machine as it is set now, and of how it is set to other phases."""
+    from mechwright_four_bar.phase_checks import setting_findings
+    from mechwright_four_bar.phases import in_phase
+
+    own = tuple(setting_findings(params))
+    if errors(own):
+        return own
+    return (*findings(in_phase(params)), *own)

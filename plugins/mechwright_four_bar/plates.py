@@ -53,6 +53,11 @@ def pivot_of(params: FourBarParams) -> complex:
     return complex(params.pivot_x, params.pivot_y)
 
 
+def unloaded(params: FourBarParams) -> FourBarParams:
+    """The same plates, at one load and speed: what is kept of them serves all loads and speeds."""
+    return params.model_copy(update={"load_torque": 0.0, "speed": 60.0})
+
+
 def layout_of(params: FourBarParams) -> Layout:
     """Plates and layers, on one ground plate where that goes or is asked for, else between two.
 
@@ -61,7 +66,7 @@ def layout_of(params: FourBarParams) -> Layout:
     GeometryError
         The bend of the coupler does not fit, or no order of layers keeps all plates apart.
     """
-    found = _layout(params)
+    found = _layout(unloaded(params))
     if isinstance(found, str):
         raise GeometryError(found)
     return found
@@ -127,7 +132,7 @@ def hidden_point(params: FourBarParams) -> tuple[str, str] | None:
 
 def layout_or_none(params: FourBarParams) -> Layout | None:
     """As :func:`layout_of`; None where there is no layout."""
-    found = _layout(params)
+    found = _layout(unloaded(params))
     return None if isinstance(found, str) else found
 
 

@@ -19,7 +19,7 @@ from mechwright.tolerances import exceeds
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, period_of
-from mechwright_four_bar.plates import sides_of, stack_of
+from mechwright_four_bar.plates import sides_of, stack_of, unloaded
 from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.sizes import turning_bore
 
@@ -29,15 +29,25 @@ SLOWEST = 1.0
 
 @of_stage(Stage.PARTS)
 def strength_findings(params: FourBarParams) -> Iterator[Finding]:
-    """Pins, plates, bushings."""
+    """Pins, plates, bushings, with the sizes that would bear the load."""
+    yield from _joints(params, sought=True)
+
+
+@of_stage(Stage.PARTS)
+def strength_judged(params: FourBarParams) -> Iterator[Finding]:
+    """The same without these sizes, whose search takes many times as long."""
+    yield from _joints(params, sought=False)
+
+
+def _joints(params: FourBarParams, *, sought: bool) -> Iterator[Finding]:
     most = max(pairs_of(params), key=lambda pair: pair.greatest)
     load = f"{most.greatest:.4g} N at {most.name}"
     pin = Way("pin_diameter", params.pin_diameter)
     wide, rim = Way("thickness", params.thickness), Way("rim", params.rim)
     less = [Way("load_torque", params.load_torque, up=False), Way("speed", params.speed, up=False)]
-    yield from judged("four-bar.pin", params, pins, [pin, *less], load)
-    yield from judged("four-bar.eye", params, eyes, [rim, wide, *less], load)
-    yield from judged("four-bar.bushing", params, bushes, [wide, *less], load)
+    yield from judged("four-bar.pin", params, pins, [pin, *less], load, sought=sought)
+    yield from judged("four-bar.eye", params, eyes, [rim, wide, *less], load, sought=sought)
+    yield from judged("four-bar.bushing", params, bushes, [wide, *less], load, sought=sought)
 
 
 def pins(params: FourBarParams) -> list[Stress]:
@@ -59,9 +69,7 @@ def bushes(params: FourBarParams) -> list[Stress]:
 def pairs_of(params: FourBarParams) -> tuple[TurningPair, ...]:
     """The four joints over a period."""
     found = period_of(params)
-    # Parts are those of any load and speed, which are tried one after the other.
-    plain = params.model_copy(update={"load_torque": 0.0, "speed": 60.0})
-    layers, two, masses = stack_of(plain), sides_of(plain) == 2, masses_of(plain)
+    layers, two, masses = stack_of(params), sides_of(params) == 2, masses_of(unloaded(params))
     carried = joint_forces(bar_of(params), found.loop, found.bodies, masses, params.load_torque / MICRO)
     speed = {name: body.turning.omega for name, body in found.bodies.items()}
     speed["ground"] = speed["ground-2"] = np.zeros_like(speed["crank"])

@@ -27,7 +27,7 @@ from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
 from mechwright_slider_crank.sizes import sizes_of
-from mechwright_slider_crank.strength_checks import strength_findings
+from mechwright_slider_crank.strength_checks import strength_findings, strength_judged
 
 TURN_MARGIN = 5e-4
 """The rod is longer than crank and offset by at least this part: then it stays 1.8° away from standing across
@@ -53,9 +53,18 @@ MOST_BEND = 0.5
 @kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    return until_error(
-        params, _joined, _accelerates, _turns, _webs, _drawn, _carried, strength_findings, _figures
-    )
+    return until_error(params, _sound, strength_findings, _figures)
+
+
+@kept
+def judged(params: SliderCrankParams) -> tuple[Finding, ...]:
+    """The same without the sizes that would bear a load."""
+    return until_error(params, _sound, strength_judged, _figures)
+
+
+@kept
+def _sound(params: SliderCrankParams) -> tuple[Finding, ...]:
+    return until_error(params, _joined, _accelerates, _turns, _webs, _drawn, _carried)
 
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:

@@ -29,6 +29,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
         return findings(params)
 
+    def judge(self, params: SliderCrankParams) -> Sequence[Finding]:
+        """The same without the sizes that would bear a load."""
+        from mechwright_slider_crank.checks import judged
+
+        return judged(params)
+
     def solve(self, params: SliderCrankParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed."""
         from mechwright_slider_crank.motion import motion_of

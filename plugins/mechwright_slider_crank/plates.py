@@ -123,7 +123,11 @@ def rod_outline(params: SliderCrankParams) -> Outline:
     return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
 
 
-@kept
+def unloaded(params: SliderCrankParams) -> SliderCrankParams:
+    """The same plates, at one load and speed: what is kept of them serves all loads and speeds."""
+    return params.model_copy(update={"load": 0.0, "speed": 60.0})
+
+
 def layout_of(params: SliderCrankParams) -> Layout:
     """Draw all plates and find their layers.
 
@@ -134,6 +138,11 @@ def layout_of(params: SliderCrankParams) -> Layout:
     KinematicsError
         The crank cannot turn.
     """
+    return _layout(unloaded(params))
+
+
+@kept
+def _layout(params: SliderCrankParams) -> Layout:
     sizes, ends = sizes_of(params), ends_of(params)
     outlines = {"crank": crank_outline(params), "rod": rod_outline(params)}
     outlines["slider"] = _slider_outline(sizes)

@@ -15,22 +15,32 @@ from mechwright.mechanics.strength.turning_pair import (
 from mechwright_slider_crank.course import period_of
 from mechwright_slider_crank.forces import joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import TURN_SAMPLES, layout_of, masses_of
+from mechwright_slider_crank.plates import TURN_SAMPLES, layout_of, masses_of, unloaded
 from mechwright_slider_crank.sizes import sizes_of
 
 
 @of_stage(Stage.PARTS)
 def strength_findings(params: SliderCrankParams) -> Iterator[Finding]:
-    """Pins, plates, bushings."""
+    """Pins, plates, bushings, with the sizes that would bear the load."""
+    yield from _joints(params, sought=True)
+
+
+@of_stage(Stage.PARTS)
+def strength_judged(params: SliderCrankParams) -> Iterator[Finding]:
+    """The same without these sizes, whose search takes many times as long."""
+    yield from _joints(params, sought=False)
+
+
+def _joints(params: SliderCrankParams, *, sought: bool) -> Iterator[Finding]:
     sizes = sizes_of(params)
     most = max(pairs_of(params), key=lambda pair: pair.greatest)
     load = f"{most.greatest:.4g} N at the {most.name.removeprefix('the ')}"
     pin, wall = Way("pin", sizes.pin), Way("wall", sizes.wall)
     wide = Way("thickness", params.thickness)
     less = [Way("load", params.load, up=False), Way("speed", params.speed, up=False)]
-    yield from judged("slider-crank.pin", params, pins, [pin, *less], load)
-    yield from judged("slider-crank.eye", params, eyes, [wall, wide, *less], load)
-    yield from judged("slider-crank.bushing", params, bushes, [wide, *less], load)
+    yield from judged("slider-crank.pin", params, pins, [pin, *less], load, sought=sought)
+    yield from judged("slider-crank.eye", params, eyes, [wall, wide, *less], load, sought=sought)
+    yield from judged("slider-crank.bushing", params, bushes, [wide, *less], load, sought=sought)
 
 
 def pins(params: SliderCrankParams) -> list[Stress]:
@@ -51,11 +61,9 @@ def bushes(params: SliderCrankParams) -> list[Stress]:
 @kept
 def pairs_of(params: SliderCrankParams) -> tuple[TurningPair, ...]:
     """Shaft, crank pin and wrist pin over a period."""
-    # Parts are those of any load and speed, which are tried one after the other.
-    plain = params.model_copy(update={"load": 0.0, "speed": 60.0})
-    sizes, layers, t = sizes_of(params), layout_of(plain).stack, params.thickness
+    sizes, layers, t = sizes_of(params), layout_of(params).stack, params.thickness
     _, _, bodies = period_of(params, TURN_SAMPLES)
-    carried = joint_forces(params.linkage, bodies, masses_of(plain), params.load)
+    carried = joint_forces(params.linkage, bodies, masses_of(unloaded(params)), params.load)
     crank, rod = bodies.crank.turning.omega, bodies.rod.turning.omega
     # Pin to the plate that holds it, the one that turns on it, its diameter and bore, and how fast it turns.
     held = {

@@ -120,11 +120,12 @@ class Closeness:
             self.axes[spindle.name] = shapely.points(axis[:, 0]), _step(axis)
         points, step = self.axes[spindle.name]
         if (spindle.name, plate.name) not in self.room:
+            area = self._area(plate.name)
             if spindle.body == plate.body:
-                room = shapely.distance(self._area(plate.name)[:1], points[:1])
+                least = float(shapely.distance(area[0], points[0]))
             else:
-                room = shapely.distance(self._area(plate.name), points) - (self.steps[plate.name] + step) / 2
-            self.room[spindle.name, plate.name] = float(room.min())
+                least = _least(area, points, self.steps[plate.name] + step)
+            self.room[spindle.name, plate.name] = least
         return self.room[spindle.name, plate.name] - radius < self.limit
 
     def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
@@ -146,6 +147,27 @@ class Closeness:
             shapely.prepare(areas)
             self.areas[name] = areas
         return self.areas[name]
+
+
+def _least(areas: "NDArray[np.object_]", points: "NDArray[np.object_]", moved: Array) -> float:
+    """Least distance, mm, of areas and points (n,) over all samples, less half of what they have ``moved``.
+
+    Between samples that are looked at, a distance falls by no more than what is moved, so few others are.
+    """
+    import shapely
+
+    last = len(points) - 1
+    some = np.unique([*range(0, last, _SOME), last])
+    known = shapely.distance(areas[some], points[some])
+    least = float((known - moved[some] / 2).min())
+    way, every = np.cumsum(moved), np.arange(last + 1)
+    after = np.searchsorted(some, every)
+    before = np.maximum(after - 1, 0)
+    bound = np.maximum(known[before] - (way - way[some[before]]), known[after] - (way[some[after]] - way))
+    rest = np.flatnonzero(bound - moved / 2 < least)
+    if rest.size:
+        least = min(least, float((shapely.distance(areas[rest], points[rest]) - moved[rest] / 2).min()))
+    return least
 
 
 def _placed(points: Array, poses: Poses) -> Array:

@@ -6,9 +6,9 @@ close to it. All ways to deal plates to layers are tried, the flattest first, an
 spindles are shortest.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations, product
+from itertools import combinations
 
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
@@ -175,9 +175,9 @@ def _flattest(
     best: tuple[tuple[float, ...], dict[str, int]] | None = None
     place = {plate.name: number for number, plate in enumerate(plates)}
     clashing = [(place[one], place[two]) for one, two in map(sorted, conflicts.clashes)]
-    for chosen in product(*choices):
-        if (best is not None and max(chosen) > best[0][0]) or not _is_dealt(chosen, clashing):
-            continue
+    for chosen in _dealings(choices, clashing):
+        if (best is not None and max(chosen) > best[0][0]) or set(chosen) != set(range(max(chosen) + 1)):
+            continue  # higher than need be, or with an empty layer, which only makes spindles longer
         layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
         ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
         cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
@@ -190,10 +190,23 @@ def _flattest(
     return None if best is None else best[1]
 
 
-def _is_dealt(chosen: tuple[int, ...], clashing: Sequence[tuple[int, int]]) -> bool:
-    """Whether no layer is empty, which only makes spindles longer, and no two plates that clash share one."""
-    full = set(chosen) == set(range(max(chosen) + 1))
-    return full and all(chosen[one] != chosen[two] for one, two in clashing)
+def _dealings(
+    choices: Sequence[tuple[int, ...]], clashing: Sequence[tuple[int, int]]
+) -> Iterator[tuple[int, ...]]:
+    """All ways to deal plates to layers in which no two plates that clash share one, in order."""
+    foes = [[a + b - place for a, b in clashing if max(a, b) == place] for place in range(len(choices))]
+
+    def deal(dealt: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+        place = len(dealt)
+        if place == len(choices):
+            yield dealt
+            return
+        taken = {dealt[foe] for foe in foes[place]}
+        for layer in choices[place]:
+            if layer not in taken:
+                yield from deal((*dealt, layer))
+
+    return deal(())
 
 
 def _heights(
