@@ -20,8 +20,8 @@ from mechwright_geneva.params import GenevaParams
 ROOT = Path(__file__).parents[2]
 EXAMPLES = {"cycloidal": "build", "prototype": "build", "straight": "cam", "twelve-stops": "cam"}
 """How much of each is made here; the contract models a straight wheel, whose roller takes long to compare."""
-LIKE = {"prototype", "twelve-stops"}
-"""Those that are like another one are made by night."""
+LIKE = {"prototype", "straight", "twelve-stops"}
+"""Those that are like another one are made by night: the contract machines a straight wheel."""
 
 
 def rs274():
