@@ -5,7 +5,7 @@ import io
 import json
 
 import pytest
-from by_night import NIGHT
+from by_night import NIGHT, by_night
 from templates import EXAMPLES, copied, installed_into, passed, run
 
 NAMES = {"saw-list.csv", "saw-list.html"}
@@ -65,5 +65,6 @@ def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
     assert not cam.keys() & NAMES
 
 
+@by_night
 def test_its_own_tests_pass(installed, copy):
     assert passed(installed, copy) == 4

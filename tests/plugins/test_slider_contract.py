@@ -11,7 +11,7 @@ from mechwright_slider_crank.family import SliderCrankFamily
 class TestSliderCrank(DayContract):
     family = SliderCrankFamily
     night: ClassVar = {
-        # The plates of the defaults are machined from two of the examples.
+        # The plates of the defaults are machined from an example.
         "test_programs_are_proven": {0, 2, 3},
         # An accelerating crank goes the way of a steady one.
         "test_no_interference": {3},
