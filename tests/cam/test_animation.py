@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_night import thinned
 from scipy.spatial.transform import Rotation
 
 from mechwright.contracts.motion import Channel, Motion, Poses, Trace
@@ -66,7 +67,7 @@ def polygon_of(path):
     return shapely.Polygon(rings[0], rings[1:])
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", thinned(2, EXAMPLES), ids=lambda path: path.stem)
 def test_every_example_has_a_page_that_agrees_with_its_motion(path):
     design = load(path, host())
     page = page_of(design.name, design.family, design.params)

@@ -124,7 +124,7 @@ def test_findings():
     assert [f.code for f in note] == ["cam.slender"]
 
 
-@settings(max_examples=examples(2, 40), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(1, 40), deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     count=st.integers(3, 12),
     radius=st.floats(8, 30),

@@ -64,6 +64,7 @@ def test_two_phases_of_four_points_are_met_exactly_and_built():
     assert "4 free parameters" in result.findings[0].message
 
 
+@by_night
 def test_the_exact_number_of_points_brings_the_reference_machine_back():
     points = FACTS["adjust.planar4.two.points"]["expected"]
     requirement, result = found(phases=points, least_chord=6, designs=1)

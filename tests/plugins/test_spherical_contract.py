@@ -1,8 +1,8 @@
 from typing import ClassVar
 
 from by_night import examples
+from day_contract import DayContract
 
-from mechwright.testing import FamilyContract
 from mechwright_spherical.family import Spherical
 
 PATH = {
@@ -12,8 +12,13 @@ PATH = {
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 
-class TestSpherical(FamilyContract):
+class TestSpherical(DayContract):
     family = Spherical
+    night: ClassVar = {
+        # The first has all bodies of a five-bar, in both phases; the last those of any four-bar.
+        "test_programs_are_proven": {2},
+        "test_no_interference": {1, 2},
+    }
     max_frames = examples(2, 50)
     examples: ClassVar = (
         PATH,
