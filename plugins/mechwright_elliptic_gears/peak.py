@@ -9,6 +9,7 @@ import numpy as np
 from mechwright import Array
 
 _SAMPLES = 4096
+GRID = math.tau * np.arange(_SAMPLES) / _SAMPLES
 """Grid that finds the hill: two steps on the narrowest one, that of a train with γ = 0 and e = 0.9."""
 
 _FINE, _ROUNDS = 48, 3
@@ -32,31 +33,31 @@ class Peak:
     angle: float
 
 
-def peak(function: Callable[[Array], Array]) -> Peak:
-    """Greatest value of a smooth function of period 2π.
+def peak(function: Callable[[Array], Array], on_grid: Array | None = None) -> Peak:
+    """Greatest value of a smooth function of period 2π; ``on_grid`` are its values on :data:`GRID`, if known.
 
     >>> found = peak(lambda t: 3 + np.sin(t - 1))
     >>> round(found.value, 12), round(found.angle, 6)
     (4.0, 2.570796)
     """
-    at = math.tau * np.arange(_SAMPLES) / _SAMPLES
-    values = function(at)
+    values = function(GRID) if on_grid is None else on_grid
     hills = np.flatnonzero((values >= np.roll(values, 1)) & (values > np.roll(values, -1)))
     hills = hills[values[hills] >= values.max() - (1 - _NEAR) * abs(values.max())]
     # A mirror image of the highest hill may lie anywhere between its samples.
     hills = hills[np.argsort(-values[hills], kind="stable")[:2]] if hills.size else np.array([0])
-    found = [_climb(function, float(at[hill])) for hill in np.sort(hills)]
+    found = _climb(function, GRID[np.sort(hills)])
     top = max(one.value for one in found)
     return next(one for one in found if one.value >= top - _EQUAL * abs(top))
 
 
-def _climb(function: Callable[[Array], Array], centre: float) -> Peak:
-    half, best = math.tau / _SAMPLES, -math.inf
+def _climb(function: Callable[[Array], Array], centres: Array) -> list[Peak]:
+    """The tops of the hills (n,) at these samples; all of them are asked for at once."""
+    half, best = math.tau / _SAMPLES, np.full(centres.size, -math.inf)
     for _ in range(_ROUNDS):
-        at = centre + half * np.linspace(-1, 1, 2 * _FINE + 1)
-        values = function(at)
-        top = int(np.argmax(values))
-        best = max(best, float(values[top]))
-        centre, half = float(at[top]), half / _FINE
+        at = centres[:, None] + half * np.linspace(-1, 1, 2 * _FINE + 1)
+        values = function(at.ravel()).reshape(at.shape)
+        best = np.maximum(best, values.max(axis=1))
+        centres, half = at[np.arange(centres.size), values.argmax(axis=1)], half / _FINE
     # Rounding must not make a full turn of a peak at 0.
-    return Peak(best, 0.0 if math.tau - centre < _ROUNDING else max(centre, 0.0))
+    angles = np.where(math.tau - centres < _ROUNDING, 0.0, np.maximum(centres, 0.0))
+    return [Peak(float(value), float(angle)) for value, angle in zip(best, angles, strict=True)]
