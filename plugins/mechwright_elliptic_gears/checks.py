@@ -6,6 +6,7 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 from mechwright import (
     Finding,
@@ -67,13 +68,14 @@ def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 
 def judged(params: EllipticGearParams) -> tuple[Finding, ...]:
-    """The same without the mesh proof, which takes ten times as long as the rest, and no advice on loads."""
-    return until_error(params, _of_the_parts, _of_the_load, _backlash)
+    """The same without the mesh proof, which takes ten times as long as the rest, nor advice on loads."""
+    return until_error(params, partial(_of_the_parts, noted=False), _of_the_load, _backlash)
 
 
 @kept
-def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
-    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive)
+def _of_the_parts(params: EllipticGearParams, *, noted: bool = True) -> tuple[Finding, ...]:
+    trains = partial(train_findings, noted=noted)
+    checks = (_rack, undercut_findings, _tip, opening_findings, trains, _drive)
     return tuple(at_stage(Stage.PARTS, until_error(params, *checks)))
 
 

@@ -16,7 +16,7 @@ from mechwright_elliptic_gears.gear import ellipse_of, opening_of, teeth_of, too
 from mechwright_elliptic_gears.kinematics import Turning, coupler, train
 from mechwright_elliptic_gears.layout import Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.peak import Peak, grid_of, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
 
@@ -100,4 +100,5 @@ def torque_behind(
 def greatest_torque(params: EllipticGearParams, phase: float) -> Peak:
     """The greatest torque, N m, either way, at a phase angle in degrees, and where it is."""
     masses = masses_of(params)
-    return peak(lambda theta2: np.abs(joint_torque(theta2, params, math.radians(phase), masses)))
+    gamma, grid = math.radians(phase), grid_of(params.eccentricity)
+    return peak(lambda theta2: np.abs(joint_torque(theta2, params, gamma, masses)), grid)

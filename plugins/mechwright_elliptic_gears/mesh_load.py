@@ -16,7 +16,7 @@ from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.joint_load import TO_NM, gear_inertia, masses_of, torque_behind
 from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import GRID, Peak, peak
+from mechwright_elliptic_gears.peak import Peak, grid_of, peak
 
 _SAMPLES = 721
 """Angles of a turn at which the sign of a torque is asked for."""
@@ -86,7 +86,10 @@ class Mesh:
 
     def greatest(self, size: Callable[[EllipticMesh, Array], Array]) -> Peak:
         """The greatest of what follows from pitch point and force, as of :meth:`loaded`, and where it is."""
-        return peak(lambda theta2: size(*self.loaded(theta2)), size(*_loaded(self)))
+        return self._peak(lambda theta2: size(*self.loaded(theta2)), size(*_loaded(self)))
+
+    def _peak(self, function: Callable[[Array], Array], values: Array | None = None) -> Peak:
+        return peak(function, grid_of(self.params.eccentricity), values)
 
     @property
     def greatest_force(self) -> Peak:
@@ -96,7 +99,7 @@ class Mesh:
     @property
     def greatest_torque(self) -> float:
         """On the driven gear, N m."""
-        return peak(lambda theta2: np.abs(self.torque(theta2))).value
+        return self._peak(lambda theta2: np.abs(self.torque(theta2))).value
 
     @property
     def input_torque(self) -> float:
@@ -107,7 +110,7 @@ class Mesh:
             found: Array = np.abs(torque * follower.omega / driver.omega)
             return found
 
-        return peak(own).value
+        return self._peak(own).value
 
     @property
     def reverses(self) -> bool:
@@ -120,7 +123,7 @@ class Mesh:
 @kept
 def _loaded(mesh: Mesh) -> tuple[EllipticMesh, Array]:
     """What all stresses of a mesh follow from, on the grid where their peaks are sought."""
-    return mesh.loaded(GRID)
+    return mesh.loaded(grid_of(mesh.params.eccentricity))
 
 
 @kept
