@@ -1,8 +1,8 @@
 """Designs sought with no limit given, checked through all stages: ``python benchmarks/bench_synthesis.py``.
 
-Each requirement says what is wanted and nothing of how large, how far or how much: sizes, angles and numbers of
-designs are those by default. Every design that is found is checked as ``mechwright check`` does, with cutters,
-controls and the comparison of plates.
+Each requirement says what is wanted and nothing of how large, how far or how much: sizes, angles and numbers
+of designs are those by default. Every design that is found is checked as ``mechwright check`` does, with
+cutters, controls and the comparison of plates.
 """
 
 import argparse
@@ -27,7 +27,8 @@ WANTED = {
     "stroke": 'family = "slider-crank"\n[requirement]\nkind = "stroke"\nstroke = 120\ntime_ratio = 1.5',
     "two-poles": 'family = "slider-crank"\n[requirement]\nkind = "poles"\n'
     "poles = [[60, -12.6], [41.2, 41.6]]\nrotations = [47]",
-    "path-on-sphere": 'family = "spherical"\n[requirement]\nkind = "four-bar-path"\nclosed = true\npoints = [\n'
+    "path-on-sphere": 'family = "spherical"\n[requirement]\nkind = "four-bar-path"\nclosed = true\n'
+    "points = [\n"
     "[0.26, 0, 0.9656], [0.235, 0.115, 0.9652], [0.13, 0.195, 0.9721], [-0.01, 0.205, 0.9787],\n"
     "[-0.135, 0.155, 0.9787], [-0.205, 0.05, 0.9775], [-0.2, -0.07, 0.9773], [-0.115, -0.15, 0.982],\n"
     "[0.025, -0.175, 0.9843], [0.175, -0.13, 0.9759],\n]",
