@@ -96,7 +96,7 @@ def test_findings():
     for of, changes, code, parameter in (
         (plate(bore(3)), {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
         (narrow, {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
-        (plate(thickness=60), {}, "cam.cannot-cut", "cam.tools"),
+        (plate(thickness=60), {}, "cam.too-deep", "cam.tools"),
         (plate(), {"tools": ["mill-99"]}, "cam.cannot-cut", "cam.tools"),
         (plate(), {"stock": {"margin": 1}}, "cam.cannot-cut", "cam.stock"),
         (plate(), {"hold": {"method": "bore"}}, "cam.cannot-cut", "cam.hold.method"),

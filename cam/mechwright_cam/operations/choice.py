@@ -33,6 +33,17 @@ ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
 
+class MisfitError(ToolError):
+    """No cutter fits a length of the part: ``limit``, mm, in place of what is ``measured`` would do.
+
+    ``code`` is that of the finding, where it has one of its own: what cures one is no cure of the other.
+    """
+
+    def __init__(self, message: str, measured: float, limit: float, code: str = "") -> None:
+        super().__init__(message)
+        self.measured, self.limit, self.code = measured, limit, code
+
+
 def long_enough(tool: Tool, depth: float) -> bool:
     """Whether the flutes reach the bottom of a cut of this depth, mm."""
     return tool.flute_length >= depth - TOLERANCES.noise
@@ -56,9 +67,12 @@ def usable_mills(
     mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]
     if not mills:
         longest = max(knows, key=lambda tool: tool.flute_length)
-        raise ToolError(
+        raise MisfitError(
             f"cam.tools: no end mill for part {job.part.name} cuts {depth:g} mm deep; the longest, "
-            f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one"
+            f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one",
+            depth,
+            longest.flute_length,
+            "cam.too-deep",
         )
     plain = [tool for tool in mills if tool.nose < tool.radius or makes_floor(tool, floor_radius)]
     return plain if any(map(enters, plain)) else mills
