@@ -11,6 +11,10 @@ from mechwright.designs.design import Design
 REACH = 4.0
 """A slider goes up to so many times its value, where its bound is farther."""
 
+WHOLE = 10.0
+"""Bounds no farther than this are a slider's own whatever the value: it has some 400 steps, so that a ratio
+or a fit can be set to a few hundredths all the way."""
+
 
 def fields_of(design: Design) -> list[dict[str, Any]]:
     """Every key that the page shows, in the order of the file that ``new --all`` writes.
@@ -90,11 +94,11 @@ def _bounds(facts: Mapping[str, Any], value: object) -> dict[str, Any]:
         "open": [low is None and over is not None, high is None and under is not None],
     }
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        far = REACH * (abs(value) or abs(found["high"] or found["low"] or 0.0) or 1.0)
         least, most = found["low"], found["high"]
+        far = max(REACH * abs(value or most or least or 0.0), WHOLE)
         found["reach"] = [
             -far if least is None else max(least, -far),
-            far if most is None else min(most, max(far, 10.0)),
+            far if most is None else min(most, far),
         ]
     return found
 
