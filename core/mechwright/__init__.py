@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.result import Result
     from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
+    from mechwright.contracts.target import Target, point_targets
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
     from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
@@ -92,6 +93,7 @@ _HOMES = {
     "mechwright.contracts.result": "Result",
     "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
+    "mechwright.contracts.target": "Target point_targets",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
     "mechwright.contracts.turned": "Groove KeySeat Step Turned",
@@ -147,7 +149,7 @@ __all__ += [
     "refuse",
     "until_error",
 ]
-__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
+__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis", "Target", "point_targets"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "RefusedError", "ToolError"]

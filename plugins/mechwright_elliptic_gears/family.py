@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.requirements import REQUIREMENTS
+from mechwright_elliptic_gears.requirements import REQUIREMENTS, TrainRequirement
 
 if TYPE_CHECKING:
     import shapely
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         Part,
         Progress,
         Synthesis,
+        Target,
         ToleranceModel,
         Tolerances,
     )
@@ -99,3 +100,11 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.synthesis import synthesise
 
         return synthesise(kind, REQUIREMENTS[kind].model_validate(requirement.model_dump()), progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The end of the figure of eight."""
+        from mechwright_elliptic_gears.targets import targets_of
+
+        if not isinstance(requirement, TrainRequirement):
+            return super().targets(kind, requirement)
+        return targets_of(requirement)

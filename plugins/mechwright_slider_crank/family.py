@@ -8,7 +8,17 @@ from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        Target,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -72,3 +82,11 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         if isinstance(requirement, PolesRequirement):
             return from_poles(requirement, progress)
         return super().synthesise(kind, requirement, progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The ends of the stroke, or the poles."""
+        if not isinstance(requirement, StrokeRequirement):
+            return super().targets(kind, requirement)
+        from mechwright_slider_crank.targets import ends_of
+
+        return ends_of(requirement)

@@ -8,7 +8,7 @@ from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, ToleranceModel, Tolerances
+    from mechwright import AsMade, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
 
 
 class Spherical(Family[SphericalParams]):
@@ -78,3 +78,11 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.fourbar_synthesis import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The points of the path, or of each phase's, on the sphere."""
+        from mechwright_spherical.targets import targets_of
+
+        if not isinstance(requirement, (AdjustablePathRequirement, FourBarPathRequirement)):
+            return super().targets(kind, requirement)
+        return targets_of(requirement)

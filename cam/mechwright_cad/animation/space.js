@@ -161,6 +161,24 @@ function spacePicture(place) {
     }
     gl.uniform2f(nudge, 0, 0);
     gl.enable(gl.DEPTH_TEST);
+    if (data.seen) data.seen(seenAs(rows, zoom * Math.min(box.width, box.height) / reach / 2, box));
+  }
+  // Where a place is on the canvas, with its height towards the eye; and the place of the sphere under a point there.
+  function seenAs(rows, unit, box) {
+    const turned = (p) => rows.map((row) => row.reduce((sum, part, k) => sum + part * (p[k] - data.ball.centre[k]), 0));
+    const middle = turned([0, 0, 0]);
+    return {
+      to: (p) => { const [u, v, w] = turned(p); return [box.width / 2 + u * unit, box.height / 2 - v * unit, w - middle[2]]; },
+      back: (x, y, old) => {
+        const radius = Math.hypot(...old), front = turned(old)[2] >= middle[2] ? 1 : -1;
+        let u = (x - box.width / 2) / unit - middle[0], v = (box.height / 2 - y) / unit - middle[1];
+        const far = Math.max(1, Math.hypot(u, v) / radius); // outside of the sphere: its rim
+        u /= far;
+        v /= far;
+        const w = front * Math.sqrt(Math.max(0, radius * radius - u * u - v * v));
+        return [0, 1, 2].map((k) => rows[0][k] * u + rows[1][k] * v + rows[2][k] * w);
+      },
+    };
   }
   const look = (right, up, size) => {
     azimuth -= right;

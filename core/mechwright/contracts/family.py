@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.mounting import GroundPlate, Mounting
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright.contracts.target import Target
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import ToleranceModel
 
@@ -217,3 +218,13 @@ class Family(Plugin, Generic[P]):
             requirement cannot be met.
         """
         raise NotImplementedError(f"family {self.name} has no synthesis of kind {kind!r}")
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
+        """The places that a requirement asks for, which ``mechwright live`` lets one drag.
+
+        It is asked with every move of the pointer, of any requirement that its model takes, met or not. The
+        default gives every list of points [x, y] in mm.
+        """
+        from mechwright.contracts.target import point_targets
+
+        return point_targets(requirement)

@@ -39,6 +39,7 @@ from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.results import Results
+from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
@@ -47,7 +48,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests, FrameTests):
+class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
