@@ -50,6 +50,9 @@ def setting_order(
     crank: float | None,
     turns: Sequence[Sequence[float]],
     steps: Callable[[list[str]], Sequence[str]],
+    *,
+    table: str = "",
+    hold: str = "pin the coupler to the ground",
 ) -> Iterator[Finding]:
     """Whether a machine can be set, and in which order, phase by phase.
 
@@ -62,7 +65,11 @@ def setting_order(
     turns
         For each further phase how far each of them is turned from phase 1, degrees.
     steps
-        All steps of a phase from those that set its pivots, without the pins of the coupler.
+        All steps of a phase from those that set its pivots, after the first.
+    table
+        What stands before the parameters' names.
+    hold
+        What is done with the coupler first.
     """
     if not turns:
         return
@@ -70,9 +77,11 @@ def setting_order(
         links = pose()
     except KinematicsError as error:
         said, _, remedy = str(error).partition("; ")
-        yield Finding.error(code, "setting_angle", said.partition(": ")[2], crank, unit="deg", remedy=remedy)
+        yield Finding.error(
+            code, f"{table}setting_angle", said.partition(": ")[2], crank, unit="deg", remedy=remedy
+        )
         return
-    first = f"turn the crank to {links[0].angle:.6g} degrees in phase 1 and pin the coupler to the ground"
+    first = f"turn the crank to {links[0].angle:.6g} degrees in phase 1 and {hold}"
     for number, row in enumerate(turns, start=2):
         pairs = list(zip(links, row, strict=True))
         whole = [first, *steps([one.step(turn) for one, turn in pairs])]
@@ -80,7 +89,7 @@ def setting_order(
         yield Finding(
             code,
             Severity.NOTE,
-            "phases",
+            f"{table}phases",
             f"phase {number}: "
             + "; ".join(f"{step}. {what}" for step, what in enumerate(whole, start=1))
             + f". The places are {apart} from those of phase 1",
