@@ -18,6 +18,7 @@ from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import input_range, mobility
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.seats import clamped
 from mechwright_spherical.stand import base_pose
 from mechwright_spherical.vectors import norm
 
@@ -56,14 +57,14 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
         **_spin(linkage, phase, state),
     }
     train = train_of(linkage, params.drive)
-    bodies = poses(linkage, phase, state, angles, train)
+    slotted = clamped(params)
+    bodies = poses(linkage, phase, state, angles, train, slotted)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    return Motion(
-        "theta", channels, bodies, _figures(params, linkage), traces, held_by(linkage, train, params.radius)
-    )
+    held = held_by(linkage, train, params.radius, slotted)
+    return Motion("theta", channels, bodies, _figures(params, linkage), traces, held)
 
 
 def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:
@@ -107,7 +108,7 @@ _FIGURE_SAMPLES = 721
 def _figures(params: SphericalParams, linkage: Linkage) -> dict[str, Scalar]:
     found: dict[str, Scalar] = {}
     for phase in linkage.phases:
-        mark = "" if phase.number == 1 else "_n"
+        mark = f"_{phase.mark}" if phase.mark else ""
         mu = phase.state(_FIGURE_SAMPLES).transmission
         found[f"transmission_min{mark}"] = Scalar(float(np.nanmin(mu)), "rad")
         found[f"transmission_max{mark}"] = Scalar(float(np.nanmax(mu)), "rad")
