@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import command_pages
 import gallery
 import notebook_pages
+from docstrings import Docstrings
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -21,7 +22,8 @@ MOVING = re.compile(r"<!-- moving: (\S+) -->")
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """Fill the menu where a folder of the site has its pages from somewhere else."""
+    """Take docstrings as they are written, and fill the menu where a folder of the site has its pages from somewhere else."""
+    config.markdown_extensions.append(Docstrings())  # type: ignore[arg-type]
     for entry in config.nav or ():
         if "Gallery" in entry:
             entry["Gallery"] = [f"{GALLERY}/README.md", *_by_family()]

@@ -22,15 +22,11 @@ LINK = re.compile(r"(\]\()([^)\s]+)([^)]*\))")
 def place(path: str) -> str | None:
     """The place on the site of a file of the repository, both as paths with ``/``; None if it has none.
 
-    >>> place("docs/python.md"), place("examples/elliptic-pair.toml"), place("README.md")
-    ('python.md', 'gallery/elliptic-pair.md', 'README.md')
-    >>> place("pyproject.toml") is None
-    True
+    >>> place("docs/python.md"), place("examples/elliptic-pair.toml"), place("pyproject.toml")
+    ('python.md', 'gallery/elliptic-pair.md', None)
     """
     if path.startswith("docs/"):
         return path.removeprefix("docs/")
-    if path == "README.md":
-        return path
     if path.startswith("examples/notebooks/"):
         return f"{NOTEBOOKS}/{posixpath.basename(path).replace('.ipynb', '.md')}"
     if re.fullmatch(r"examples/(motion/)?[^/]+\.toml", path):
