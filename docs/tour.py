@@ -1,4 +1,7 @@
-"""Draws the pictures of the tour: ``python docs/tour.py``. Each is cut out of a page that ``mechwright build`` writes."""
+"""Draws the pictures of the tour, each cut out of a page that ``mechwright build`` writes.
+
+``python docs/tour.py``
+"""
 
 import re
 import tempfile
@@ -21,13 +24,17 @@ def pictures() -> dict[str, str]:
     """File to content, from a build of the example; it takes as long as one."""
     with tempfile.TemporaryDirectory() as folder:
         mw.load(EXAMPLE).write(Path(folder) / "out")
-        pages = {page: (Path(folder) / "out" / page).read_text(encoding="utf-8") for page, _ in PICTURES.values()}
+        pages = {
+            page: (Path(folder) / "out" / page).read_text(encoding="utf-8") for page, _ in PICTURES.values()
+        }
     return {name: _cut(pages[page], label) for name, (page, label) in PICTURES.items()}
 
 
 def _cut(page: str, label: str) -> str:
     """The picture of that name, with the rules of its page for what it holds, as a file of its own."""
-    (drawn,) = (one for one in re.findall(r"<svg.*?</svg>", page, re.S) if f'"{label}' in one.partition(">")[0])
+    (drawn,) = (
+        one for one in re.findall(r"<svg.*?</svg>", page, re.S) if f'"{label}' in one.partition(">")[0]
+    )
     classes = {name for names in re.findall(r'class="([^"]+)"', drawn) for name in names.split()}
     rules = "".join(re.findall(r"<style>(.*?)</style>", page, re.S)).splitlines()
     kept = [rule.strip() for rule in rules if classes & set(re.findall(r"\.([a-z][\w-]*)", rule))]

@@ -75,7 +75,14 @@ def test_what_a_page_shows_is_what_is_printed(name, tmp_path):
             (tmp_path / what).write_text(shown, encoding="utf-8")
             continue
         done = subprocess.run(
-            what, shell=True, cwd=tmp_path, env=paths, capture_output=True, text=True, check=False, timeout=600
+            what,
+            shell=True,  # noqa: S602 - our own pages
+            cwd=tmp_path,
+            env=paths,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=600,
         )
         output = done.stdout + done.stderr
         assert "Traceback" not in output

@@ -73,7 +73,16 @@ def test_it_runs(path: Path) -> None:
         pytest.importorskip(library, reason="pip install 'mechwright[notebooks]'")
     # In a process of its own, where nobody minds what event loops leave behind.
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", RUN, str(path), str(LONGEST), *([EXECUTED] if EXECUTED else [])],
+        [
+            sys.executable,
+            "-W",
+            "ignore",
+            "-c",
+            RUN,
+            str(path),
+            str(LONGEST),
+            *([EXECUTED] if EXECUTED else []),
+        ],
         capture_output=True,
         text=True,
         check=False,

@@ -11,14 +11,21 @@ from mechwright.cli.app import make_app
 def sections() -> str:
     """A section for every command, with its arguments and options."""
     group = typer.main.get_command(make_app())
-    context = click.Context(group, info_name="mechwright")  # type: ignore[arg-type]
-    return "\n".join(_section(name, command, context) for name, command in group.commands.items())  # type: ignore[attr-defined]
+    context = click.Context(group, info_name="mechwright")
+    return "\n".join(_section(name, command, context) for name, command in group.commands.items())
 
 
 def _section(name: str, command: click.Command, above: click.Context) -> str:
     context = click.Context(command, info_name=name, parent=above)
     usage = " ".join(command.collect_usage_pieces(context))
-    rows = [f"## `mechwright {name}`", "", (command.help or "").strip(), "", f"    mechwright {name} {usage}", ""]
+    rows = [
+        f"## `mechwright {name}`",
+        "",
+        (command.help or "").strip(),
+        "",
+        f"    mechwright {name} {usage}",
+        "",
+    ]
     told = [_row(one, context) for one in command.params if not getattr(one, "hidden", False)]
     told = [one for one in told if one]
     if told:

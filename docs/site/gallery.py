@@ -1,7 +1,7 @@
 """The gallery: a page for every example, on which it moves, made of the design file alone."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -88,34 +88,36 @@ def files() -> Iterator[tuple[str, str]]:
     for example in every:
         yield f"{example.name}.toml", example.text
         if example.required:
-            yield f"{example.name}.md", _page(example)
+            yield f"{example.name}.md", page_of(example)
             continue
         mechanism = mw.load(example.path).asked(samples=PAGE_SAMPLES, command="solve")
-        shown = _shown(mechanism)
-        yield f"{example.name}.md", _page(example, _moving(example.name, shown), _found(mechanism))
-        yield from ((f"{example.name}/{name}", content) for name, content in shown.items())
-    yield "README.md", _index(every)
+        pages = drawn(mechanism)
+        yield f"{example.name}.md", page_of(example, [*framed(example.name, pages)], [*listed(mechanism)])
+        yield from ((f"{example.name}/{name}", content) for name, content in pages.items())
+    yield "README.md", index(every)
 
 
-def _shown(mechanism: mw.Mechanism) -> dict[str, str]:
-    """What is drawn of an example: file to content."""
+def drawn(mechanism: mw.Mechanism) -> dict[str, str]:
+    """What is drawn of an example: file to content; joints and lines where its parts cannot be made."""
     design, motion = mechanism.design, mechanism.motion
     parts = () if mechanism.findings.errors else tuple(mechanism.parts)
-    shown = {
+    made = {
         "still.svg": still(scene(parts, motion, solids=True)),
         "motion.html": motion_html(design.name, design.family.title, parts, motion, solids=True),
     }
-    for page in mechanism.host.all(mw.Page):
-        if "solve" in page.commands and page.name != "motion-page":
-            for name, content in page.files(mechanism).items():
-                if name in WORTH_A_LINK:
-                    shown[name] = content if isinstance(content, str) else content.decode()
-    return shown
+    pages = [
+        one for one in mechanism.host.all(mw.Page) if "solve" in one.commands and one.name != "motion-page"
+    ]
+    for page in pages:
+        for name, content in page.files(mechanism).items():
+            if name in WORTH_A_LINK:
+                made[name] = content if isinstance(content, str) else content.decode()
+    return made
 
 
-def _page(example: Example, moving: Sequence[str] = (), found: Sequence[str] = ()) -> str:
+def page_of(example: Example, motion: Iterable[str] = (), findings: Iterable[str] = ()) -> str:
     """The page of one example: what it is, how it moves, its file, and what its family finds."""
-    rows = [f"# {example.name}", "", example.said, "", *moving]
+    rows = [f"# {example.name}", "", example.said, "", *motion]
     rows += [
         f"Family [{example.family}](../{example.family}.md) · [the file]({example.name}.toml)",
         "",
@@ -125,33 +127,38 @@ def _page(example: Example, moving: Sequence[str] = (), found: Sequence[str] = (
         example.text.strip(),
         "```",
         "",
-        *found,
+        *findings,
     ]
     return "\n".join(rows) + "\n"
 
 
-def _moving(name: str, shown: Iterable[str]) -> list[str]:
-    """The page on which it moves, in a frame, and links to the others."""
-    frame = f'<iframe class="moving" src="{name}/motion.html" title="{name} moves"></iframe>'
-    more = [f"[{said}]({name}/{file})" for file, said in WORTH_A_LINK.items() if file in shown]
-    return [frame, "", " · ".join([f"[the moving page alone]({name}/motion.html)", *more]), ""]
+def framed(name: str, pages: Iterable[str]) -> Iterator[str]:
+    """Lines with the page on which it moves, in a frame, and links to the others."""
+    yield f'<iframe class="moving" src="{name}/motion.html" title="{name} moves"></iframe>'
+    more = [f"[{said}]({name}/{file})" for file, said in WORTH_A_LINK.items() if file in pages]
+    yield from ("", " · ".join([f"[the moving page alone]({name}/motion.html)", *more]), "")
 
 
-def _found(mechanism: mw.Mechanism) -> list[str]:
-    """What its family finds, as a table."""
-    rows = ["## What the family finds", "", "| | | |", "| --- | --- | --- |"]
+def listed(mechanism: mw.Mechanism) -> Iterator[str]:
+    """Lines with what its family finds, as a table."""
+    yield from ("## What the family finds", "", "| | | |", "| --- | --- | --- |")
     for one in mechanism.findings:
         words = escape(one.message).replace("|", "\\|")
-        rows.append(f"| {one.severity} | `{one.code}` | {words} |")
-    return rows
+        yield f"| {one.severity} | `{one.code}` | {words} |"
 
 
-def _index(every: list[Example]) -> str:
+def _briefly(said: str) -> str:
+    """The first sentence, or what stands before its colon, as plain HTML."""
+    return escape(said.split(". ")[0].split(": ")[0].rstrip(".").replace("`", ""))
+
+
+def index(every: list[Example]) -> str:
+    """The page with a card for every example."""
     rows = [
         "# Gallery",
         "",
-        f"All {len(every)} example files of the project, drawn from themselves. Each has a page on which it moves; "
-        "what `mechwright build` makes of one besides stands on the [tour](../README.md).",
+        f"All {len(every)} example files of the project. Each design has a page on which it moves; what "
+        " `mechwright build` makes of one besides stands on the [tour](../README.md).",
         "",
     ]
     for family in FAMILIES:
@@ -161,13 +168,16 @@ def _index(every: list[Example]) -> str:
             rows += [
                 f'<a class="card" href="{one.name}.html">'
                 f'<img src="{one.name}/still.svg" alt="{one.name}" loading="lazy">'
-                f"<b>{one.name}</b><span>{escape(one.said.split('. ')[0].split(': ')[0].rstrip('.'))}</span></a>",
+                f"<b>{one.name}</b><span>{_briefly(one.said)}</span></a>",
                 "",
             ]
         rows += ["</div>", ""]
         wanted = [one for one in every if one.family == family and one.required]
         if wanted:
             rows += ["Requirements, for `mechwright synthesize`:", ""]
-            rows += [f"* [{one.name}]({one.name}.md): {one.said.split('`')[0].strip().rstrip(':.')}" for one in wanted]
+            rows += [
+                f"* [{one.name}]({one.name}.md): {one.said.split('`')[0].strip().rstrip(':.')}"
+                for one in wanted
+            ]
             rows.append("")
     return "\n".join(rows)

@@ -1,4 +1,4 @@
-"""What MkDocs does not do by itself: pages made of examples, notebooks and commands, and links out of ``docs``."""
+"""What MkDocs does not do by itself: pages made of examples, notebooks, commands; links out of ``docs``."""
 
 import re
 from collections.abc import Iterator
@@ -17,13 +17,13 @@ ORIGINS: dict[str, str] = {}
 
 COMMANDS = "<!-- commands -->"
 """Where a page has the reference of the command line."""
-MOVING = re.compile(r"<!-- moving: (\S+) -->")
-"""Where a page shows an example moving."""
+MOVING = re.compile(r"<!-- moving: (\S+) -->\n\n\[!\[.*?\]\(.*?\)\]\(.*?\)")
+"""Where a page shows an example moving, in place of the picture that others see there."""
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """Take docstrings as they are written, and fill the menu where a folder of the site has its pages from somewhere else."""
-    config.markdown_extensions.append(Docstrings())  # type: ignore[arg-type]
+    """Take docstrings as they are written; fill the menu where pages come from outside ``docs``."""
+    config.markdown_extensions.append(Docstrings())
     for entry in config.nav or ():
         if "Gallery" in entry:
             entry["Gallery"] = [f"{GALLERY}/README.md", *_by_family()]

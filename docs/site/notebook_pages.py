@@ -11,11 +11,13 @@ from tree import ROOT
 
 FOLDER = ROOT / "examples" / "notebooks"
 EXECUTED = "MECHWRIGHT_EXECUTED"
-"""Environment variable: the folder to which ``tests/test_notebooks.py`` wrote the notebooks that it has run."""
+"""Environment variable: where ``tests/test_notebooks.py`` keeps the notebooks that it has run."""
 PLOTLY = "plotly.min.js"
 """The script that draws figures, from the installed package, once for all pages."""
 FIGURE = "application/vnd.plotly.v1+json"
-NOT_RUN = '!!! note\n    These pages were made without running the notebooks, so that only their code is shown.\n'
+NOT_RUN = (
+    "!!! note\n    These pages were made without running the notebooks, so that only their code is shown.\n"
+)
 
 
 def files() -> Iterator[tuple[str, str]]:
@@ -78,12 +80,15 @@ def _shown(output: Mapping[str, Any], number: int) -> str:
         place = f"figure-{number}"
         return (
             f'<div class="shown plot" id="{place}"></div>\n<script>{{ const shown = {figure};\n'
-            f'Plotly.newPlot("{place}", shown.data, shown.layout, {{ responsive: true, displaylogo: false }}); }}</script>'
+            f'Plotly.newPlot("{place}", shown.data, shown.layout, '
+            "{ responsive: true, displaylogo: false }); }</script>"
         )
     if "text/html" in data:
         content = "".join(data["text/html"])
         # A blank line would end the element for Markdown, and not for the browser.
-        return '<div class="shown">' + "\n".join(row for row in content.splitlines() if row.strip()) + "</div>"
+        return (
+            '<div class="shown">' + "\n".join(row for row in content.splitlines() if row.strip()) + "</div>"
+        )
     text = output.get("text") or data.get("text/plain") or ""
     return f'<pre class="shown">{escape("".join(text)).replace(chr(10), "&#10;")}</pre>'
 

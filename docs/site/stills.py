@@ -52,7 +52,9 @@ def _plane(scene: Mapping[str, Any]) -> str:
         )
     for trace in scene["traces"].values():
         points = "M" + "L".join(f"{px:g} {py:g}" for px, py in trace)
-        drawn.append(svg.element("path", d=points, fill="none", stroke="#b3261e", stroke_width=svg.number(2 * line)))
+        drawn.append(
+            svg.element("path", d=points, fill="none", stroke="#b3261e", stroke_width=svg.number(2 * line))
+        )
     turned = svg.element("g", "".join(drawn), transform="scale(1 -1)")
     return svg.picture(turned, (x, -y - height, width, height), "the mechanism")
 
@@ -64,17 +66,25 @@ def _space(scene: Mapping[str, Any]) -> str:
     basis = np.array([right, np.cross(near, right), near]) @ _upright(scene["up"])
     faces: list[tuple[float, str]] = []
     for mesh in scene["meshes"]:
-        columns = scene["poses"].get(mesh["body"], {"columns": [[0], [0], [0], [1], [0], [0], [0]]})["columns"]
+        columns = scene["poses"].get(mesh["body"], {"columns": [[0], [0], [0], [1], [0], [0], [0]]})[
+            "columns"
+        ]
         px, py, pz, w, a, b, c = (float(column[_at(column)]) for column in columns)
         points = np.array(mesh["points"], dtype=float).reshape(-1, 3) @ _turn(w, a, b, c).T + (px, py, pz)
-        faces += _faces((points - scene["ball"]["centre"]) @ basis.T, np.array(mesh["triangles"]), mesh["colour"])
+        faces += _faces(
+            (points - scene["ball"]["centre"]) @ basis.T, np.array(mesh["triangles"]), mesh["colour"]
+        )
     radius = scene["ball"]["radius"]
     paths = []
     for trace in scene["traces"].values():
         flat = (np.array(trace) - scene["ball"]["centre"]) @ basis.T
         paths.append(
             svg.element(
-                "path", d=svg.path(flat[:, :2]), fill="none", stroke="#b3261e", stroke_width=svg.number(radius / 100)
+                "path",
+                d=svg.path(flat[:, :2]),
+                fill="none",
+                stroke="#b3261e",
+                stroke_width=svg.number(radius / 100),
             )
         )
     drawn = "".join(face for _, face in sorted(faces)) + "".join(paths)

@@ -1,7 +1,7 @@
 """Where the files of the repository stand on the site, and the links between them.
 
-The pages of ``docs`` are written for the repository: they link to examples, templates and each other by relative
-paths, which lead somewhere there. On the site the same links have to lead to the pages made of those files.
+The pages of ``docs`` are written for the repository: they link to examples, templates and each other by
+relative paths, which lead somewhere there. On the site they have to lead to the pages made of those files.
 """
 
 import posixpath
@@ -67,7 +67,9 @@ def relinked(markdown: str, origin: str) -> str:
         found = place(wanted) if (ROOT / wanted).is_file() else None
         if found is None:
             return match[0]
-        return f"{match[1]}{posixpath.relpath(found, posixpath.dirname(here) or '.')}{hash_}{anchor}{match[3]}"
+        return (
+            f"{match[1]}{posixpath.relpath(found, posixpath.dirname(here) or '.')}{hash_}{anchor}{match[3]}"
+        )
 
     pieces, last = [], 0
     for code in FENCED.finditer(markdown):
