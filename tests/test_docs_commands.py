@@ -74,9 +74,9 @@ def test_what_a_page_shows_is_what_is_printed(name, tmp_path):
         if kind == "file":
             (tmp_path / what).write_text(shown, encoding="utf-8")
             continue
-        done = subprocess.run(
+        done = subprocess.run(  # noqa: S602 - our own pages
             what,
-            shell=True,  # noqa: S602 - our own pages
+            shell=True,
             cwd=tmp_path,
             env=paths,
             capture_output=True,

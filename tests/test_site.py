@@ -12,7 +12,9 @@ from urllib.parse import unquote
 
 import gallery
 import pytest
+import tour
 import tree
+from by_night import by_night
 
 import mechwright as mw
 from mechwright_cad.animation import PAGE_SAMPLES
@@ -67,6 +69,12 @@ def test_an_example_is_drawn_and_moves():
     assert example.text.strip() in page
     assert 'src="geneva-straight/motion.html"' in page
     assert "`geneva.contact`" in page
+
+
+@by_night
+def test_the_pictures_of_the_tour_are_what_a_build_draws():
+    for name, drawn in tour.pictures().items():
+        assert (tour.IMAGES / name).read_text(encoding="utf-8") == drawn, "python docs/tour.py draws it anew"
 
 
 def test_the_reference_has_every_public_name_once():
