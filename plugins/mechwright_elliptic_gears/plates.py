@@ -19,7 +19,7 @@ from mechwright import (
 )
 from mechwright.mechanics.linkage import Boss, rectangle
 from mechwright.mechanics.linkage.outlines import bores
-from mechwright_elliptic_gears.layout import FIXING, MARGIN, Layout
+from mechwright_elliptic_gears.layout import EDGE, FIXING, MARGIN, Layout, screw_places
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 COUPLER, BASE = "coupler", "base"
@@ -45,15 +45,17 @@ def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
 
 
 def base_part(params: EllipticGearParams, layout: Layout) -> Part:
-    """The base plate: bores of the three shafts, and four holes that fix it."""
+    """The base plate: bores of the three shafts, and four holes that fix it, or those of a frame's screws."""
     reach, rounding = 2 * layout.semi_major, layout.bore / 2
     side, fixing = MARGIN * layout.bore, round(FIXING * layout.bore, 1)
     axes = {"2": -reach, "4": 0.0, "5": reach}
     holes = [Boss(complex(x), 0.0, layout.bore, f"shaft-{name}") for name, x in axes.items()]
-    high = side - rounding - fixing / 2
+    high, corner = side - rounding - fixing / 2, complex(reach + side, side)
     places = [complex(x, y) for x in (-layout.semi_major, layout.semi_major) for y in (-high, high)]
+    if params.screw_hole is not None:
+        fixing, rounding, places = params.screw_hole, EDGE * params.screw_hole, [*screw_places(params)]
+        corner = places[-1] + complex(rounding, rounding)
     holes += [Boss(place, 0.0, fixing, f"fixing-{number}") for number, place in enumerate(places)]
-    corner = complex(reach + side, side)
     outline, at = rectangle(-corner, corner, rounding, holes), Instance(BASE, -layout.base)
     return _plate(BASE, outline, layout.base, params.material, at, (0.55, 0.57, 0.60))
 

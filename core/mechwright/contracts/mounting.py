@@ -160,6 +160,8 @@ class GroundPlate:
         By how much a millimetre of the offset moves a hole along x and y, mm.
     free
         Height below which nothing sits on the shaft, mm; left out, the plate's lower face.
+    length_key
+        The design-file key of how far the shaft stands out; empty where it grows with the diameter.
     access
         Where a key has to reach screws below the plate from underneath: places and radii, mm.
 
@@ -185,6 +187,7 @@ class GroundPlate:
     offset: float | None = None
     outwards: Point = (0.0, 1.0)
     free: float | None = None
+    length_key: str = ""
     access: tuple[tuple[Point, float], ...] = ()
 
     def __post_init__(self) -> None:

@@ -103,35 +103,33 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
     """On the shaft's end; None without a motor. Raises DesignError where none fits or holds."""
     if wanted.motor is None:
         return None
-    key, have = ground.diameter_key, ground.bare - ground.end
     if ground.diameter not in BORES:
-        works = min(BORES, key=lambda bore: (abs(bore - ground.diameter), bore))
-        sold = ", ".join(f"{bore:g}" for bore in BORES)
-        said = f"no coupling is sold for a shaft of {ground.diameter:g} mm; one of: {sold}"
-        raise GroundError(
-            _fault("frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},))
-        )
+        raise GroundError(_no_bore(ground))
     coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
-    need = GAP + coupling.of.length / 2
+    have, need = ground.bare - ground.end, GAP + coupling.of.length / 2
     if have < need:
-        # The end grows with the diameter.
-        longer: list[Change] = [{key: bore} for bore in BORES if bore * have >= need * ground.diameter]
-        said = (
-            f"the shaft stands out {have:g} mm below what it carries; its coupling of "
-            f"{coupling.of.length:g} mm takes {need:g} mm"
-        )
-        raise GroundError(
-            _fault(
-                "frame.coupling",
-                key,
-                said,
-                have,
-                need,
-                "take a thicker shaft, which is longer",
-                tuple(longer),
-            )
-        )
+        said = f"its coupling of {coupling.of.length:g} mm takes more"
+        raise GroundError(_longer(ground, said, need - have))
     return coupling
+
+
+def _no_bore(ground: GroundPlate) -> Finding:
+    """A shaft for which no coupling is sold; one that is turned down to its stub cannot be made thicker."""
+    key = ground.diameter_key
+    able = [bore for bore in BORES if bore <= ground.diameter or not ground.length_key]
+    works = min(able, key=lambda bore: (abs(bore - ground.diameter), bore), default=None)
+    sold = ", ".join(f"{bore:g}" for bore in BORES)
+    said = f"no coupling is sold for a shaft of {ground.diameter:g} mm; one of: {sold}"
+    if works is None:
+        return _without_motor(key, said, ground.diameter, BORES[0])
+    return _fault(
+        "frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},)
+    )
+
+
+def _without_motor(key: str, said: str, have: float, need: float) -> Finding:
+    remedy, change = 'set motor = "none"', {"machine.motor": "none"}
+    return _fault("frame.coupling", key, said, have, need, remedy, (change,))
 
 
 def foot_of(
@@ -222,14 +220,21 @@ def _beside(coupling: Coupling) -> float:
 
 
 def _longer(ground: GroundPlate, said: str, more: float) -> Finding:
-    """A shaft that ends so much too high, mm; its end grows with its diameter."""
+    """A shaft that ends so much too high, mm; its end has a key of its own, or grows with its diameter."""
     key, have = ground.diameter_key, ground.bare - ground.end
     need = have + more
-    able: list[Change] = [{key: bore} for bore in BORES if bore * have >= need * ground.diameter]
-    remedy = "take a thicker shaft, which is longer" if able else 'set motor = "none"'
-    proposed: tuple[Change, ...] = tuple(able) or ({"machine.motor": "none"},)
     said = f"the shaft stands out {have:g} mm below what it carries, and {said}: {need:.4g} mm are needed"
-    return _fault("frame.coupling", key, said, have, need, remedy, proposed)
+    if ground.length_key:
+        works = math.ceil(need)
+        change: Change = {ground.length_key: works}
+        return _fault(
+            "frame.coupling", ground.length_key, said, have, need, f"make it {works:g}", (change,)
+        )
+    able: list[Change] = [{key: bore} for bore in BORES if bore * have >= need * ground.diameter]
+    if not able:
+        return _without_motor(key, said, have, need)
+    remedy = "take a thicker shaft, which is longer"
+    return _fault("frame.coupling", key, said, have, need, remedy, tuple(able))
 
 
 def _turn(
