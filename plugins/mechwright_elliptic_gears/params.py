@@ -47,6 +47,7 @@ TRAIN_ONLY = (
     "coupler_thickness",
     "tracer_diameter",
     "base_thickness",
+    "bushes",
     "stub_diameter",
     "stub_length",
     "screw_hole",
@@ -192,6 +193,11 @@ class EllipticGearParams(Parameters):
     )
     base_thickness: Annotated[float, Field(ge=0.3, le=200), Unit("mm")] | None = Field(
         None, description="Base plate; left out, 10."
+    )
+    bushes: bool | None = Field(
+        None,
+        description="Sintered bronze bushes (ISO 2795) wherever something turns on or in a plate; left out, "
+        "plates and shafts run on each other.",
     )
     stub_diameter: Annotated[float, Field(ge=0.5, le=300), Unit("mm")] | None = Field(
         None, description="Of the input's shaft below the base plate; left out, the bore's."

@@ -50,13 +50,15 @@ def round_parts(
         _part("shaft-2", _input(layout, low + t, seat), (Instance("gear-2", -foot),), _STEEL),
         _part(
             "shaft-4",
-            _shaft(layout.bore, layout.base + high + t, high - low + t, seat if keyed else None),
+            _shaft(layout.bore, layout.base + high + t, high - low + t, seat)
+            if keyed
+            else _standing(layout, high + t),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
         _part(
             "shaft-5",
-            _shaft(layout.bore, layout.base + high + t, 0.0, None),
+            _standing(layout, high + t),
             (Instance("axis-5", -layout.base),),
             _STEEL,
         ),
@@ -116,6 +118,13 @@ def _shaft(diameter: float, length: float, seat_length: float, opening: Opening 
         floor = opening.bore / 2 - opening.seat_depth
         seats = (KeySeat(length - seat_length, seat_length, opening.width, floor),)
     return Turned((_running(diameter, length),), seats=seats)
+
+
+def _standing(layout: Layout, over: float) -> Turned:
+    """A shaft that is pressed into the base plate, and on which gears turn."""
+    return Turned(
+        (Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6")), _running(layout.bore, over))
+    )
 
 
 def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:

