@@ -38,11 +38,11 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
 
 
 def _base_of(params: EllipticGearParams) -> GroundPlate:
-    """The coupler of a train passes over all shafts, so they stand in one plate, with all that carries it below."""
+    """The coupler of a train passes over all shafts, so they stand in one plate and are driven from below."""
     if params.screw_hole is None:
         raise DesignError(
-            "parameters.screw_hole: the base plate of a train is fixed by screws under its gears, and a frame "
-            f"asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}"
+            "parameters.screw_hole: the base plate of a train is fixed by screws under its gears, and a "
+            f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}"
         )
     layout = Layout.of(params)
     corner = screw_places(params)[-1]

@@ -212,7 +212,7 @@ class EllipticGearParams(Parameters):
     )
     screw_offset: Annotated[float, Field(ge=0, le=5000), Unit("mm")] | None = Field(
         None,
-        description="Distance of those holes from the axes of gears 2 and 5; left out, 8 mm beyond the teeth.",
+        description="Distance of those holes from the axes of gears 2 and 5; left out, 8 beyond the teeth.",
     )
     dowel_diameter: Annotated[float, Field(ge=0.5, le=50), Unit("mm")] | None = Field(
         None,
@@ -268,8 +268,8 @@ class EllipticGearParams(Parameters):
             raise ValueError("stages = 2 needs shafts; set bore")
         elif self.stub_diameter is not None and self.stub_diameter > self.bore:
             raise ValueError(
-                f"stub_diameter is {self.stub_diameter:g}, and the shaft goes through a base plate with bores of "
-                f"{self.bore:g}; make it smaller, or leave it out"
+                f"stub_diameter is {self.stub_diameter:g}, and the shaft goes through a base plate with bores "
+                f"of {self.bore:g}; make it smaller, or leave it out"
             )
         elif self.screw_offset is not None and self.screw_hole is None:
             raise ValueError("screw_offset needs holes; set screw_hole = 6, or leave it out")

@@ -122,13 +122,11 @@ def _shaft(diameter: float, length: float, seat_length: float, opening: Opening 
 
 def _standing(layout: Layout, over: float) -> Turned:
     """A shaft that is pressed into the base plate, and on which gears turn."""
-    return Turned(
-        (Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6")), _running(layout.bore, over))
-    )
+    return Turned((Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6")), _running(layout.bore, over)))
 
 
 def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:
-    """The shaft of gear 2, so much over the base plate, with a thinner stub below it where one is asked for."""
+    """The shaft of gear 2, so much over the base plate, with a thinner stub below if one is asked for."""
     if layout.stub_diameter == layout.bore:
         return _shaft(layout.bore, layout.base + layout.stub + over, layout.thickness, seat)
     whole = _shaft(layout.bore, layout.base + over, layout.thickness, seat)

@@ -122,9 +122,7 @@ def _no_bore(ground: GroundPlate) -> Finding:
     said = f"no coupling is sold for a shaft of {ground.diameter:g} mm; one of: {sold}"
     if works is None:
         return _without_motor(key, said, ground.diameter, BORES[0])
-    return _fault(
-        "frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},)
-    )
+    return _fault("frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},))
 
 
 def _without_motor(key: str, said: str, have: float, need: float) -> Finding:
@@ -227,9 +225,7 @@ def _longer(ground: GroundPlate, said: str, more: float) -> Finding:
     if ground.length_key:
         works = math.ceil(need)
         change: Change = {ground.length_key: works}
-        return _fault(
-            "frame.coupling", ground.length_key, said, have, need, f"make it {works:g}", (change,)
-        )
+        return _fault("frame.coupling", ground.length_key, said, have, need, f"make it {works:g}", (change,))
     able: list[Change] = [{key: bore} for bore in BORES if bore * have >= need * ground.diameter]
     if not able:
         return _without_motor(key, said, have, need)
