@@ -268,8 +268,8 @@ class EllipticGearParams(Parameters):
             raise ValueError("stages = 2 needs shafts; set bore")
         elif self.stub_diameter is not None and self.stub_diameter > self.bore:
             raise ValueError(
-                f"stub_diameter is {self.stub_diameter:g}, and the shaft goes through a base plate with bores "
-                f"of {self.bore:g}; make it smaller, or leave it out"
+                f"stub_diameter is {self.stub_diameter:g}, and the shaft goes through a base plate with "
+                f"bores of {self.bore:g}; make it smaller, or leave it out"
             )
         elif self.screw_offset is not None and self.screw_hole is None:
             raise ValueError("screw_offset needs holes; set screw_hole = 6, or leave it out")

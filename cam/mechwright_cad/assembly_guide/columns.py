@@ -1,4 +1,4 @@
-"""Screws of pillars and legs stay loose until their column stands, so that plates and shafts find their place.
+"""Screws of pillars and legs stay loose until their column stands: plates and shafts find their place.
 
 A column is what stands on one upright axis: turned parts with threads in both ends, and screws.
 """
