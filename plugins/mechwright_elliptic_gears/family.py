@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from mechwright import (
         AsMade,
+        GroundPlate,
         MadePart,
         Motion,
         Mounting,
@@ -59,8 +60,8 @@ class EllipticGears(Family[EllipticGearParams]):
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
-    def mounting(self, params: EllipticGearParams) -> "Mounting":
-        """The shafts of a pair; a train has a base plate of its own."""
+    def mounting(self, params: EllipticGearParams) -> "Mounting | GroundPlate":
+        """The shafts of a pair; of a train its base plate."""
         from mechwright_elliptic_gears.mounting import mounting_of
 
         return mounting_of(params)

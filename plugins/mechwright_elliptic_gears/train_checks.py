@@ -9,6 +9,7 @@ from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bushes import bush_findings
 from mechwright_elliptic_gears.clamp_checks import clamp_findings, setting_note
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
@@ -37,6 +38,7 @@ def train_findings(params: EllipticGearParams, *, noted: bool = True) -> Iterato
     layout = Layout.of(params)
     found = [*_tracer(params, layout), *_joint(params, layout), *_sweep(params, layout)]
     found += _dowel_circle(params, layout) if params.dowelled else ()
+    found += bush_findings(params)
     yield from found
     if errors(found):
         return

@@ -125,6 +125,14 @@ class FiveBarParams(Parameters):
     )
     gear_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Of the gears and their clamp.")
     ground_thickness: fields.GroundThickness = 10.0
+    screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
+        None,
+        description="Holes in the corners of the ground plate, for the screws of a frame; left out, it "
+        "stands on posts that are pressed into it.",
+    )
+    post_offset: Millimetres = Field(
+        0.0, ge=0, le=1000, description="By how much posts or screws stand farther out than the gears ask."
+    )
     pin_diameter: Millimetres = Field(
         8.0, ge=1, le=200, description="Pins and shafts of all joints.", json_schema_extra=FIRST
     )

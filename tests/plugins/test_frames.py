@@ -92,7 +92,12 @@ def test_a_design_without_a_frame_is_as_its_family_gives_it():
         ("double-crank", {}, "frame.mounting", "the links stand between two ground plates"),
         ("slider-crank-quick-return", {}, "frame.mounting", "the family slider-crank does not say where"),
         ("spherical-crank-rocker", {}, "frame.mounting", "the family spherical"),
-        ("figure-eight-train", {}, "frame.mounting", "a train stands on its own base plate"),
+        (
+            "figure-eight-train",
+            {},
+            "frame.mounting",
+            "the base plate of a train is fixed by screws under its gears",
+        ),
         ("elliptic-pair", {"bore": 0}, "frame.mounting", "gears without a bore have no shafts"),
         ("geneva-prototype", {}, "frame.in-the-way", "passes the axis of spindle wheel at 8.81 mm"),
     ],

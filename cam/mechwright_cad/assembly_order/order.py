@@ -136,8 +136,9 @@ class Order:
     def _base(self) -> int:
         """What all goes onto: of the plates that stand still the one in the middle; -1 if nothing does.
 
-        In the middle is the one from which the others are fewest contacts away: of a machine on legs it is
-        the plate that carries the shafts, not the one on the floor. Without plates it is the largest body.
+        In the middle is the one from which all that moves is fewest contacts away, and of equal ones the one
+        from which everything is: of a machine on legs it is the plate that carries the shafts, not that of
+        the motor or the one on the floor. Without plates it is the largest body.
         """
         still = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] == GROUND]
         plates = [k for k in still if self.bodies[k].is_plate]
@@ -151,7 +152,9 @@ class Order:
             touching[one, two] = self.standing.touch(one, two)
         away = dijkstra(touching, directed=False, unweighted=True, indices=large)
         away[np.isinf(away)] = count
-        return min(zip(away.sum(axis=1), -self._sizes[large], large, strict=True))[2]
+        moving = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] != GROUND]
+        far = zip(away[:, moving].sum(axis=1), away.sum(axis=1), -self._sizes[large], large, strict=True)
+        return min(far)[3]
 
     @cached_property
     def _below(self) -> frozenset[int]:

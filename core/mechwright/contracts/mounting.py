@@ -141,8 +141,7 @@ class GroundPlate:
     low, high
         Heights of the plate's faces, mm.
     holes
-        Where screws go through: corners of a rectangle, as far above y = 0 as below, counter-clockwise from
-        (least x, least y), mm.
+        Where screws go through: corners of a rectangle, counter-clockwise from (least x, least y), mm.
     hole
         Their diameter, mm.
     shaft
@@ -152,9 +151,19 @@ class GroundPlate:
     diameter, end
         Of the shaft, and the height of its lower end, mm.
     offset_key
-        The design-file key of the distance of all four holes from y = 0.
+        The design-file key that moves all four holes outwards.
     hole_key, diameter_key, thickness_key
         Those of ``hole`` and ``diameter``, and of the plate's thickness.
+    offset
+        What that key says, mm; left out, the distance of the holes from y = 0.
+    outwards
+        By how much a millimetre of the offset moves a hole along x and y, mm.
+    free
+        Height below which nothing sits on the shaft, mm; left out, the plate's lower face.
+    length_key
+        The design-file key of how far the shaft stands out; empty where it grows with the diameter.
+    access
+        Where a key has to reach screws below the plate from underneath: places and radii, mm.
 
     Raises
     ------
@@ -175,10 +184,32 @@ class GroundPlate:
     hole_key: str
     diameter_key: str
     thickness_key: str
+    offset: float | None = None
+    outwards: Point = (0.0, 1.0)
+    free: float | None = None
+    length_key: str = ""
+    access: tuple[tuple[Point, float], ...] = ()
 
     def __post_init__(self) -> None:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
-        if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 == -y1 < 0):
-            raise GeometryError("the holes of a ground plate are the corners of no rectangle about y = 0")
-        if not self.end < self.low < self.high:
+        if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 < y1):
+            raise GeometryError("the holes of a ground plate are the corners of no rectangle")
+        if not self.end < self.bare <= self.low < self.high:
             raise GeometryError("the shaft of a ground plate does not stand out below it")
+
+    @property
+    def bare(self) -> float:
+        """Height below which nothing sits on the shaft, mm."""
+        return self.low if self.free is None else self.free
+
+    @property
+    def out(self) -> float:
+        """The offset of the holes, mm."""
+        return self.holes[2][1] if self.offset is None else self.offset
+
+    def moved(self, offset: float) -> tuple[Point, Point, Point, Point]:
+        """The holes with another offset, mm."""
+        more = offset - self.out
+        dx, dy = more * self.outwards[0], more * self.outwards[1]
+        (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
+        return (x0 - dx, y0 - dy), (x1 + dx, y0 - dy), (x1 + dx, y1 + dy), (x0 - dx, y1 + dy)

@@ -25,7 +25,7 @@ from mechwright.machine.frame.coupled import (
     outline,
 )
 from mechwright.machine.frame.decided import Wanted
-from mechwright.machine.frame.ground_refusals import coupling_on, foot_of, key_faults, refusal
+from mechwright.machine.frame.ground_refusals import coupling_on, foot_of, key_faults, lowest_of, refusal
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import (
@@ -63,7 +63,7 @@ def base_under(
             low = ground.end - coupling.of.length / 2
             face = face_below(wanted.motor.face, low, coupling.of.length)
             coupled = Coupled(wanted.motor, coupling, ground.axis, angle, low, face)
-        kit = built(ground, coupled, keys.plate_material)
+        kit = built(ground, coupled, keys.plate_material, lowest_of(ground, space.pieces))
     except DesignError as error:
         return Surroundings(findings=(refusal(error),))
     places = {
@@ -73,8 +73,11 @@ def base_under(
     return Surroundings(tuple(kit.parts.values()), places)
 
 
-def built(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
-    """All parts, in the ground plate's frame; raises DesignError where no screw is long enough."""
+def built(ground: GroundPlate, coupled: Coupled | None, material: str, lowest: float) -> Kit:
+    """All parts, in the ground plate's frame, under a mechanism whose lowest height is given, mm.
+
+    Raises DesignError where no screw is long enough.
+    """
     kit = Kit()
     (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
     standing = Standing(x0, y0, x1, y1)
@@ -84,7 +87,7 @@ def built(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
     for post in posts:
         post.place(kit)
         put_screw(kit, fixing, post.name, ground.high)
-    under, lowest = ground.low, ground.end
+    under = ground.low
     if coupled is not None:
         depth = _add_motor(kit, ground, coupled, (standing, posts), depth, material)
         under, lowest = coupled.face, coupled.low
@@ -129,6 +132,10 @@ def _add_motor(
     clear = screw_size(joint.of.size).clearance()
     holes = [replace(hole, point=coupled.at(hole.point)) for hole in motor_holes(coupled.motor.face)]
     holes += [Hole.through(post.name, post.point, clear, PLATE) for post in posts]
+    holes += [
+        Hole.through(f"access-{k}", at, 2 * radius, PLATE)
+        for k, (at, radius) in enumerate(ground.access, start=1)
+    ]
     carrier = "motor-carrier"
     kit.places[carrier] = Place()
     add_plate(kit, "motor-plate", wide, EDGE, PLATE, material, holes, carrier, coupled.face)
