@@ -15,8 +15,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.errors import GeometryError
+from mechwright.contracts.finding import Change
+from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
+
+
+class MountingError(DesignError):
+    """A design cannot be held as it is: a key, what is wrong, and what to do, with changes to try."""
+
+    def __init__(self, message: str, proposed: tuple[Change, ...] = ()) -> None:
+        super().__init__(message)
+        self.proposed = proposed
 
 
 @dataclass(frozen=True)
@@ -150,11 +159,13 @@ class GroundPlate:
     axis
         Where it stands, mm.
     diameter, end
-        Of the shaft, and the height of its lower end, mm.
+        Of the shaft's end, and the height at which it ends, mm.
     offset_key
         The design-file key of the distance of all four holes from y = 0.
     hole_key, diameter_key, thickness_key
         Those of ``hole`` and ``diameter``, and of the plate's thickness.
+    neck
+        How far down the shaft is thicker than its end, or carries something, mm below the plate.
 
     Raises
     ------
@@ -175,10 +186,11 @@ class GroundPlate:
     hole_key: str
     diameter_key: str
     thickness_key: str
+    neck: float = 0.0
 
     def __post_init__(self) -> None:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
         if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 == -y1 < 0):
             raise GeometryError("the holes of a ground plate are the corners of no rectangle about y = 0")
-        if not self.end < self.low < self.high:
+        if not self.end < self.low - self.neck <= self.low < self.high:
             raise GeometryError("the shaft of a ground plate does not stand out below it")

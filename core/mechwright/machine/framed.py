@@ -2,10 +2,11 @@
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.mounting import GroundPlate
+from mechwright.contracts.mounting import GroundPlate, MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
@@ -69,4 +70,7 @@ def _set_space(family: Family[Any], params: Parameters) -> Space:
 def _refused(code: str, error: DesignError) -> Surroundings:
     """By an error that begins with a key."""
     key, _, rest = str(error).partition(": ")
-    return Surroundings(findings=(refusal(code, key, rest),))
+    found = refusal(code, key, rest)
+    if isinstance(error, MountingError):
+        found = replace(found, proposed=error.proposed)
+    return Surroundings(findings=(found,))

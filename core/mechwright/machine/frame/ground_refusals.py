@@ -15,10 +15,11 @@ from mechwright.machine.frame.base import HOLE
 from mechwright.machine.frame.coupled import BESIDE, GAP, TURNS, outline
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.keys import FrameKeys
+from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import PILLAR, SCREW
 from mechwright.machine.frame.standing import CLEARANCE
 from mechwright.machine.frame.sweep import Space
-from mechwright.standards.couplings import BORES, Coupling, coupling_for
+from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
 from mechwright.standards.screws import lengths, screw_size
 
 WITHOUT = ("bearing", "plate_thickness", "cover")
@@ -102,7 +103,7 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
     """On the shaft's end; None without a motor. Raises DesignError where none fits or holds."""
     if wanted.motor is None:
         return None
-    key, have = ground.diameter_key, ground.low - ground.end
+    key, have = ground.diameter_key, ground.low - ground.neck - ground.end
     if ground.diameter not in BORES:
         works = min(BORES, key=lambda bore: (abs(bore - ground.diameter), bore))
         sold = ", ".join(f"{bore:g}" for bore in BORES)
@@ -110,7 +111,10 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
         raise GroundError(
             _fault("frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},))
         )
-    coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
+    try:
+        coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
+    except OverloadError as error:
+        raise GroundError(overloaded(error, wanted)) from error
     need = GAP + coupling.of.length / 2
     if have < need:
         # The end grows with the diameter.
