@@ -10,6 +10,7 @@ from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequire
 if TYPE_CHECKING:
     from mechwright import (
         AsMade,
+        GroundPlate,
         MadePart,
         Motion,
         Part,
@@ -58,6 +59,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def mounting(self, params: SliderCrankParams) -> "GroundPlate":
+        """The base, if it has holes for the screws of legs."""
+        from mechwright_slider_crank.base import mounting_of
+
+        return mounting_of(params)
 
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""

@@ -90,7 +90,7 @@ def test_a_design_without_a_frame_is_as_its_family_gives_it():
     [
         ("crank-rocker-three-poles", {}, "frame.own-ground", "no bearing plates go around it"),
         ("double-crank", {}, "frame.mounting", "the links stand between two ground plates"),
-        ("slider-crank-quick-return", {}, "frame.mounting", "the family slider-crank does not say where"),
+        ("slider-crank-quick-return", {}, "frame.mounting", "the base has no holes for the screws of legs"),
         ("spherical-crank-rocker", {}, "frame.mounting", "the family spherical"),
         (
             "figure-eight-train",

@@ -30,6 +30,7 @@ class TestSliderCrank(DayContract):
         },
         {"swing_from": 10, "swing_to": 100},
         {"acceleration_ratio": 0.1, "speed": 30},
+        {"screw_hole": 6, "screw_offset": 60, "shaft": 8},
     )
     refused = (
         ({"rod": 40.01}, "rod"),

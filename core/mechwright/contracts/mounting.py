@@ -15,8 +15,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.errors import GeometryError
+from mechwright.contracts.finding import Change
+from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
+
+
+class MountingError(DesignError):
+    """A design cannot be held as it is: a key, what is wrong, and what to do, with changes to try."""
+
+    def __init__(self, message: str, proposed: tuple[Change, ...] = ()) -> None:
+        super().__init__(message)
+        self.proposed = proposed
 
 
 @dataclass(frozen=True)
@@ -149,7 +158,7 @@ class GroundPlate:
     axis
         Where it stands, mm.
     diameter, end
-        Of the shaft, and the height of its lower end, mm.
+        Of the shaft's end, and the height at which it ends, mm.
     offset_key
         The design-file key that moves all four holes outwards.
     hole_key, diameter_key, thickness_key

@@ -16,6 +16,7 @@ from mechwright.machine.frame.findings import strength
 from mechwright.machine.frame.free import in_the_way
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import (
     EDGE,
     PILLAR,
@@ -42,7 +43,7 @@ from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
-from mechwright.standards.couplings import BORES
+from mechwright.standards.couplings import BORES, OverloadError
 
 STUB = 2.0
 """Length of the shaft for a drive of one's own below the frame, in its diameters."""
@@ -108,6 +109,8 @@ def decided(
             )
         except NoCouplingError as error:
             return [_no_coupling(driver, keys, str(error))]
+        except OverloadError as error:
+            return [overloaded(error, wanted)]
         region = region.union(bracket.region)
         held += [Disc(corner, EDGE) for corner in bracket.corners]
     standing = stand(region, held, PILLAR / 2, EDGE)
