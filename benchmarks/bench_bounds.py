@@ -76,7 +76,7 @@ def _compensated() -> list[str]:
 def _pocket(z: float = -1.0, half: float = 15.0) -> list[str]:
     """A pocket around the middle in 600 passes."""
     passes = [f"G1 X{half * (-1) ** k} Y{half * (k / 300 - 1):.3f}" for k in range(601)]
-    return ["G0 Z5", f"G0 X-{half} Y-{half}", f"G1 Z{z} F1000", *passes]
+    return ["G0 Z5", f"G0 X-{half} Y-{half}", f"G1 Z{z} F1000", *passes, "G1 X0 Y0"]
 
 
 def _in(half: float) -> str:
@@ -93,7 +93,7 @@ def _rapids_in_steps() -> list[str]:
     for k in range(20):
         half = 15 - k / 4
         passes = [f"G1 X{half * (-1) ** j} Y{half * (j / 20 - 1):.3f}" for j in range(41)]
-        out += ["G0 Z5", f"G0 X{-half} Y{-half}", f"G1 Z{-(k + 1) / 8:.3f} F1000", *passes]
+        out += ["G0 Z5", f"G0 X{-half} Y{-half}", f"G1 Z{-(k + 1) / 8:.3f} F1000", *passes, "G1 X0 Y0"]
         out += [f"G0 {_in(half - 1)}" for _ in range(MANY // 20 - 44)]
     return out
 
