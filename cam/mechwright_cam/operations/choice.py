@@ -32,6 +32,9 @@ INSCRIBED = 0.01
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
+DEEP = "cam.too-deep"
+"""Code of the finding that no mill is long enough."""
+
 
 class MisfitError(ToolError):
     """No cutter fits a length of the part: ``limit``, mm, in place of what is ``measured`` would do.
@@ -72,7 +75,7 @@ def usable_mills(
             f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one",
             depth,
             longest.flute_length,
-            "cam.too-deep",
+            DEEP,
         )
     plain = [tool for tool in mills if tool.nose < tool.radius or makes_floor(tool, floor_radius)]
     return plain if any(map(enters, plain)) else mills
