@@ -9,7 +9,17 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.requirements import AdjustablePathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis
+    from mechwright import (
+        AsMade,
+        GroundPlate,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class FiveBars(Family[FiveBarParams]):
@@ -61,6 +71,20 @@ class FiveBars(Family[FiveBarParams]):
             for phase in range(1, 2 + len(params.phases))
             if phase != params.phase
         }
+
+    def as_made(self, params: FiveBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Error of the coupler point, from bores and pins."""
+        from mechwright_five_bar.as_made import as_made
+        from mechwright_five_bar.phases import in_phase
+
+        return as_made(in_phase(params), made)
+
+    def tolerances(self, params: FiveBarParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the coupler point, from links, pins and the play of the gears."""
+        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.tolerances import FiveBarTolerances
+
+        return FiveBarTolerances(in_phase(params), tolerances)
 
     def synthesise(
         self,
