@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Channel, KinematicsError, Motion, Poses, Scalar, Trace
 from mechwright.mechanics.planar import Turning
-from mechwright.mechanics.planar.channels import turning_channels
+from mechwright.mechanics.planar.channels import RATES, along, turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
@@ -49,10 +49,10 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
             f"{phase.number}; shorten the travel, or choose other arcs"
         )
     channels = {
-        "time": Channel(time, "s"),
-        **turning_channels(turning, "theta", ""),
+        "time": Channel(time, "s", "time"),
+        **turning_channels(turning, "theta", "", "the crank"),
         **_driven(linkage, phase, state, turning),
-        "transmission_angle": Channel(state.transmission, "rad"),
+        "transmission_angle": Channel(state.transmission, "rad", "transmission angle"),
         **_point(state.p, params.radius),
         **_spin(linkage, phase, state),
     }
@@ -71,33 +71,37 @@ def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> d
     four_bar = linkage.four_bar
     if four_bar is None:
         arm = turning.scaled(phase.loop.ratio)
-        return turning_channels(arm, "phi", "_phi")
+        return turning_channels(arm, "phi", "_phi", "the arm")
     rates = turning_about(phase.loop.b0, state.c)
     angle = four_bar.output_angle(turning.theta)
     angle = angle - math.tau * np.round(angle[0] / math.tau)
-    return turning_channels(replace(rates, theta=angle), "psi", "_psi")
+    return turning_channels(replace(rates, theta=angle), "psi", "_psi", "the rocker")
 
 
 def _point(p: Jet, radius: float) -> dict[str, Channel]:
     found: dict[str, Channel] = {}
-    for name, unit, value in zip(("", "v", "a", "j"), _RATES, p, strict=True):
+    for name, word, unit, value in zip(("", "v", "a", "j"), ("", *RATES), _RATES, p, strict=True):
         found |= {
-            f"{name}{axis}P": Channel(radius * x, f"mm{unit}") for axis, x in zip("xyz", value, strict=True)
+            f"{name}{axis}P": Channel(radius * x, f"mm{unit}", along(axis, word, "point P"))
+            for axis, x in zip("xyz", value, strict=True)
         }
         if name:
-            found[f"{name}P"] = Channel(radius * norm(value), f"mm{unit}")
+            found[f"{name}P"] = Channel(radius * norm(value), f"mm{unit}", f"size of the {word} of point P")
     return found
 
 
 def _spin(linkage: Linkage, phase: Phase, state: State) -> dict[str, Channel]:
     found: dict[str, Channel] = {}
     spins = state.coupler_spin
-    for name, unit, value in zip(("omega", "alpha", "jerk"), _RATES[1:], spins, strict=True):
-        found |= {f"{name}3{axis}": Channel(x, f"rad{unit}") for axis, x in zip("xyz", value, strict=True)}
+    for name, word, unit, value in zip(("omega", "alpha", "jerk"), RATES, _RATES[1:], spins, strict=True):
+        found |= {
+            f"{name}3{axis}": Channel(x, f"rad{unit}", along(axis, f"angular {word}", "the coupler"))
+            for axis, x in zip("xyz", value, strict=True)
+        }
     # From the coupler's place in the position of adjustment, or at the start.
     turn = np.einsum("ijn,kj->ikn", coupler_frame(linkage, phase, state), pins_of_phase(linkage, 1))
     for name, part in zip(("q0", "q1", "q2", "q3"), quaternions(turn), strict=True):
-        found[name] = Channel(part, "")
+        found[name] = Channel(part, "", f"part {name[1]} of the quaternion of the coupler")
     return found
 
 

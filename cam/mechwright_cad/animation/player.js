@@ -14,7 +14,7 @@ if (!pictured) place.remove();
 
 function show() {
   const value = (at(input.values, time) * factorOfInput).toFixed(unitOfInput === "°" ? 1 : 3);
-  const words = `${data.input} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
+  const words = `${told(data.input)} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
   said.textContent = words;
   slider.value = time;
   slider.setAttribute("aria-valuetext", words);
@@ -46,7 +46,7 @@ function play(on) {
 }
 document.getElementById("way").textContent = data.over !== data.input ? "there and back" : data.round ? "once round" : "one way";
 slider.max = last;
-slider.setAttribute("aria-label", `Input ${data.input}`);
+slider.setAttribute("aria-label", `Input: ${told(data.input)}`);
 slider.addEventListener("input", () => seek(Number(slider.value)));
 slider.addEventListener("keydown", (event) => {
   // A step of the slider is a sample, a page a tenth of the motion.

@@ -27,7 +27,7 @@ def still(places: Sequence[Target], found: Mapping[str, Any] | None = None) -> d
     points = np.array([[*one.place, 0.0][:3] for one in places]).reshape(-1, 3)
     space = any(len(one.place) == 3 for one in places)
     if found is None:
-        nothing = Motion(NOTHING, {NOTHING: Channel(np.zeros(2), "")})
+        nothing = Motion(NOTHING, {NOTHING: Channel(np.zeros(2), "", "nothing moves yet")})
         found = scene((), nothing, solids=False)
         if not space:
             around = [np.zeros((1, 3)), points]  # from where the places are measured, too

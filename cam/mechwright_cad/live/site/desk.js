@@ -9,7 +9,7 @@ function draw(scene, more) {
   picture = scene;
   const main = document.getElementById("main");
   main.replaceChildren(document.getElementById("stage-of").content.cloneNode(true));
-  kept = player({ ...scene, ...more, live: true, ghost: ghost && scene.layers ? ghost : scene.ghost }, before, end.signal) || (() => ({}));
+  kept = player({ ...scene, ...more, live: true, ghost: ghost || scene.ghost }, before, end.signal) || (() => ({}));
 }
 const parts = newest("parts", (found, asked) => {
   if (found.scene) draw(found.scene);
@@ -78,10 +78,9 @@ document.addEventListener("keydown", (event) => {
   event.shiftKey ? step(future, past) : step(past, future);
 });
 button_("compare").addEventListener("click", () => {
-  ghost = ghost ? null : picture && picture.layers ? { ...picture, ghost: null } : null;
+  ghost = ghost || !picture ? null : { ...picture, ghost: null };
   button_("compare").setAttribute("aria-pressed", String(Boolean(ghost)));
   if (picture) known.seeks ? drawWished(picture) : draw(picture);
-  if (!ghost && picture && !picture.layers) say("Two designs over each other are shown in the plane alone.");
 });
 async function open(words) {
   try {

@@ -40,6 +40,7 @@ function spaceView(canvas, scene) {
 function grips(scene, targets, drag) {
   const picture = document.getElementById("picture"), svg = picture.querySelector("svg"), canvas = picture.querySelector("canvas");
   if (!svg && !canvas) return null;
+  if (svg) svg.setAttribute("role", "group"); // a picture would hide its handles from a screen reader
   const view = svg ? planeView(svg) : spaceView(canvas, scene), lines = new Map(), made_ = new Map();
   const said = (place) => place.map((part) => shortNumber(Number(part.toPrecision(5)))).join(", ") + " mm";
   for (const { line } of targets) if (line && !lines.has(line)) lines.set(line, drawnIn("path", { class: "wanted" }, view.layer));
