@@ -58,17 +58,15 @@ def test_the_gallery_has_a_card_for_every_example():
 
 
 def test_an_example_is_drawn_and_moves():
-    mechanism = mw.load(ROOT / "examples" / "geneva-straight.toml").asked(
-        samples=PAGE_SAMPLES, command="solve"
-    )
+    mechanism = mw.load(ROOT / "examples" / "elliptic-pair.toml").asked(samples=PAGE_SAMPLES, command="solve")
     shown = gallery.drawn(mechanism)
     assert shown.keys() == {"still.svg", "motion.html"}
     assert shown["still.svg"].count("<path") >= 3
-    example = gallery.Example(ROOT / "examples" / "geneva-straight.toml")
-    page = gallery.page_of(example, gallery.framed("geneva-straight", shown), gallery.listed(mechanism))
+    example = gallery.Example(ROOT / "examples" / "elliptic-pair.toml")
+    page = gallery.page_of(example, gallery.framed("elliptic-pair", shown), gallery.listed(mechanism))
     assert example.text.strip() in page
-    assert 'src="geneva-straight/motion.html"' in page
-    assert "`geneva.contact`" in page
+    assert 'src="elliptic-pair/motion.html"' in page
+    assert "`gear.mesh`" in page
 
 
 @by_night

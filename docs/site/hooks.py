@@ -10,7 +10,7 @@ from docstrings import Docstrings
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
-from tree import GALLERY, NOTEBOOKS, ROOT, TOP, relinked
+from tree import GALLERY, NOTEBOOKS, ROOT, TOP, anchor, relinked
 
 ORIGINS: dict[str, str] = {}
 """Place on the site to the path in the repository, of pages that come from outside ``docs``."""
@@ -24,6 +24,7 @@ MOVING = re.compile(r"<!-- moving: (\S+) -->\n\n\[!\[.*?\]\(.*?\)\]\(.*?\)")
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
     """Take docstrings as they are written; fill the menu where pages come from outside ``docs``."""
     config.markdown_extensions.append(Docstrings())
+    config.mdx_configs["toc"]["slugify"] = anchor
     for entry in config.nav or ():
         if "Gallery" in entry:
             entry["Gallery"] = [f"{GALLERY}/README.md", *_by_family()]

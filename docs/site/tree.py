@@ -38,6 +38,15 @@ def place(path: str) -> str | None:
     return TOP.get(path)
 
 
+def anchor(title: str, separator: str = "-") -> str:
+    """The anchor of a heading, as the repository's own reader makes it, so that one link leads to both.
+
+    >>> anchor("The example: H = 120 mm")
+    'the-example-h--120-mm'
+    """
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", separator)
+
+
 def relinked(markdown: str, origin: str) -> str:
     """A page of the repository with its links as the site needs them; code blocks stay as they are.
 
@@ -60,7 +69,7 @@ def relinked(markdown: str, origin: str) -> str:
         raise ValueError(f"{origin} is no page of the site")
 
     def changed(match: re.Match[str]) -> str:
-        target, hash_, anchor = match[2].partition("#")
+        target, hash_, within = match[2].partition("#")
         if not target or re.match(r"[a-z]+:", target):
             return match[0]
         wanted = posixpath.normpath(posixpath.join(posixpath.dirname(origin), target))
@@ -68,7 +77,7 @@ def relinked(markdown: str, origin: str) -> str:
         if found is None:
             return match[0]
         return (
-            f"{match[1]}{posixpath.relpath(found, posixpath.dirname(here) or '.')}{hash_}{anchor}{match[3]}"
+            f"{match[1]}{posixpath.relpath(found, posixpath.dirname(here) or '.')}{hash_}{within}{match[3]}"
         )
 
     pieces, last = [], 0
