@@ -2,7 +2,7 @@
 
 import math
 
-from mechwright import DesignError, GroundPlate, Hub, Mounting, Spindle
+from mechwright import GroundPlate, Hub, Mounting, MountingError, Spindle
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.layout import OUTWARDS, Layout, screw_offset_of, screw_places
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -17,12 +17,14 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
     At the pitch radii r2 and r4 a torque T on gear 2 is T r4/r2 on gear 4, and presses the teeth together
     with T/(r2 cos α): both are greatest where r2 is least, a (1 - e), and r4 is a (1 + e).
 
-    Raises DesignError for gears without a bore, and for a base plate without holes in its corners.
+    Raises MountingError for gears without a bore, and for a base plate without holes in its corners.
     """
     if params.stages > 1:
         return _base_of(params)
     if params.bore == 0:
-        raise DesignError("parameters.bore: gears without a bore have no shafts; set bore = 10")
+        raise MountingError(
+            "parameters.bore: gears without a bore have no shafts; set bore = 10", ({"parameters.bore": 10},)
+        )
     ellipse = ellipse_of(params)
     a, e = ellipse.semi_major, params.eccentricity
     force = 1000 / (a * (1 - e) * math.cos(math.radians(params.pressure_angle)))
@@ -40,9 +42,10 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
 def _base_of(params: EllipticGearParams) -> GroundPlate:
     """The coupler of a train passes over all shafts, so they stand in one plate and are driven from below."""
     if params.screw_hole is None:
-        raise DesignError(
+        raise MountingError(
             "parameters.screw_hole: the base plate of a train is fixed by screws under its gears, and a "
-            f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}"
+            f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
         )
     layout = Layout.of(params)
     corner = screw_places(params)[-1]

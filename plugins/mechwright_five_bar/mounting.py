@@ -1,6 +1,6 @@
 """The ground plate over its gears, from which a base, legs and a motor can follow."""
 
-from mechwright import DesignError, GroundPlate
+from mechwright import GroundPlate, MountingError
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.hub import Hub, hub_of
 from mechwright_five_bar.params import FiveBarParams
@@ -15,14 +15,15 @@ KEY_ROOM = 1.0
 
 
 def mounting_of(params: FiveBarParams) -> GroundPlate:
-    """The ground plate and the crank's shaft; raises DesignError where it stands on posts of its own.
+    """The ground plate and the crank's shaft; raises MountingError where it stands on posts of its own.
 
     ``params`` shows its first phase.
     """
     if params.screw_hole is None:
-        raise DesignError(
+        raise MountingError(
             "parameters.screw_hole: the ground plate stands on posts that are pressed into it, where the "
-            f"pillars of a frame would be; set screw_hole = {SCREW_HOLE:g}"
+            f"pillars of a frame would be; set screw_hole = {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
         )
     layout, hub = layout_of(params), hub_of(params)
     low = layout.heights["ground"]
@@ -44,7 +45,7 @@ def mounting_of(params: FiveBarParams) -> GroundPlate:
         "parameters.ground_thickness",
         offset=params.post_offset,
         outwards=(1.0, 1.0),
-        free=layout.heights["pinion"],
+        neck=low - layout.heights["pinion"],
         access=() if hub is None else (_way(params, hub),),
     )
 

@@ -116,6 +116,7 @@ def test_what_has_no_frame_is_refused_by_name(name, parameters, code, words):
     [
         ("elliptic-pair", {"bore": 4}, {}, {"parameters.bore": 5}),
         ("elliptic-pair", {"bore": 5}, {"frame": "base", "motor": "auto"}, {"parameters.bore": 8}),
+        ("elliptic-pair", {}, {"frame": "plate"}, {"machine.frame": "plates"}),
         ("elliptic-pair", {"bore": 5}, {"bearing": "618"}, {"machine.bearing": "auto"}),
         ("geneva-prototype", {}, {}, {"parameters.axial_gap": 1.1}),
     ],

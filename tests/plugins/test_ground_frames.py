@@ -100,6 +100,20 @@ def test_columns_stand_under_the_holes_wherever_the_ground_plate_lies(turn):
         assert piece.region.distance(heads) > 4.25 + 2.9
 
 
+@pytest.mark.parametrize("example", [FIVE, EIGHT])
+def test_one_plate_has_the_motor_behind_it_and_nothing_below(example):
+    found = design({"frame": "plate"}, example=example)
+    assert errors(found.check()) == []
+    at, ground = heights(found), found.family.mounting(found.params)
+    assert not {"leg", "base-plate", "foot"} & set(at)
+    assert at["pillar"] == pytest.approx((at["motor-plate"][1], ground.low))
+    (pillar,) = [part for part in found.surroundings[0].parts if part.name == "pillar"]
+    space = at["pillar"][1] - at["pillar"][0]
+    assert sum(thread.depth for thread in pillar.turned.threads) < space
+    screws = [part for part in found.surroundings[0].parts if part.name.startswith("screw-m5")]
+    assert sum(len(part.instances) for part in screws) == 8
+
+
 @pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
 def test_no_plate_meets_another(example, tmp_path):
     assert commands.collisions(content(example=example), tmp_path, solids=False) == []
@@ -158,6 +172,7 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
         ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
         ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
+        ({"frame": "plate", "motor": "none"}, {}, "frame.one-plate", {"machine.motor": "auto"}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),

@@ -1,14 +1,12 @@
 """The frame of a design: what its family says of its shafts, and what its drive asks of them."""
 
 import math
-import re
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Change
-from mechwright.contracts.mounting import GroundPlate
+from mechwright.contracts.mounting import GroundPlate, MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
@@ -19,9 +17,6 @@ from mechwright.machine.frame.grounded import base_under
 from mechwright.machine.frame.sweep import LOOKS, Space, space_of
 from mechwright.machine.motors import motor_of
 from mechwright.machine.settings import MachineSettings
-
-_ADVICE = re.compile(r"set (\w+) = ([\d.]+)")
-"""A remedy that can be tried."""
 
 
 @kept
@@ -76,8 +71,6 @@ def _refused(code: str, error: DesignError) -> Surroundings:
     """By an error that begins with a key."""
     key, _, rest = str(error).partition(": ")
     found = refusal(code, key, rest)
-    advice = _ADVICE.fullmatch(found.remedy)
-    if advice is not None:
-        change: Change = {f"{key.partition('.')[0]}.{advice[1]}": float(advice[2])}
-        found = replace(found, proposed=(change,))
+    if isinstance(error, MountingError):
+        found = replace(found, proposed=error.proposed)
     return Surroundings(findings=(found,))

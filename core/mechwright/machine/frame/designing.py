@@ -75,6 +75,8 @@ def decided(
     keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
 ) -> Frame | list[Finding]:
     """All sizes, or what is in the way; raises DesignError for what there is no room for."""
+    if keys.frame == "plate":
+        return [_one_plate()]
     chosen, faults = seats(mounting, keys)
     if faults:
         return faults
@@ -112,6 +114,19 @@ def decided(
         held += [Disc(corner, EDGE) for corner in bracket.corners]
     standing = stand(region, held, PILLAR / 2, EDGE)
     return Frame(tuple(chosen), levels, thickness, standing, bracket)
+
+
+def _one_plate() -> Finding:
+    """Gears and wheels on shafts of their own are straddled: a plate on one side alone does not hold them."""
+    return Finding.error(
+        "frame.one-plate",
+        "machine.frame",
+        "one plate is for mechanisms that have their bearings in a ground plate of their own, and here "
+        "shafts stand in bearings on both sides",
+        remedy='set frame = "plates"',
+        stage=Stage.PARTS,
+        proposed=({"machine.frame": "plates"},),
+    )
 
 
 def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
