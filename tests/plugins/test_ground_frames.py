@@ -175,6 +175,7 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
         ({"frame": "plate", "motor": "none"}, {}, "frame.one-plate", {"machine.motor": "auto"}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
+        ({"guard": True}, {}, "frame.own-ground", {"machine.guard": False}),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),
         ({"plate_thickness": 12.0}, {}, "frame.own-ground", {"machine.plate_thickness": None}),
     ],
@@ -223,3 +224,12 @@ def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, 
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
     assert len(solids) == count == bodies
     assert all((folder / f"{plate}.nc").exists() for plate in ("motor-plate", "base-plate"))
+
+
+def test_a_key_of_a_length_that_nobody_sells_keeps_no_train_from_its_frame():
+    found = design({"motor": "none"}, example=EIGHT, thickness=13, bushes=None)
+    (key,) = [part for part in found.family.parts(found.params) if part.name == "key"]
+    assert key.bought is None
+    (piece,) = space_of([key], found.solve(121)).pieces
+    assert piece.high - piece.low == pytest.approx(13)
+    assert errors(found.check()) == []

@@ -16,13 +16,14 @@ from mechwright.machine.frame.base import HOLE
 from mechwright.machine.frame.coupled import BESIDE, GAP, PLATE, TURNS, face_below, outline
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.keys import FrameKeys
+from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import PILLAR, SCREW
 from mechwright.machine.frame.standing import CLEARANCE
 from mechwright.machine.frame.sweep import Space, Swept
-from mechwright.standards.couplings import BORES, Coupling, coupling_for
+from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
 from mechwright.standards.screws import lengths, screw_size
 
-WITHOUT = ("bearing", "plate_thickness", "cover")
+WITHOUT = ("bearing", "plate_thickness", "cover", "guard")
 """Keys of bearing plates, of which there are none here."""
 
 _TOUCH = 1e-6
@@ -112,7 +113,10 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
         return None
     if ground.diameter not in BORES:
         raise GroundError(_no_bore(ground))
-    coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
+    try:
+        coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
+    except OverloadError as error:
+        raise GroundError(overloaded(error, wanted)) from error
     have, need = ground.bare - ground.end, GAP + coupling.of.length / 2
     if have < need:
         said = f"its coupling of {coupling.of.length:g} mm takes more"

@@ -37,6 +37,11 @@ class FrameKeys(Parameters):
         False,
         description="Whether the plates reach over all that moves, so that nothing stands out sideways.",
     )
+    guard: bool = Field(
+        False,
+        description="Whether rings of polycarbonate close the space between the bearing plates, so that no "
+        "finger gets in.",
+    )
     axial_gap: Millimetres = Field(
         2.0, ge=0.5, le=50, description="Least gap along the axes between what moves and the bearing plates."
     )
