@@ -17,7 +17,7 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
     At the pitch radii r2 and r4 a torque T on gear 2 is T r4/r2 on gear 4, and presses the teeth together
     with T/(r2 cos α): both are greatest where r2 is least, a (1 - e), and r4 is a (1 + e).
 
-    Raises DesignError for gears without a bore, and for a base plate without holes in its corners.
+    Raises MountingError for gears without a bore, and for a base plate without holes in its corners.
     """
     if params.stages > 1:
         return _base_of(params)

@@ -15,7 +15,7 @@ KEY_ROOM = 1.0
 
 
 def mounting_of(params: FiveBarParams) -> GroundPlate:
-    """The ground plate and the crank's shaft; raises DesignError where it stands on posts of its own.
+    """The ground plate and the crank's shaft; raises MountingError where it stands on posts of its own.
 
     ``params`` shows its first phase.
     """
@@ -45,7 +45,7 @@ def mounting_of(params: FiveBarParams) -> GroundPlate:
         "parameters.ground_thickness",
         offset=params.post_offset,
         outwards=(1.0, 1.0),
-        free=layout.heights["pinion"],
+        neck=low - layout.heights["pinion"],
         access=() if hub is None else (_way(params, hub),),
     )
 

@@ -100,6 +100,20 @@ def test_columns_stand_under_the_holes_wherever_the_ground_plate_lies(turn):
         assert piece.region.distance(heads) > 4.25 + 2.9
 
 
+@pytest.mark.parametrize("example", [FIVE, EIGHT])
+def test_one_plate_has_the_motor_behind_it_and_nothing_below(example):
+    found = design({"frame": "plate"}, example=example)
+    assert errors(found.check()) == []
+    at, ground = heights(found), found.family.mounting(found.params)
+    assert not {"leg", "base-plate", "foot"} & set(at)
+    assert at["pillar"] == pytest.approx((at["motor-plate"][1], ground.low))
+    (pillar,) = [part for part in found.surroundings[0].parts if part.name == "pillar"]
+    space = at["pillar"][1] - at["pillar"][0]
+    assert sum(thread.depth for thread in pillar.turned.threads) < space
+    screws = [part for part in found.surroundings[0].parts if part.name.startswith("screw-m5")]
+    assert sum(len(part.instances) for part in screws) == 8
+
+
 @pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
 def test_no_plate_meets_another(example, tmp_path):
     assert commands.collisions(content(example=example), tmp_path, solids=False) == []
@@ -158,8 +172,10 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
         ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
         ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
+        ({"frame": "plate", "motor": "none"}, {}, "frame.one-plate", {"machine.motor": "auto"}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
+        ({"guard": True}, {}, "frame.own-ground", {"machine.guard": False}),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),
         ({"plate_thickness": 12.0}, {}, "frame.own-ground", {"machine.plate_thickness": None}),
     ],
@@ -208,3 +224,12 @@ def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, 
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
     assert len(solids) == count == bodies
     assert all((folder / f"{plate}.nc").exists() for plate in ("motor-plate", "base-plate"))
+
+
+def test_a_key_of_a_length_that_nobody_sells_keeps_no_train_from_its_frame():
+    found = design({"motor": "none"}, example=EIGHT, thickness=13, bushes=None)
+    (key,) = [part for part in found.family.parts(found.params) if part.name == "key"]
+    assert key.bought is None
+    (piece,) = space_of([key], found.solve(121)).pieces
+    assert piece.high - piece.low == pytest.approx(13)
+    assert errors(found.check()) == []

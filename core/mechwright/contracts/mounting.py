@@ -163,12 +163,12 @@ class GroundPlate:
         The design-file key that moves all four holes outwards.
     hole_key, diameter_key, thickness_key
         Those of ``hole`` and ``diameter``, and of the plate's thickness.
+    neck
+        How far down the shaft is thicker than its end, or carries something, mm below the plate.
     offset
         What that key says, mm; left out, the distance of the holes from y = 0.
     outwards
         By how much a millimetre of the offset moves a hole along x and y, mm.
-    free
-        Height below which nothing sits on the shaft, mm; left out, the plate's lower face.
     length_key
         The design-file key of how far the shaft stands out; empty where it grows with the diameter.
     access
@@ -193,9 +193,9 @@ class GroundPlate:
     hole_key: str
     diameter_key: str
     thickness_key: str
+    neck: float = 0.0
     offset: float | None = None
     outwards: Point = (0.0, 1.0)
-    free: float | None = None
     length_key: str = ""
     access: tuple[tuple[Point, float], ...] = ()
 
@@ -203,13 +203,13 @@ class GroundPlate:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
         if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 < y1):
             raise GeometryError("the holes of a ground plate are the corners of no rectangle")
-        if not self.end < self.bare <= self.low < self.high:
+        if not self.end < self.low - self.neck <= self.low < self.high:
             raise GeometryError("the shaft of a ground plate does not stand out below it")
 
     @property
     def bare(self) -> float:
-        """Height below which nothing sits on the shaft, mm."""
-        return self.low if self.free is None else self.free
+        """Height below which the shaft is as thick as its end and carries nothing, mm."""
+        return self.low - self.neck
 
     @property
     def out(self) -> float:

@@ -27,7 +27,7 @@ _SAMPLES = 25
 
 _REFUSAL = re.compile(r"(parameters|machine)\.\w+: .+; .+")
 
-_FRAMES = ("plates", "base")
+_FRAMES = ("plate", "plates", "base")
 
 
 class FrameTests:

@@ -14,6 +14,7 @@ from mechwright.machine.frame.bracket import NoCouplingError, add_bracket, brack
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.findings import strength
 from mechwright.machine.frame.free import in_the_way
+from mechwright.machine.frame.guard import add_guard, widened
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.overload import overloaded
@@ -76,6 +77,8 @@ def decided(
     keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
 ) -> Frame | list[Finding]:
     """All sizes, or what is in the way; raises DesignError for what there is no room for."""
+    if keys.frame == "plate":
+        return [_one_plate()]
     chosen, faults = seats(mounting, keys)
     if faults:
         return faults
@@ -114,7 +117,22 @@ def decided(
         region = region.union(bracket.region)
         held += [Disc(corner, EDGE) for corner in bracket.corners]
     standing = stand(region, held, PILLAR / 2, EDGE)
+    if keys.guard:
+        standing = widened(standing, space.region.bounds)
     return Frame(tuple(chosen), levels, thickness, standing, bracket)
+
+
+def _one_plate() -> Finding:
+    """Gears and wheels on shafts of their own are straddled: a plate on one side alone does not hold them."""
+    return Finding.error(
+        "frame.one-plate",
+        "machine.frame",
+        "one plate is for mechanisms that have their bearings in a ground plate of their own, and here "
+        "shafts stand in bearings on both sides",
+        remedy='set frame = "plates"',
+        stage=Stage.PARTS,
+        proposed=({"machine.frame": "plates"},),
+    )
 
 
 def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
@@ -184,6 +202,8 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     add_plate(kit, "lower-plate", standing, EDGE, thickness, material, lower, "lower-carrier", frame.under)
     top = -levels.upper - thickness
     add_plate(kit, "upper-plate", standing, EDGE, thickness, material, upper, "upper-carrier", top, over=True)
+    if keys.guard:
+        add_guard(kit, standing, levels)
     for seat in frame.seats:
         add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
     _add_columns(kit, frame, keys, posts)

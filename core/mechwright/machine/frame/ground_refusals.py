@@ -23,7 +23,7 @@ from mechwright.machine.frame.sweep import Space, Swept
 from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
 from mechwright.standards.screws import lengths, screw_size
 
-WITHOUT = ("bearing", "plate_thickness", "cover")
+WITHOUT = ("bearing", "plate_thickness", "cover", "guard")
 """Keys of bearing plates, of which there are none here."""
 
 _TOUCH = 1e-6
@@ -100,6 +100,13 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
     return found
 
 
+def motor_wanted() -> Finding:
+    """One plate adds the motor behind it, and nothing without one."""
+    said = "a frame of one plate is the ground plate with the motor behind it, and there is no motor"
+    change: Change = {"machine.motor": "auto"}
+    return _fault("frame.one-plate", "machine.motor", said, remedy='set motor = "auto"', proposed=(change,))
+
+
 def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
     """On the shaft's end; None without a motor. Raises DesignError where none fits or holds."""
     if wanted.motor is None:
@@ -113,7 +120,7 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
     have, need = ground.bare - ground.end, GAP + coupling.of.length / 2
     if have < need:
         said = f"its coupling of {coupling.of.length:g} mm takes more"
-        raise GroundError(_longer(ground, said, need - have))
+        raise GroundError(longer(ground, said, need - have))
     return coupling
 
 
@@ -211,17 +218,17 @@ def _hanging(
             continue
         if one.low < low + coupling.of.length and one.region.distance(axis) < _beside(coupling):
             need = low + coupling.of.length + GAP - one.low
-            raise GroundError(_longer(ground, f"{one.part} is in the way of the coupling", need))
+            raise GroundError(longer(ground, f"{one.part} is in the way of the coupling", need))
         if one.low < plate + keys.axial_gap:
             need = plate + keys.axial_gap - one.low
-            raise GroundError(_longer(ground, f"{one.part} hangs down to the motor's plate", need))
+            raise GroundError(longer(ground, f"{one.part} hangs down to the motor's plate", need))
 
 
 def _beside(coupling: Coupling) -> float:
     return coupling.of.outside / 2 + CLEARANCE
 
 
-def _longer(ground: GroundPlate, said: str, more: float) -> Finding:
+def longer(ground: GroundPlate, said: str, more: float) -> Finding:
     """A shaft that ends so much too high, mm; its end has a key of its own, or grows with its diameter."""
     key, have = ground.diameter_key, ground.bare - ground.end
     need = have + more

@@ -128,9 +128,14 @@ def layers_of(part: Part) -> list[Layer]:
             (_ring((0.0, 0.0), max(step.foot, step.diameter) / 2), low, low + step.length)
             for low, step in steps
         ]
-    if part.bought is None or part.bought.shape is None:
-        raise DesignError(f"part {part.name} is a solid of its own: nothing says what it sweeps")
-    return [_shape(part.bought.shape)]
+    # A part that is made as a shape, such as a key of a length that nobody sells, is built by its method.
+    shape = getattr(part.build, "__self__", None) if part.bought is None else part.bought.shape
+    if not isinstance(shape, Shape):
+        raise DesignError(
+            f"part {part.name} is a solid of its own: nothing says what it sweeps; leave frame out, or set "
+            'frame = "none"'
+        )
+    return [_shape(shape)]
 
 
 def _ring(centre: tuple[float, float], radius: float) -> Array:
