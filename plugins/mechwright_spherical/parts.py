@@ -6,14 +6,17 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from mechwright import Colour, Instance, Part, Step, Turned
+from mechwright.contracts.holes import threaded
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount import thread_of
+from mechwright_spherical.mounted import mounted_parts
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.shells import Shells
-from mechwright_spherical.stand import base_outline
+from mechwright_spherical.stand import FLANGE_SCREWS, MOUNTING_SCREWS, base_outline
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -39,6 +42,7 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
         *_links(params, linkage, shells),
         *_pins(params, shells, train),
         *_gears(params, train),
+        *_mounted(params),
         *_plates(params, linkage, shells),
     )
 
@@ -99,11 +103,30 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
         low, high = spans[span]
         return Turned((Step(diameter, high - low),))
 
+    loose = mounted_parts(params)
     for name, (span, body, _) in pin_places(params).items():
+        if name in loose:
+            continue
         yield _solid(name, params, body, "pin", turned=turned(span))
     if train is not None and train.idler_axis is not None:
         yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
     yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))
+
+
+def _mounted(params: SphericalParams) -> Iterator[Part]:
+    """Shafts with rings, bushes and spacers of a ground link with a motor's flange."""
+    for name, one in mounted_parts(params).items():
+        yield Part(
+            name,
+            None,
+            0.0,
+            one.material,
+            instances=(Instance(one.body),),
+            colour=COLOURS["pin" if one.material == "steel" else "gear"],
+            build=partial(_build, shape_of(params), name),
+            turned=one.turned,
+            bought=one.bought,
+        )
 
 
 def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
@@ -114,7 +137,7 @@ def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
 
 def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
     hardware, stand, flat = params.hardware, params.stand, params.flat
-    yield Part(
+    base = Part(
         "base",
         base_outline(stand),
         stand.plate_thickness,
@@ -122,6 +145,10 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         instances=(Instance("base"),),
         colour=COLOURS["base"],
     )
+    if stand.motor_flange is not None:
+        for number in range(1, len(FLANGE_SCREWS) + len(MOUNTING_SCREWS) + 1):
+            base = threaded(base, f"bore-{number}", f"M{thread_of(stand):g}")
+    yield base
     if not flat.make:
         return
     arcs = link_arcs(linkage) | ground_arcs(params)
