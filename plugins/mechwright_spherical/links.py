@@ -13,11 +13,10 @@ from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.mount import EDGE, HOLE, hubs_of
-from mechwright_spherical.mounted import mounted_parts
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
-from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip, standing
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
 
@@ -47,8 +46,6 @@ def solid(params: SphericalParams, name: str) -> cq.Solid:
     linkage, shells = linkage_of(params), shells_of(params)
     train = train_of(linkage, params.drive)
     pins = pin_places(params)
-    if name in (loose := mounted_parts(params)):
-        return standing(loose[name].shape.solid(), *loose[name].place)
     if name in pins:
         span, _, angle = pins[name]
         return cylinder(direction(angle), shells.pins[span], params.hardware.pin_diameter)
@@ -156,7 +153,7 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     if hubs := hubs_of(params):
         for at, hub in zip(axes, hubs.values(), strict=True):
             bodies.append(cylinder(at, hub.span, max(hub.diameter, hardware.boss_diameter)))
-            holes.append(cylinder(at, (hub.span[0] - _OVER, hub.span[1] + _OVER), hub.outside))
+            holes.append(cylinder(at, (hub.span[0] - _OVER, hub.span[1] + _OVER), hub.outside + hardware.fit))
         bodies.append(motor_flange(params, shells))
         holes += flange_holes(params, shells)
     else:

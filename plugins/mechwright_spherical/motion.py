@@ -17,6 +17,7 @@ from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import input_range, mobility
+from mechwright_spherical.mounted import axis_joints, axis_poses
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.stand import base_pose
 from mechwright_spherical.vectors import norm
@@ -59,11 +60,11 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     bodies = poses(linkage, phase, state, angles, train)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
+    bodies |= axis_poses(params, bodies)
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    return Motion(
-        "theta", channels, bodies, _figures(params, linkage), traces, held_by(linkage, train, params.radius)
-    )
+    held = held_by(linkage, train, params.radius) | axis_joints(params)
+    return Motion("theta", channels, bodies, _figures(params, linkage), traces, held)
 
 
 def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:

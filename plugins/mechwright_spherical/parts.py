@@ -11,8 +11,8 @@ from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
-from mechwright_spherical.mount import thread_of
-from mechwright_spherical.mounted import mounted_parts
+from mechwright_spherical.mount import hubs_of, thread_of
+from mechwright_spherical.mounted import axis_parts
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.shells import Shells
@@ -42,7 +42,7 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
         *_links(params, linkage, shells),
         *_pins(params, shells, train),
         *_gears(params, train),
-        *_mounted(params),
+        *axis_parts(params),
         *_plates(params, linkage, shells),
     )
 
@@ -103,7 +103,7 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
         low, high = spans[span]
         return Turned((Step(diameter, high - low),))
 
-    loose = mounted_parts(params)
+    loose = {f"shaft-{name}" for name in hubs_of(params)}
     for name, (span, body, _) in pin_places(params).items():
         if name in loose:
             continue
@@ -111,22 +111,6 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
     if train is not None and train.idler_axis is not None:
         yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
     yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))
-
-
-def _mounted(params: SphericalParams) -> Iterator[Part]:
-    """Shafts with rings, bushes and spacers of a ground link with a motor's flange."""
-    for name, one in mounted_parts(params).items():
-        yield Part(
-            name,
-            None,
-            0.0,
-            one.material,
-            instances=(Instance(one.body),),
-            colour=COLOURS["pin" if one.material == "steel" else "gear"],
-            build=partial(_build, shape_of(params), name),
-            turned=one.turned,
-            bought=one.bought,
-        )
 
 
 def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:

@@ -70,15 +70,6 @@ def cylinder(direction: Array, span: Span, diameter: float) -> cq.Solid:
     return cq.Solid.makeCylinder(diameter / 2, high - low, _point(low * direction), _point(direction))
 
 
-def standing(solid: cq.Solid, direction: Array, low: float) -> cq.Solid:
-    """A solid that stands on z = 0 with its z along a direction, from the radius ``low`` outwards."""
-    plane = cq.Plane(tuple((low * direction).tolist()), normal=tuple(direction.tolist()))
-    found = solid.moved(cq.Location(plane))
-    if not isinstance(found, cq.Solid):
-        raise GeometryError("the CAD kernel made no solid of a part on an axis; change its sizes a little")
-    return found
-
-
 def shell(span: Span, towards: Array) -> cq.Solid:
     """A whole spherical shell, its seam on the side away from ``towards``."""
     place = cq.Location(cq.Plane((0, 0, 0), tuple(-towards), tuple(perpendicular(towards))))
