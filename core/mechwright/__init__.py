@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
-    from mechwright.contracts.mounting import GroundPlate, Hub, Mounting, MountingError, Spindle
+    from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
@@ -84,7 +84,7 @@ _HOMES = {
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
-    "mechwright.contracts.mounting": "GroundPlate Hub Mounting MountingError Spindle",
+    "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
@@ -136,7 +136,7 @@ __all__ += [
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
-__all__ += ["FittingMark", "GroundPlate", "Hub", "Mounting", "MountingError", "Spindle"]
+__all__ += ["FittingMark", "Flange", "Foot", "GroundPlate", "Hub", "Mounting", "MountingError", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += [
     "Finding",

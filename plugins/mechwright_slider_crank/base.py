@@ -180,5 +180,5 @@ def mounting_of(params: SliderCrankParams) -> GroundPlate:
         "parameters.screw_hole",
         "parameters.shaft",
         "parameters.thickness",
-        free=low - end.neck,
+        neck=end.neck,
     )

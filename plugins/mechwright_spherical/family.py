@@ -8,7 +8,7 @@ from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
+    from mechwright import AsMade, Flange, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
 
 
 class Spherical(Family[SphericalParams]):
@@ -42,6 +42,12 @@ class Spherical(Family[SphericalParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def mounting(self, params: SphericalParams) -> "Flange":
+        """The flange of the ground link about the input axis, and the base."""
+        from mechwright_spherical.mount import mounting_of
+
+        return mounting_of(params)
 
     def settings(self, params: SphericalParams) -> Mapping[str, SphericalParams]:
         """The other phases."""

@@ -12,6 +12,7 @@ from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
 from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount_checks import mount_findings
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_span, link_arcs, second_size
 from mechwright_spherical.seats import seats_of, slotted_of
@@ -43,6 +44,7 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
     yield from slot_findings(params)
     yield from _drive(params, linkage, shells)
     yield from _stand(params, linkage, shells)
+    yield from mount_findings(params)
     yield from _strips(params, linkage, shells)
 
 

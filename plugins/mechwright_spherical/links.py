@@ -12,6 +12,7 @@ from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount import EDGE, HOLE, hubs_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.seats import (
@@ -25,7 +26,7 @@ from mechwright_spherical.seats import (
     slot_width,
     slotted_of,
 )
-from mechwright_spherical.shells import Shells, Span
+from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip, stroke
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc, cross, norm, rotate
@@ -188,14 +189,21 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
         axes.append(_in_ground(linkage, train.idler_axis))
         bodies.append(_arc(params, axes[0], axes[2], arcs))
         bodies.append(_arc(params, axes[1], axes[2], arcs))
-    bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+    if hubs := hubs_of(params):
+        for at, hub in zip(axes, hubs.values(), strict=True):
+            bodies.append(cylinder(at, hub.span, max(hub.diameter, hardware.boss_diameter)))
+            holes.append(cylinder(at, (hub.span[0] - _OVER, hub.span[1] + _OVER), hub.outside + hardware.fit))
+        bodies.append(motor_flange(params, shells))
+        holes += flange_holes(params, shells)
+    else:
+        bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+        holes += [bore(params, axis, span) for axis in axes]
     post = post_direction(stand)
     top = shells.outside + stand.height
     flange = (top - hardware.link_thickness, top)
     bodies.append(cylinder(post, (span[0], top), hardware.boss_diameter))
     bodies.append(cylinder(post, flange, flange_diameter(stand)))
     side, up = np.array([0.0, 0.0, 1.0]), np.cross(post, [0.0, 0.0, 1.0])
-    holes += [bore(params, axis, span) for axis in axes]
     for one, two in FLANGE_SCREWS:
         at = stand.plate * (one * side + two * up)
         holes.append(
@@ -207,6 +215,22 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
             )
         )
     return fused(bodies, holes)
+
+
+def motor_flange(params: SphericalParams, shells: Shells) -> cq.Solid:
+    """The square flange about the input axis."""
+    side = (params.stand.motor_flange or 0.0) + 2 * EDGE
+    at = cq.Vector(shells.outside + RISE, -side / 2, -side / 2)
+    found = cq.Solid.makeBox(FLANGE, side, side, at)
+    assert isinstance(found, cq.Solid)  # noqa: S101 - a box is one
+    return found
+
+
+def flange_holes(params: SphericalParams, shells: Shells) -> list[cq.Solid]:
+    """What its four screw holes take away."""
+    half, low = (params.stand.motor_flange or 0.0) / 2, shells.outside + RISE - _OVER
+    places = [cq.Vector(low, y, z) for y in (-half, half) for z in (-half, half)]
+    return [cq.Solid.makeCylinder(HOLE / 2, FLANGE + 2 * _OVER, at, cq.Vector(1, 0, 0)) for at in places]
 
 
 def _in_ground(linkage: Linkage, axis: Array) -> Array:

@@ -17,6 +17,7 @@ from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import input_range, mobility
+from mechwright_spherical.mounted import axis_joints, axis_poses
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.seats import clamped
 from mechwright_spherical.stand import base_pose
@@ -61,9 +62,10 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     bodies = poses(linkage, phase, state, angles, train, slotted)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
+    bodies |= axis_poses(params, bodies)
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    held = held_by(linkage, train, params.radius, slotted)
+    held = held_by(linkage, train, params.radius, slotted) | axis_joints(params)
     return Motion("theta", channels, bodies, _figures(params, linkage), traces, held)
 
 

@@ -288,6 +288,11 @@ class StandTable(Parameters):
     height: Millimetres = Field(40.0, ge=2, le=1000, description="Of the post over the ground link.")
     plate: Millimetres = Field(80.0, ge=10, le=1000, description="Side of the square base plate.")
     plate_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the base plate.")
+    motor_flange: Annotated[float, Field(ge=20, le=300), Unit("mm")] | None = Field(
+        None,
+        description="Side of the square of screws in a flange about the input axis, on which a motor goes; "
+        "both fixed axes then have bushes. Left out, there is none.",
+    )
     screw: Millimetres = Field(6.6, ge=1, le=50, description="Diameter of the screw holes in the base plate.")
 
 
@@ -368,6 +373,8 @@ class SphericalParams(Parameters):
             raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
         if self.kind == "five-bar" and self.hardware.frame == "two":
             raise ValueError('hardware.frame = "two" is for a four-bar; leave it out with a five-bar')
+        if self.kind == "five-bar" and self.stand.motor_flange is not None:
+            raise ValueError("stand.motor_flange is for a four-bar; leave it out with a five-bar")
         if self.path_tolerance is not None and not self._has_path:
             raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
         return self

@@ -48,6 +48,9 @@ class Shells:
         return self.links["ground"][1]
 
 
+RISE, FLANGE = 6.0, 6.0
+"""From the ground link to a motor's flange on it, mm: room for heads of screws; and its thickness."""
+
 SHAFT_END = 2.0
 """How far shafts stick out of the ground link, mm, where they carry nothing: room for a clip."""
 

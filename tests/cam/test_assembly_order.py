@@ -276,6 +276,7 @@ CASES = [
     pytest.param("elliptic-pair-machine", marks=by_night),
     pytest.param("geneva-machine", marks=by_night),
     pytest.param("geneva-motor", marks=by_night),
+    pytest.param("spherical-machine", marks=by_night),
     pytest.param("five-bar-published", marks=by_night),
     pytest.param("five-bar-slots", marks=by_night),
     pytest.param("five-bar-three-phases", marks=by_night),

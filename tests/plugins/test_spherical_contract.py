@@ -25,6 +25,7 @@ class TestSpherical(DayContract):
         {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}, "flat": {"make": False}},
         FOUR_BAR,
         {**FOUR_BAR, "four_bar": {"ground": 20, "input": 60, "coupler": 50, "output": 70}},
+        {**FOUR_BAR, "stand": {"arc": 80, "motor_flange": 56, "screw": 5.5}},
     )
     refused: ClassVar = (
         ({"radius": 40}, "radius"),

@@ -134,17 +134,17 @@ class Order:
 
     @cached_property
     def _base(self) -> int:
-        """What all goes onto: of the plates that stand still the one in the middle; -1 if nothing does.
+        """What all goes onto: of plates and solids at rest the one in the middle; -1 if nothing does.
 
         In the middle is the one that is fewest contacts away from what the input turns, then from all that
         moves, then from the rest: of a machine on legs it is the plate that carries the shafts, not the one
-        on the floor nor that of the motor. Without plates it is the largest body.
+        on the floor nor that of the motor. Without such it is the largest body.
         """
         heads = [self.heads[body.instance.body] for body in self.bodies]
         still = [k for k, head in enumerate(heads) if head == GROUND]
-        plates = [k for k in still if self.bodies[k].is_plate]
-        most = max((self._sizes[k] for k in plates), default=0.0)
-        large = [k for k in plates if self._sizes[k] >= SHARE * most]
+        made = [k for k in still if self.bodies[k].part.kind in {"plate", "solid"}]
+        most = max((self._sizes[k] for k in made), default=0.0)
+        large = [k for k in made if self._sizes[k] >= SHARE * most]
         if len(large) < 2:
             return max(large or still, key=lambda k: (self._sizes[k], -k), default=-1)
         count = len(self.bodies)

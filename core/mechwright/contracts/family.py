@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
-    from mechwright.contracts.mounting import GroundPlate, Mounting
+    from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
     from mechwright.contracts.target import Target
@@ -91,7 +91,7 @@ class Family(Plugin, Generic[P]):
             The parameters describe no part; ``check`` says why.
         """
 
-    def mounting(self, params: P) -> "Mounting | GroundPlate | None":  # noqa: ARG002 - used by some
+    def mounting(self, params: P) -> "Mounting | GroundPlate | Flange | None":  # noqa: ARG002 - used by some
         """Where its shafts stand, or its own ground plate, so that a frame can be built around it.
 
         It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,

@@ -222,3 +222,77 @@ class GroundPlate:
         dx, dy = more * self.outwards[0], more * self.outwards[1]
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
         return (x0 - dx, y0 - dy), (x1 + dx, y0 - dy), (x1 + dx, y1 + dy), (x0 - dx, y1 + dy)
+
+
+@dataclass(frozen=True)
+class Foot:
+    """A plate on which a mechanism stands, with threads for what it carries and for a base below.
+
+    Parameters
+    ----------
+    body
+        Of the motion, which does not move. The plate lies between z = 0 and its thickness, z pointing down.
+    thickness
+        mm.
+    holes, inner
+        Where its threads are for screws from below, and for those from above that hold what it carries, mm.
+    screw
+        Their diameter, mm.
+    grip
+        Thickness of what the inner ones hold, mm.
+    key
+        The design-file key of the holes' diameter.
+    """
+
+    body: str
+    thickness: float
+    holes: tuple[Point, ...]
+    inner: tuple[Point, ...]
+    screw: float
+    grip: float
+    key: str
+
+
+@dataclass(frozen=True)
+class Flange:
+    """What a family says of a flange about its input's axis, which a motor is to stand on, askew to its foot.
+
+    Parameters
+    ----------
+    body
+        Of the motion, which has the flange and does not move. Its x axis is that of the input, outwards; so
+        is that of ``shaft``, whose origin is the same.
+    inner, outer
+        From the origin to the flange's faces, mm; screws go through from the inner one.
+    half
+        Half the side of the square of its holes, whose sides lie along y and z, mm.
+    shaft
+        The body that turns with the input.
+    diameter, end
+        Of the shaft's end, and from the origin to it, mm.
+    reach
+        Radius about the origin in which all the rest is, mm.
+    foot
+        The plate that carries all.
+    size_key, tilt_key
+        The design-file keys of the square's side, and of the angle, in degrees, between axis and foot's z.
+    bond
+        Length of what is bonded to the shaft there, mm, and the key of the shaft's diameter.
+    """
+
+    body: str
+    inner: float
+    outer: float
+    half: float
+    shaft: str
+    diameter: float
+    end: float
+    reach: float
+    foot: Foot
+    size_key: str
+    tilt_key: str
+    bond: tuple[float, str]
+
+    def __post_init__(self) -> None:
+        if not 0 < self.inner < self.outer < self.end:
+            raise GeometryError("the shaft of a flange does not stand out of it")

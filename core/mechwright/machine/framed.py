@@ -6,13 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.mounting import GroundPlate, MountingError
+from mechwright.contracts.mounting import Flange, GroundPlate, MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.drive import SAMPLES, drive_of
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around, refusal
+from mechwright.machine.frame.flanged import on_flange
 from mechwright.machine.frame.grounded import base_under
 from mechwright.machine.frame.sweep import LOOKS, Space, space_of
 from mechwright.machine.motors import motor_of
@@ -48,6 +49,8 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         drive.speed * 60 / math.tau,
     )
     motion = family.solve(params, LOOKS)
+    if isinstance(mounting, Flange):
+        return on_flange(settings, mounting, motion, wanted)
     if isinstance(mounting, GroundPlate):
         try:
             space = _set_space(family, params)

@@ -62,10 +62,10 @@ def _fault(
     return Finding.error(code, key, said, value, limit, unit, remedy, Stage.PARTS, proposed)
 
 
-def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
-    """Keys that no frame of this kind obeys, and holes that its screws do not fit."""
+def plate_key_faults(keys: FrameKeys) -> list[Finding]:
+    """Keys of bearing plates, which a mechanism with bearings of its own has not."""
     if keys.frame == "plates":
-        said = "the mechanism has its bearings in its own ground plate: no bearing plates go around it"
+        said = "the mechanism has its bearings in its own ground: no bearing plates go around it"
         change: Change = {"machine.frame": "base"}
         return [
             _fault("frame.own-ground", "machine.frame", said, remedy='set frame = "base"', proposed=(change,))
@@ -74,11 +74,19 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
     for key in WITHOUT:
         usual = FrameKeys.model_fields[key].default
         if getattr(keys, key) != usual:
-            said = "the mechanism has its bearings in its own ground plate: there are no bearing plates"
+            said = "the mechanism has its bearings in its own ground: there are no bearing plates"
             change = {f"machine.{key}": usual}
             found.append(
                 _fault("frame.own-ground", f"machine.{key}", said, remedy="leave it out", proposed=(change,))
             )
+    return found
+
+
+def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
+    """Keys that no frame of this kind obeys, and holes that its screws do not fit."""
+    found = plate_key_faults(keys)
+    if keys.frame == "plates":
+        return found
     least = screw_size(SCREW).clearance("fine")
     if not least <= ground.hole <= HOLE:
         said = (

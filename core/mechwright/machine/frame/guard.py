@@ -83,7 +83,7 @@ def add_guard(kit: Kit, standing: Standing, levels: Levels) -> None:
 
 def _ring(outline: Outline, window: Loop, pillars: list[Boss], height: int) -> Part:
     bores = [Bore(one.tag, (one.centre.real, one.centre.imag), HOLE, 0, height) for one in pillars]
-    cut = (
+    cut: tuple[Bore | Profile, ...] = (
         *bores,
         Profile("window", window, "inside", 0, height),
         Profile("outside", outline.outer, "outside", 0, height),
