@@ -21,7 +21,7 @@ from mechwright.cli.perform import perform
 from mechwright.cli.progress import IN_LINES, fraction, line_of
 from mechwright.contracts.finding import Stage
 from mechwright.output import folder
-from mechwright_cam.commands import _cam_settings
+from mechwright_cam.commands import cam_settings
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = ROOT / "examples" / "elliptic-pair.toml"
@@ -157,10 +157,10 @@ def test_shells_complete_the_keys_of_a_setting(shell: str) -> None:
 
 
 def test_keys_of_settings_are_those_that_count() -> None:
-    offered = dict(_cam_settings(""))
+    offered = dict(cam_settings(""))
     assert offered["hold.tabs="].startswith("Number of tabs")
     assert not {"tools=", "nest=", "operations="} & set(offered)
-    assert [key for key, _ in _cam_settings("coolant=")] == ["coolant=flood", "coolant=mist", "coolant=off"]
+    assert [key for key, _ in cam_settings("coolant=")] == ["coolant=flood", "coolant=mist", "coolant=off"]
 
 
 def test_names_that_are_installed_are_offered() -> None:

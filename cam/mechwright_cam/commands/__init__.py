@@ -37,7 +37,7 @@ class Cam(Command):
         perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing, as_json)
 
 
-def _cam_settings(incomplete: str) -> list[tuple[str, str]]:
+def cam_settings(incomplete: str) -> list[tuple[str, str]]:
     """Keys of ``[cam]`` that mean something without a design, each with ``=`` and what it is."""
     from mechwright_cam.commands.verify_drawing import SAID_ELSEWHERE
     from mechwright_cam.shop.settings import CamSettings
@@ -116,7 +116,7 @@ class Verify(Command):
                 "--set",
                 metavar="KEY=VALUE",
                 help="With --dxf: a setting of [cam], hold.tabs=3.",
-                autocompletion=_cam_settings,
+                autocompletion=cam_settings,
             ),
         ] = [],  # noqa: B006 - typer reads it, nobody changes it
         control: Annotated[
