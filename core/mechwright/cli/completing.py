@@ -86,7 +86,7 @@ def any_files(incomplete: str) -> list[str]:
 
 
 def keys(model: "type[BaseModel]", incomplete: str, without: Container[str] = ()) -> list[tuple[str, str]]:
-    """Keys of a table and of tables in it, ``hold.tabs=``, with what they are; after ``=`` what one may be."""
+    """Keys of a table and tables in it, ``hold.tabs=``, with what they are; after ``=`` what it may be."""
     key, said, _ = incomplete.partition("=")
     found: list[tuple[str, str]] = []
     for path, field, facts in _fields(model, ""):
