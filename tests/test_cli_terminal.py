@@ -21,6 +21,7 @@ from mechwright.cli.perform import perform
 from mechwright.cli.progress import IN_LINES, fraction, line_of
 from mechwright.contracts.finding import Stage
 from mechwright.output import folder
+from mechwright_cam.commands import cam_settings
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = ROOT / "examples" / "elliptic-pair.toml"
@@ -146,6 +147,20 @@ def test_shells_complete_commands_and_design_files(shell: str) -> None:
 
 def test_a_shell_completes_what_the_line_asks_for() -> None:
     assert complete("bash", "mechwright new four-bar --requirement p").split() == ["path", "poles"]
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_shells_complete_the_keys_of_a_setting(shell: str) -> None:
+    said = complete(shell, "mechwright verify a.nc --dxf a.dxf --set hold.tab_w")
+    assert re.findall(r"hold\.\w+=", said)[:1] == ["hold.tab_width="]
+    assert "hold.method" not in said
+
+
+def test_keys_of_settings_are_those_that_count() -> None:
+    offered = dict(cam_settings(""))
+    assert offered["hold.tabs="].startswith("Number of tabs")
+    assert not {"tools=", "nest=", "operations="} & set(offered)
+    assert [key for key, _ in cam_settings("coolant=")] == ["coolant=flood", "coolant=mist", "coolant=off"]
 
 
 def test_names_that_are_installed_are_offered() -> None:

@@ -145,6 +145,14 @@ def test_what_is_drawn_while_one_drags_waits_for_no_frame():
         assert (moved < high).all()
 
 
+def test_links_are_shown_where_no_plate_moves():
+    design = load(ROOT / "examples" / "spherical-crank-rocker.toml", host())
+    found = answers.parts(design)["scene"]
+    assert found["bare"]
+    assert {"crank", "coupler", "rocker"} <= {mesh["name"] for mesh in found["meshes"]}
+    assert not answers.parts(load(ROOT / "examples" / "geneva-prototype.toml", host()))["scene"].get("bare")
+
+
 def test_what_is_wrong_is_told_and_the_page_goes_on(page):
     assert "eccentricity" in page.ask("motion", change={"parameters.eccentricity": 2})["error"]
     assert "no_such" in page.ask("parts", change={"parameters.no_such": 2})["error"]

@@ -7,6 +7,9 @@ import pytest
 from by_night import by_night
 from test_live import Page
 
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ROOT = Path(__file__).parents[2]
@@ -111,3 +114,120 @@ def test_a_telephone_shows_all_of_it(shown):
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     page.click("#play")
     until(page, "Number(document.getElementById('input').value) > 1")
+
+
+def test_two_pages_on_one_file_follow_each_other(shown):
+    page, server = shown
+    other = page.context.new_page()
+    other.goto(page.url)
+    other.wait_for_selector("#picture path.part")
+    page.fill('[id="field-parameters.teeth"]', "31")
+    page.press('[id="field-parameters.teeth"]', "Enter")
+    other.fill('[id="field-parameters.bore"]', "14")
+    other.press('[id="field-parameters.bore"]', "Enter")
+    until(other, "document.title.startsWith('•')")
+    page.click("#save")
+    until(other, "document.getElementById('field-parameters.teeth').value === '31'")
+    until(other, "document.getElementById('banner').textContent.includes('your change stays on top of it')")
+    assert other.input_value('[id="field-parameters.bore"]') == "14"
+    other.click("#save")
+    until(page, "document.getElementById('field-parameters.bore').value === '14'")
+    text = server.path.read_text()
+    assert "teeth = 31" in text
+    assert "bore = 14" in text
+    other.close()
+
+
+def test_a_build_goes_on_when_its_page_goes_away(shown):
+    page, server = shown
+    page.click("#build")
+    until(page, "!document.getElementById('stop').hidden")
+    address = page.url
+    page.goto("about:blank")
+    page.goto(address)
+    until(page, "!document.getElementById('stop').hidden")
+    page.click("#stop")
+    until(page, "document.getElementById('doing').textContent.startsWith('Nothing was built')")
+    assert not server.path.with_name("pair-build").exists()
+
+
+@pytest.fixture
+def asked(browser, tmp_path):
+    """A page of a requirement with few starts."""
+    path = tmp_path / "line.toml"
+    text = (ROOT / "examples" / "four-bar-line-requirement.toml").read_text()
+    path.write_text(text.replace("longest_link = 250", "longest_link = 250\nstarts = 3000\ndesigns = 2"))
+    server = Page(path)
+    context = browser.new_context(viewport={"width": 1400, "height": 900})
+    page = context.new_page()
+    said = []
+    page.on("console", lambda message: said.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto(f"http://127.0.0.1:{server.port}/{server.token}/")
+    page.wait_for_selector(".grip")
+    yield page, server
+    assert said == []
+    context.close()
+    server.end()
+
+
+FOUND = (
+    "document.querySelector('[data-design][aria-pressed=true]') && document.querySelector('#picture .bone')"
+)
+
+
+def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
+    page, server = asked
+    until(page, FOUND)
+    grip = page.locator('.grip[data-name="points 3"]')
+    assert grip.get_attribute("aria-valuetext") == "20, 30 mm"
+    box = grip.locator(".ring").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 25, y, steps=5)
+    page.mouse.up()
+    until(page, "document.title.startsWith('•')")
+    until(page, "document.getElementById('sought').hidden === false")
+    until(page, "document.getElementById('sought').hidden && " + FOUND)
+    moved = grip.get_attribute("aria-valuetext")
+    assert moved != "20, 30 mm"
+    page.get_by_role("button", name="Save line-1 as").click()
+    page.fill("#new-name", "taken")
+    page.press("#new-name", "Enter")
+    until(page, "document.getElementById('banner').textContent.includes('taken.toml: written')")
+    design = load(server.path.with_name("taken.toml"), host())
+    path = design.family.solve(design.params, 721).path("P")[:, :2]
+    wanted = [float(part) for part in moved.removesuffix(" mm").split(",")]
+    assert min(((path - wanted) ** 2).sum(axis=1)) ** 0.5 < 5, "near the place where it was dragged"
+    page.click("#undo")
+    until(
+        page,
+        "document.querySelector('.grip[data-name=\"points 3\"]').getAttribute('aria-valuetext') === '20, 30 mm'",
+    )
+    until(page, "document.getElementById('seeking').textContent.includes('given')")
+
+
+def test_a_handle_is_moved_by_the_keyboard(asked):
+    page, _ = asked
+    until(page, FOUND)
+    page.locator('.grip[data-name="points 1"]').focus()
+    page.keyboard.press("ArrowUp")
+    until(
+        page,
+        "document.querySelector('.grip[data-name=\"points 1\"]').getAttribute('aria-valuetext') !== '20, 20 mm'",
+    )
+    until(page, "document.activeElement.dataset.name === 'points 1'")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+def test_another_page_that_searches_is_told(asked):
+    page, _ = asked
+    other = page.context.new_page()
+    other.goto(page.url)
+    until(other, FOUND)
+    until(
+        page, FOUND + " || document.getElementById('seeking').textContent.includes('Another page searches')"
+    )
+    other.close()

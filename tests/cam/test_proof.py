@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import groupby
 
 import pytest
 import shapely
@@ -30,7 +31,9 @@ from mechwright_cam.program.moves import (
     ToolSection,
 )
 from mechwright_cam.proof import Proof
+from mechwright_cam.proof.judge import RULES, judge
 from mechwright_cam.proof.plane import closing
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.holding import Hold
@@ -53,6 +56,17 @@ def test_the_clean_program_is_proven() -> None:
     assert sum(o.time_s for o in proof.operations) == pytest.approx(proof.time_estimate_s)
     assert sum(proof.tool_times_s.values()) == pytest.approx(proof.time_estimate_s)
     assert sum(o.cutting_mm for o in proof.operations) == pytest.approx(proof.cutting_length_mm)
+
+
+def test_a_proof_says_how_far_it_is() -> None:
+    heard: list[tuple[float, str]] = []
+    judge(Scene(CLEAN, plate_job(), LinuxCnc()), progress=lambda done, what: heard.append((done, what)))
+    assert [what for what, _ in groupby(what for _, what in heard)] == [
+        *("reading the program", "simulating its cuts", "asking the rules")
+    ]
+    rules = sorted(done for done, what in heard if what == "asking the rules")
+    assert len(rules) == len(RULES) == len(set(rules))
+    assert heard[0][0] == 0 < rules[0] < rules[-1] < 1
 
 
 def test_proof_json_holds_what_the_report_needs() -> None:

@@ -111,8 +111,9 @@ function table(seek, again) {
         again();
       });
     }
+    const also = [told(name) === name ? "" : name, name === data.input ? "input" : ""].filter(Boolean).join(", ");
     label.append(told(name), " ");
-    element("code", { text: name === data.input ? name + ", input" : name }, label);
+    if (also) element("code", { text: also }, label);
     const now = element("td", { class: "n" }, row);
     element("td", { text: unit }, row);
     element("td", { class: "n", text: round(least(name) * factor) }, row);

@@ -4,7 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Part
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import host
@@ -33,9 +37,8 @@ def parts(design: Design) -> Answer:
         solved = design.solve(PAGE_SAMPLES)
         try:
             made = design.parts()
-            seen = any(part.outline is not None and part.instances for part in made)
-            # Solids take the CAD kernel: what has no plates is shown by its links.
-            answer["scene"] = scene(made if seen else (), solved, solids=False)
+            # Solids take the CAD kernel: what has no plates that move is shown by its links.
+            answer["scene"] = scene(made if _seen(made, solved) else (), solved, solids=False)
         except MechwrightError as error:
             answer["unmade"] = str(error)
             answer["scene"] = scene((), solved, solids=False)
@@ -43,6 +46,16 @@ def parts(design: Design) -> Answer:
             name: {"value": one.value, "unit": one.unit} for name, one in solved.scalars.items()
         }
     return answer
+
+
+def _seen(made: Sequence[Part], solved: Motion) -> bool:
+    """Whether a plate moves."""
+    plates = {one.body for part in made if part.outline is not None for one in part.instances}
+    return any(
+        np.ptp(poses.position, axis=0).any() or np.ptp(poses.rotation, axis=0).any()
+        for name, poses in solved.poses.items()
+        if name in plates
+    )
 
 
 def remedies(path: Path, change: Change) -> list[dict[str, Any]]:

@@ -37,6 +37,14 @@ class Cam(Command):
         perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing, as_json)
 
 
+def cam_settings(incomplete: str) -> list[tuple[str, str]]:
+    """Keys of ``[cam]`` that mean something without a design, each with ``=`` and what it is."""
+    from mechwright_cam.commands.verify_drawing import SAID_ELSEWHERE
+    from mechwright_cam.shop.settings import CamSettings
+
+    return completing.keys(CamSettings, incomplete, SAID_ELSEWHERE)
+
+
 class Verify(Command):
     """``mechwright verify``."""
 
@@ -104,7 +112,12 @@ class Verify(Command):
         ] = "",
         settings: Annotated[
             list[str],
-            typer.Option("--set", metavar="KEY=VALUE", help="With --dxf: a setting of [cam], hold.tabs=3."),
+            typer.Option(
+                "--set",
+                metavar="KEY=VALUE",
+                help="With --dxf: a setting of [cam], hold.tabs=3.",
+                autocompletion=cam_settings,
+            ),
         ] = [],  # noqa: B006 - typer reads it, nobody changes it
         control: Annotated[
             str,

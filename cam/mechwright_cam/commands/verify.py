@@ -11,7 +11,9 @@ import typer
 from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
+from mechwright.cli.progress import fraction
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import Progress
 from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.output.folder import write_new
@@ -23,6 +25,7 @@ from mechwright_cam.planning.prepare import cut_plates, library_of
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
 from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.judge import judge
+from mechwright_cam.proof.report import Proof
 from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.lay_out import make_job
@@ -47,17 +50,32 @@ def verify(programs: Sequence[Path], path: Path, part_name: str, report: Report,
     with Build(path, open_host(), Wanted("verify")) as build:
         _ = build.design
         text, program = read_programs(programs)
-        if stopping := errors(build.findings):
+        with fraction() as progress:
+            progress(0.0, "checking the design")
+            if not (stopping := errors(build.findings)):
+                scene, rules = scene_of(build, part_name, text, control)
+                proof = judged(scene, rules, program, _after(CHECKED, progress))
+        if stopping:
             refuse(stopping, path)
-        scene, rules = scene_of(build, part_name, text, control)
-        told(scene, rules, program, report)
+        told(scene, proof, program, report)
+
+
+CHECKED = 0.5
+"""Part of the work that is done when the design is checked and its part laid out: as measured on a gear."""
+
+
+def _after(share: float, progress: Progress) -> Progress:
+    """The progress of what comes after a share of the work."""
+    return lambda done, what: progress(share + (1 - share) * done, what)
 
 
 def verify_drawing(programs: Sequence[Path], dxf: Path, report: Report, **wanted: Any) -> None:
     """Prove a program against a drawing; ``wanted`` is what :func:`verify_drawing.job_of` takes."""
     text, program = read_programs(programs)
     scene, rules = drawn_scene(text, job_of(dxf, **wanted), open_host())
-    told(scene, rules, program, report)
+    with fraction() as progress:
+        proof = judged(scene, rules, program, progress)
+    told(scene, proof, program, report)
 
 
 def read_programs(programs: Sequence[Path]) -> tuple[str | dict[str, str], str]:
@@ -72,12 +90,16 @@ def read_programs(programs: Sequence[Path]) -> tuple[str | dict[str, str], str]:
     return (texts, f"{program} to {rest[-1]}") if rest else (texts[program], program)
 
 
-def told(scene: Scene, rules: Sequence[Rule], program: str, report: Report) -> None:
-    """Judge a program, tell what was found, and end with exit code 1 if it is not proven."""
+def judged(scene: Scene, rules: Sequence[Rule], program: str, progress: Progress) -> Proof:
+    """What the rules say of a program; raises ProgramError that names its file where it cannot be read."""
     try:
-        proof = judge(scene, rules)
+        return judge(scene, rules, progress)
     except ProgramError as error:  # of several files it names the one
         raise ProgramError(f"{program}: {error}" if isinstance(scene.text, str) else str(error)) from error
+
+
+def told(scene: Scene, proof: Proof, program: str, report: Report) -> None:
+    """Tell what was found, and end with exit code 1 if the program is not proven."""
     if report.page is not None:
         from mechwright_cam.pages.report.report import report_html
 

@@ -3,17 +3,18 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from itertools import count
 
 import numpy as np
 
+from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.cores import together
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.holding import remarks
-from mechwright_cam.proof.report import Proof, Spot
+from mechwright_cam.proof.report import Check, Proof, Spot
 from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import operations, step_times
@@ -30,8 +31,10 @@ def prove(text: str | Mapping[str, str], job: Job, control: Control, rules: Sequ
     return judge(Scene(text, job, control), rules)
 
 
-def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
+def judge(scene: Scene, rules: Sequence[Rule] = RULES, progress: Progress = unheard) -> Proof:
     """Ask all rules about a program, with the switch for optional lines off, and on if there are such lines.
+
+    ``progress`` is told how far the first of these is, by several threads.
 
     Returns
     -------
@@ -45,7 +48,7 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
     PluginError
         A rule cannot tell; the message names the rule.
     """
-    proof, text = _judged(scene, rules), scene.text
+    proof, text = _judged(scene, rules, progress), scene.text
     if not proof.ok or not any(map(SWITCHED.search, [text] if isinstance(text, str) else text.values())):
         return proof
     words = "with lines that start with / skipped, "
@@ -62,12 +65,25 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
     return replace(other, checks=checks)
 
 
-def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
+READ, SIMULATED = 0.05, 0.4
+"""Parts of a proof that are done when the program is read, and when its cuts are simulated: as measured."""
+
+
+def _judged(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -> Proof:
     """What the rules say of one run."""
-    scene = with_found_tabs(scene)
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
-    run, *_ = scene.run, scene.stock, scene.sweeps, scene.simulation, scene.pieces
-    checks = together(partial(ask, scene=scene), rules)  # none depends on another
+    progress(0.0, "reading the program")
+    scene = with_found_tabs(scene)
+    run = scene.run
+    progress(READ, "simulating its cuts")
+    _ = scene.stock, scene.sweeps, scene.simulation, scene.pieces
+    asked = count()
+
+    def answer(rule: Rule) -> Check:
+        progress(SIMULATED + (1 - SIMULATED) * next(asked) / len(rules), "asking the rules")
+        return ask(rule, scene=scene)
+
+    checks = together(answer, rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine, scene.motion), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
     notes = [*remarks(scene), *(check.message for check in checks if check.told)]

@@ -1,10 +1,15 @@
 """What shells complete: names that are installed, and files. Whatever takes long to import waits."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+    from pydantic.fields import FieldInfo
 
 DEEP = 3
 """Folders into which completion looks for design files: what lies deeper is typed."""
@@ -78,6 +83,33 @@ def requirement_files(incomplete: str) -> list[str]:
 def any_files(incomplete: str) -> list[str]:
     """Design files and requirement files."""
     return sorted(_files(incomplete, requirement=False) + _files(incomplete, requirement=True))
+
+
+def keys(model: "type[BaseModel]", incomplete: str, without: Container[str] = ()) -> list[tuple[str, str]]:
+    """Keys of a table and tables in it, ``hold.tabs=``, with what they are; after ``=`` what it may be."""
+    key, said, _ = incomplete.partition("=")
+    found: list[tuple[str, str]] = []
+    for path, field, facts in _fields(model, ""):
+        if path.partition(".")[0] in without:
+            continue
+        if said and path == key:
+            chosen = facts.get("enum", ["true", "false"] if facts.get("type") == "boolean" else [])
+            found += [(f"{key}={one}", "") for one in chosen]
+        elif not said:
+            found.append((f"{path}=", (field.description or "").replace("``", "")))
+    return sorted(one for one in found if one[0].startswith(incomplete))
+
+
+def _fields(model: "type[BaseModel]", before: str) -> "Iterator[tuple[str, FieldInfo, dict[str, Any]]]":
+    from pydantic import BaseModel
+
+    schema = model.model_json_schema()["properties"]
+    for name, field in model.model_fields.items():
+        kind = field.annotation
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            yield from _fields(kind, f"{before}{name}.")
+        else:
+            yield f"{before}{name}", field, schema[name]
 
 
 def part_names(ctx: typer.Context, incomplete: str) -> list[str]:

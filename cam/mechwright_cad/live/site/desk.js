@@ -18,7 +18,8 @@ const parts = newest("parts", (found, asked) => {
   remedies(asked);
 }, failed);
 const remedies = newest("remedies", (found, asked) => {
-  if (found.findings && same(asked.change, change)) findings(found.findings, true, follow);
+  if (!found.findings) document.getElementById("waiting").textContent = "Another page has asked for remedies meanwhile; change something to ask again.";
+  else if (same(asked.change, change)) findings(found.findings, true, follow);
 }, () => { document.getElementById("waiting").textContent = ""; });
 const motion = newest("motion", (found, asked) => {
   // While plates are drawn, links go over them; what the plates are comes a moment later.

@@ -39,12 +39,14 @@ async function seek() {
   } catch (error) { say(error.message, true); }
 }
 async function follow_(state) {
+  const mine = watched;
   while (state.number === watched) {
     seeking(state);
     if (state.state !== "runs") return;
     await new Promise((done) => setTimeout(done, LOOK));
     try { state = await (await fetch("seeking")).json(); } catch { return; }
   }
+  if (state.number > watched && mine === watched) seeking({ state: "taken" });
 }
 const inSeconds = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} s`;
 function seeking(state) {
@@ -53,7 +55,7 @@ function seeking(state) {
   if (runs && at.done) button_("sought").value = at.done; else button_("sought").removeAttribute("value");
   const left = state.left === null || state.left === undefined ? state.last ? `the last search took ${inSeconds(state.last)}` : "" : `about ${inSeconds(state.left)} left of this`;
   button_("seeking").textContent = runs ? [`${at.doing || "starting"} …`, `${inSeconds(state.seconds)} so far`, left].filter(Boolean).join(", ")
-    : state.error ? "" : state.state === "done" ? `${state.told}; it took ${inSeconds(state.seconds)}` : "Stopped.";
+    : state.state === "taken" ? "Another page searches now, and this search has ended; change something to search again." : state.error ? "" : state.state === "done" ? `${state.told}; it took ${inSeconds(state.seconds)}` : "Stopped.";
   if (state.error) say(state.error, true);
   if (state.state === "done" && !state.error) found(state);
 }
