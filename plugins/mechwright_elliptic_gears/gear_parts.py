@@ -22,10 +22,10 @@ from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.fitting import gear_marks
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
-from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of
+from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of, keeper_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.plates import base_part, coupler_part
-from mechwright_elliptic_gears.turned import round_parts
+from mechwright_elliptic_gears.turned import keeper_parts, round_parts
 
 COLOURS: dict[str, Colour] = {
     "gear-2": (0.45, 0.58, 0.70),
@@ -86,10 +86,13 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     seat = bush_seat(params, params.thickness)
     last = Gear("gear-5", (("gear-5", high),), None, (joint,), seat)
     if params.phase_joint == "pins":
+        keeper = keeper_of(params)
+        held = () if keeper is None else (keeper.hole(layout.thickness),)
+        threaded = () if keeper is None else (keeper.thread(layout.thickness),)
         return (
             Gear("gear-2", (("gear-2", low),), key),
             Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params), seat),
-            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params)), seat),
+            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params), *held), seat, threaded),
             last,
         )
     if params.phase_joint == "clamp":
@@ -214,4 +217,6 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     if params.phase_joint == "clamp":
         plates += clamp_plates(params, layout)
         turned += (clamp_screw_part(params, layout),)
+    if (keeper := keeper_of(params)) is not None:
+        turned += keeper_parts(keeper, layout)
     return (*gears, *plates, *turned, *bush_parts(params, layout))

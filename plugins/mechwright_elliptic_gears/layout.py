@@ -12,6 +12,7 @@ from mechwright import kept
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.dividing import Dividing, circle_for, placed
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
+from mechwright_elliptic_gears.keeper import Keeper, keeper_for
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 COUPLER_THICKNESS, BASE_THICKNESS = 6.0, 10.0
@@ -53,6 +54,9 @@ together in one way only, and not turned over."""
 
 PHASE_PIN = "phase-pin"
 """Part and body of the pin of a dividing circle. Its head lies on gear 4."""
+
+PIN_KEEPER = "pin-keeper"
+"""Part and body of what keeps that pin down."""
 
 PIN_HEAD = 0.5
 """Height of its head in gaps: the coupler passes over it."""
@@ -113,7 +117,7 @@ class Layout:
             _or(params.base_thickness, BASE_THICKNESS),
             dowel,
             params.dowel_circle or _dowel_circle(params, dowel),
-            max(gap, clamp_of(params).crown) if params.phase_joint == "clamp" else gap,
+            max(gap, _needed(params, dowel)),
             _or(params.stub_diameter, bore),
             _or(params.stub_length, STUB * bore),
         )
@@ -180,10 +184,32 @@ def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
     return tuple(f"clamp-screw-{number}" for number in range(1, clamp_of(params).screws + 1))
 
 
+def _needed(params: EllipticGearParams, dowel: float) -> float:
+    """What stands on gear 4 under the coupler, mm."""
+    if params.phase_joint == "clamp":
+        return clamp_of(params).crown
+    keeper = _keeper(params, dowel)
+    return 0.0 if keeper is None else keeper.crown
+
+
+@kept
+def _keeper(params: EllipticGearParams, dowel: float) -> Keeper | None:
+    if params.phase_joint != "pins":
+        return None
+    circle = params.dowel_circle or _dowel_circle(params, dowel)
+    dividing = placed(params.set_phases, params.eccentricity, dowel, circle / 2)
+    return keeper_for(params, dividing, (HEAD * dowel, PIN_HEAD * params.spacing))
+
+
+def keeper_of(params: EllipticGearParams) -> Keeper | None:
+    """What keeps the pin of a dividing circle down; None without such a pin, or without room."""
+    return _keeper(params, Layout.of(params).dowel)
+
+
 def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
     """Bodies that join gears 3 and 4, beside keys."""
     if params.phase_joint == "pins":
-        return (PHASE_PIN,)
+        return (PHASE_PIN,) if keeper_of(params) is None else (PHASE_PIN, PIN_KEEPER)
     if params.phase_joint == "clamp":
         return clamp_screws(params)
     return tuple(DOWELS) if params.dowelled else ()

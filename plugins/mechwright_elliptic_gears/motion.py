@@ -22,7 +22,15 @@ from mechwright_elliptic_gears.kinematics import (
     shaft_pressure_angle,
     train,
 )
-from mechwright_elliptic_gears.layout import DOWELS, PHASE_PIN, Layout, clamp_screws, dividing_of
+from mechwright_elliptic_gears.layout import (
+    DOWELS,
+    PHASE_PIN,
+    PIN_KEEPER,
+    Layout,
+    clamp_screws,
+    dividing_of,
+    keeper_of,
+)
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import place, point_of_coupler
 
@@ -140,7 +148,11 @@ def _joining_poses(params: EllipticGearParams, theta3: Array, theta4: Array) -> 
     if params.phase_joint == "pins":
         radius = dividing_of(params).radius_at(params.phase_degrees)
         at = theta4 + START
-        return {PHASE_PIN: Poses.planar(radius * np.cos(at), radius * np.sin(at), theta4)}
+        found = {PHASE_PIN: Poses.planar(radius * np.cos(at), radius * np.sin(at), theta4)}
+        if (keeper := keeper_of(params)) is not None:
+            place = keeper.place * np.exp(1j * theta4)
+            found[PIN_KEEPER] = Poses.planar(place.real, place.imag, theta4)
+        return found
     if params.phase_joint == "clamp":
         clamp = clamp_of(params)
         return {

@@ -16,8 +16,9 @@ from mechwright_elliptic_gears.dividing import PITCH, START, phases_that_work
 from mechwright_elliptic_gears.figures import point_window
 from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.joint_load import greatest_torque
+from mechwright_elliptic_gears.keeper import PLAY
 from mechwright_elliptic_gears.kinematics import phase_offset, ratio
-from mechwright_elliptic_gears.layout import DOWEL_GAP, PIN_HEAD, Layout, dividing_of
+from mechwright_elliptic_gears.layout import DOWEL_GAP, PIN_HEAD, Layout, dividing_of, keeper_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.window import Window
 
@@ -31,7 +32,7 @@ def pin_findings(params: EllipticGearParams) -> Iterator[Finding]:
         return
     yield from _strength(params, layout)
     yield _note(params)
-    yield _held(layout)
+    yield _held(params, layout)
 
 
 def play_note(params: EllipticGearParams) -> Finding:
@@ -188,13 +189,22 @@ def _note(params: EllipticGearParams) -> Finding:
     )
 
 
-def _held(layout: Layout) -> Finding:
-    """Nothing but its weight keeps the pin from going up; the coupler passes over its head."""
-    up = (1 - PIN_HEAD) * layout.crown
+def _held(params: EllipticGearParams, layout: Layout) -> Finding:
+    """What keeps the pin from going up: its keeper, or nothing but its weight."""
+    keeper = keeper_of(params)
+    if keeper is not None:
+        return Finding.note(
+            "train.phase-pin-up",
+            f"a stepped washer with an M{keeper.screw.of.size:g} x {keeper.screw.length:g} on gear 4 keeps "
+            f"the pin down, {PLAY:g} mm over its head: take it off to set another phase",
+            PLAY,
+            "mm",
+        )
+    up = layout.crown - PIN_HEAD * layout.gap
     return Finding.note(
         "train.phase-pin-up",
-        f"its weight alone holds the pin down, {up:g} mm below the coupler: run the train with its axes "
-        "upright and the coupler above, or take a clamp",
+        f"gear 4 has no room for a keeper, and its weight alone holds the pin down, {up:g} mm below the "
+        "coupler: run the train with its axes upright and the coupler above, or take a clamp",
         up,
         "mm",
     )

@@ -10,6 +10,7 @@ from mechwright.contracts.fits import Fit, shaft_fit
 from mechwright.contracts.turned import tube
 from mechwright.geometry.keyway import Opening
 from mechwright.standards.parts import dowel_part, key_part
+from mechwright_elliptic_gears.keeper import PLATE, Keeper
 from mechwright_elliptic_gears.layout import (
     AXIAL_PLAY,
     DOWELS,
@@ -17,6 +18,7 @@ from mechwright_elliptic_gears.layout import (
     HEAD_HEIGHT,
     PHASE_PIN,
     PIN_HEAD,
+    PIN_KEEPER,
     SPACER,
     Layout,
 )
@@ -99,6 +101,16 @@ def round_parts(
         at = tuple(Instance(body, low) for body in DOWELS)
         parts.append(dowel_part("dowel", layout.dowel, high - low + t, at, _DARK))
     return tuple(parts)
+
+
+def keeper_parts(keeper: Keeper, layout: Layout) -> tuple[Part, ...]:
+    """What keeps the pin of a dividing circle down, and its screw."""
+    top = layout.upper + layout.thickness
+    under = Instance(PIN_KEEPER, top + keeper.low + PLATE)
+    return (
+        _part(PIN_KEEPER, keeper.turned, (Instance(PIN_KEEPER, top),), _BRASS),
+        Part("keeper-screw", None, 0.0, MATERIAL, (under,), _DARK, bought=keeper.screw.bought),
+    )
 
 
 def _part(name: str, turned: Turned, instances: tuple[Instance, ...], colour: Colour) -> Part:

@@ -123,7 +123,7 @@ WRONG = {
     "key of another table": HEAD + "[cam]\ncrank = 3\n",
     "below its bound": HEAD + "[parameters]\ncrank = 0.5\n",
     "above its bound": HEAD + "[parameters]\ncrank = 5000\n",
-    "a bound of a key that may be left out": HEAD + "[parameters]\nswing_from = 500\nswing_to = 2\n",
+    "a bound of a key that may be left out": HEAD + "[parameters]\nswing_from = 800\nswing_to = 2\n",
     "no choice": HEAD + '[parameters]\nbranch = "up"\n',
     "true": HEAD + "[parameters]\ncrank = true\n",
     "a list": HEAD + "[parameters]\ncrank = [1]\n",

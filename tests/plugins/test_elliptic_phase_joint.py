@@ -24,7 +24,7 @@ from mechwright_elliptic_gears.gear_parts import gears_of
 from mechwright_elliptic_gears.joint_load import Masses, greatest_torque, joint_torque, masses_of
 from mechwright_elliptic_gears.joint_made import going_in, joint_figures, phase_sensitivity
 from mechwright_elliptic_gears.kinematics import Turning, coupler, phase_offset, train
-from mechwright_elliptic_gears.layout import Layout, dividing_of
+from mechwright_elliptic_gears.layout import Layout, dividing_of, keeper_of
 from mechwright_elliptic_gears.peak import peak
 from mechwright_elliptic_gears.phase_checks import pin_play, shifted_window
 from mechwright_elliptic_gears.point import point_of_coupler, speed_of_q
@@ -219,7 +219,7 @@ def test_a_collision_at_another_phase_is_an_error_that_says_which():
 
 
 def test_no_solid_stands_in_another_with_the_pin_in():
-    parts = FAMILY.parts(VARIABLE)
+    parts = [joined(part) if part.outline is not None else part for part in FAMILY.parts(VARIABLE)]
     report = interference(parts, smooth_motion(partial(FAMILY.solve, VARIABLE), parts))
     assert report.clear, report.collisions
     # A pin of twice the radius of its hole is found.
@@ -250,7 +250,7 @@ def test_holes_that_are_too_near_go_to_a_second_circle():
     assert [hole.ring for hole in dividing.holes] == [0, 0, 0, 1, 0]
     assert errors(FAMILY.check(params)) == []
     (gear4,) = [gear for gear in gears_of(params) if gear.name == "gear-4"]
-    assert [hole.name for hole in gear4.holes] == ["joint", "pin-1", "pin-2"]
+    assert [hole.name for hole in gear4.holes] == ["joint", "pin-1", "pin-2", "keeper"]
     motion = FAMILY.solve(params.model_copy(update={"phase": 135.0}), 5)
     assert np.linalg.norm(motion.poses["phase-pin"].position, axis=1) == pytest.approx(17.5)
 
@@ -421,13 +421,33 @@ def test_a_pin_that_does_not_go_in_is_told(diameter, severity):
     assert (finding.code, finding.severity) == ("train.phase-fit", severity)
 
 
-def test_the_pin_has_its_head_below_the_coupler():
-    layout = Layout.of(VARIABLE)
-    (pin,) = [part for part in FAMILY.parts(VARIABLE) if part.name == "phase-pin"]
+def test_the_pin_is_kept_down_below_the_coupler():
+    layout, keeper = Layout.of(VARIABLE), keeper_of(VARIABLE)
+    parts = {part.name: part for part in FAMILY.parts(VARIABLE)}
+    pin, washer, bolt = (parts[name] for name in ("phase-pin", "pin-keeper", "keeper-screw"))
     box = pin.build().BoundingBox()
     (instance,) = pin.instances
-    assert instance.z + box.zmax == pytest.approx(layout.link - layout.gap / 2)
+    head = instance.z + box.zmax
+    assert head == pytest.approx(layout.upper + layout.thickness + layout.gap / 2)
     assert (box.xmax, box.zmin) == pytest.approx((3.0, 0.0))
-    (note,) = [one for one in FAMILY.check(VARIABLE) if one.code == "train.phase-pin-up"]
-    assert note.value == pytest.approx(layout.link - instance.z - box.zmax)
     assert dataclasses.asdict(instance)["body"] == "phase-pin"
+    # The washer's upper step reaches over the head, its lower one keeps off it.
+    over = washer.instances[0].z + keeper.low
+    assert over - head == pytest.approx(0.25)
+    apart = abs(keeper.place - 17.5 * np.exp(1j * START))
+    assert apart + 1e-9 > keeper.foot / 2 + 3.0
+    assert keeper.top / 2 + 3.0 - apart == pytest.approx(1.5)
+    assert bolt.bought.designation == "ISO 4762 - M3 x 8 - 8.8"
+    assert layout.link - (bolt.instances[0].z + 3.0) == pytest.approx(0.5)
+    names = {feature.name for feature in parts["gear-4"].features}
+    assert "keeper" in names
+    assert [one.name for one in parts["gear-4"].details] == ["thread-keeper"]
+    (note,) = [one for one in FAMILY.check(VARIABLE) if one.code == "train.phase-pin-up"]
+    assert "M3 x 8 on gear 4 keeps the pin down" in note.message
+
+
+def test_gears_without_room_for_a_keeper_leave_the_pin_to_its_weight():
+    thin = VARIABLE.model_copy(update={"thickness": 4.0})
+    assert keeper_of(thin) is None
+    (note,) = [one for one in FAMILY.check(thin) if one.code == "train.phase-pin-up"]
+    assert "its weight alone" in note.message
