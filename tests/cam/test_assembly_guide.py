@@ -300,7 +300,9 @@ def test_screws_of_a_column_wait_until_it_stands():
     number = list(said).index(last) + 1
     assert f"only until its head rests: step {number} draws it tight" in said[first]
     assert "tighten to" not in said[first]
-    assert re.search(rf"draw {first} \(\d\) tight now, crosswise: .* tighten to 5.4 N m", said[last])
+    assert re.search(
+        rf"draw {first} \(\d\) of step \d tight now, crosswise: .* tighten to 5.4 N m", said[last]
+    )
     assert "only until" not in said[last]
 
 

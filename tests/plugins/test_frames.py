@@ -42,17 +42,21 @@ def test_no_plate_of_a_machine_meets_another(name, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "changes"),
-    [(name, {}) for name in MACHINES] + [("geneva-machine", {"driver_direction": "backwards"})],
+    ("name", "line", "bodies"),
+    [
+        *((name, "", 64) for name in MACHINES),
+        ("geneva-machine", '[parameters]\ndriver_direction = "backwards"', 64),
+        ("elliptic-pair-machine", "[machine]\nguard = true", 66),
+    ],
 )
 @by_night
-def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(name, changes, tmp_path):
+def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(name, line, bodies, tmp_path):
     import cadquery as cq
 
     file = tmp_path / "machine.toml"
     text = (ROOT / "examples" / f"{name}.toml").read_text()
-    for key, value in changes.items():
-        text = text.replace("[parameters]", f'[parameters]\n{key} = "{value}"')
+    if line:
+        text = text.replace(line.partition("\n")[0], line, 1)
     file.write_text(text)
     folder = tmp_path / "out"
     done = CliRunner().invoke(make_app(), ["build", str(file), "-o", str(folder)])
@@ -60,7 +64,7 @@ def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(name, cha
     rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
     count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
-    assert len(solids) == count == 64
+    assert len(solids) == count == bodies
     assert all((folder / f"{plate}.nc").exists() for plate in ("lower-plate", "upper-plate", "base-plate"))
 
 

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import tomllib
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from mechwright.machine.frame.coupled import PLATE
 from mechwright.machine.frame.sweep import space_of
 from mechwright.remedies import tried
 from mechwright.testing import commands
+from mechwright.testing.frames import ground_faults
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOUR, FIVE, EIGHT = "four-bar-machine", "five-bar-machine", "figure-eight-machine"
@@ -233,3 +235,17 @@ def test_a_key_of_a_length_that_nobody_sells_keeps_no_train_from_its_frame():
     (piece,) = space_of([key], found.solve(121)).pieces
     assert piece.high - piece.low == pytest.approx(13)
     assert errors(found.check()) == []
+
+
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+def test_what_a_family_says_of_its_ground_plate_is_so(example):
+    found = design({"frame": "none", "motor": "none"}, example=example)
+    ground, parts, motion = (
+        found.family.mounting(found.params),
+        found.family.parts(found.params),
+        found.solve(25),
+    )
+    assert [*ground_faults(ground, parts, motion)] == []
+    moved = replace(ground, holes=ground.moved(ground.out + 1))
+    assert len([*ground_faults(moved, parts, motion)]) == 4
+    assert [*ground_faults(replace(ground, end=ground.end - 1), parts, motion)]

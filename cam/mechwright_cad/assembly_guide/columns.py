@@ -5,6 +5,8 @@ A column is what stands on one upright axis: turned parts with threads in both e
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from mechwright.contracts.part import Part
 from mechwright_cad.assembly_order.plan import Plan
 
@@ -26,8 +28,11 @@ class Columns:
     def __init__(self, plan: Plan) -> None:
         seen: dict[tuple[float, float], dict[int, int]] = {}
         self.plan = plan
+        self.put: dict[int, int] = {}
+        """The step in which each body comes."""
         for number, step in enumerate(plan.steps, start=1):
             for k in step.moved:
+                self.put.setdefault(k, number)
                 if _belongs(plan.bodies[k].part):
                     seen.setdefault(self._axis(k), {}).setdefault(k, number)
         pillars = {self._axis(k) for k, body in enumerate(plan.bodies) if _threaded(body.part)}
@@ -35,9 +40,16 @@ class Columns:
         for axis in pillars:
             steps = seen.get(axis, {})
             last = max(steps.values(), default=0)
-            self._tight |= {
-                k: last for k, step in steps.items() if _headed(plan.bodies[k].part) and step < last
-            }
+            early = (k for k, step in steps.items() if step < last and _headed(plan.bodies[k].part))
+            self._tight |= {k: last for k in early if self._reached(k, last)}
+
+    def _reached(self, k: int, last: int) -> bool:
+        """Whether a key still gets to a screw in a later step: nothing that came since is over its head."""
+        way = self.plan.steps[self.put[k] - 1].way
+        if way is None:
+            return False
+        barred = self.plan.order.table.barred(-np.array(way))[k]
+        return not any(barred[m] for m, number in self.put.items() if self.put[k] < number <= last)
 
     def _axis(self, k: int) -> tuple[float, float]:
         body = self.plan.bodies[k]

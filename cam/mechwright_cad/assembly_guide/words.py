@@ -104,9 +104,10 @@ class Words:
         for part in dict.fromkeys(self.plan.bodies[k].part.name for k in waiting):
             those = [k for k in waiting if self.plan.bodies[k].part.name == part]
             how = screwed(self.plan.bodies[those[0]].part).removeprefix("Tool: ")
+            when = " and ".join(str(one) for one in sorted({self._columns.put[k] for k in those}))
             yield (
-                f"Stand it on a flat plate, turn the shafts by hand, and draw {self.names(those)} tight now, "
-                f"crosswise: {how}"
+                f"Stand it on a flat plate, turn the shafts by hand, and draw {self.names(those)} of step "
+                f"{when} tight now, crosswise: {how}"
             )
 
     def _moves(self, step: Step, found: Sequence[Match]) -> str:

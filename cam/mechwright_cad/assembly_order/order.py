@@ -214,7 +214,7 @@ class Order:
         groups, singles = connected(members, self._bonds), [(k,) for k in members]
         root = self._root(members)
         found = (
-            self._downwards(singles, root)
+            self._downwards(singles, groups, root)
             or self._first(groups, root, self._shaft)
             or self._first(singles, root, lambda units: len(units) == 1)
             or self._first(groups, root, lambda _: True)
@@ -223,12 +223,18 @@ class Order:
         )
         return found and (self._holder(members, found) or found)
 
-    def _downwards(self, units: Units, root: int) -> _Leaving | None:
-        """The lowest of what hangs below the base and can leave downwards."""
+    def _downwards(self, units: Units, groups: Units, root: int) -> _Leaving | None:
+        """The lowest of what hangs below the base and can leave downwards, as a group where all of it can."""
         if root != self._base or not self._below:
             return None
         sets = [one for one in self._free(units, -UP) if self._below.issuperset(one.bodies)]
-        return min(sets, key=lambda one: (len(one.bodies), *self._worth(one)[1:]), default=None)
+        found = min(sets, key=lambda one: (len(one.bodies), *self._worth(one)[1:]), default=None)
+        if found is None:
+            return None
+        whole = next(group for group in groups if found.bodies[0] in group)
+        if len(whole) == 1 or not self._below.issuperset(whole):
+            return found
+        return next((one for one in self._free(groups, -UP) if set(one.bodies) == set(whole)), found)
 
     def _first(
         self, units: Sequence[tuple[int, ...]], root: int, fit: Callable[[Units], bool]

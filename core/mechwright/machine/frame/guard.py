@@ -8,7 +8,7 @@ them stays a slot into which no fingertip goes: up to 4 mm it may be 2 mm from w
 
 import math
 
-from mechwright.contracts.part import Bore, Colour, Part, Profile
+from mechwright.contracts.part import Bore, Colour, Feature, Part, Profile
 from mechwright.contracts.surroundings import Place
 from mechwright.geometry import Loop, Outline
 from mechwright.machine.frame.kit import Kit
@@ -83,7 +83,7 @@ def add_guard(kit: Kit, standing: Standing, levels: Levels) -> None:
 
 def _ring(outline: Outline, window: Loop, pillars: list[Boss], height: int) -> Part:
     bores = [Bore(one.tag, (one.centre.real, one.centre.imag), HOLE, 0, height) for one in pillars]
-    cut: tuple[Bore | Profile, ...] = (
+    cut: tuple[Feature, ...] = (
         *bores,
         Profile("window", window, "inside", 0, height),
         Profile("outside", outline.outer, "outside", 0, height),
