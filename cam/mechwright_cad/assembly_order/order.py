@@ -134,7 +134,7 @@ class Order:
 
     @cached_property
     def _base(self) -> int:
-        """What all goes onto: of plates and solids that stand still the one in the middle; -1 if nothing does.
+        """What all goes onto: of plates and solids that stand still the one in the middle; -1 without.
 
         In the middle is the one that is fewest contacts away from what the input turns, then from all that
         moves, then from the rest: of a machine on legs it is the plate that carries the shafts, not the one
