@@ -31,7 +31,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--way", choices=WAYS, default="likely")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=NUMBER", help="of the parameters")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of the parameters")
     parser.add_argument("--tell", action="store_true", help="print every refusal")
     parser.add_argument("--no-fix", dest="fix", action="store_false", help="follow no remedies")
     parser.add_argument("families", nargs="*", default=sorted(host().of(Family)))
@@ -48,14 +48,14 @@ def one_family(name: str, asked: argparse.Namespace) -> list[str]:
     found, framed, fixed = host(), 0, Counter[str]()
     refused, faults, times, shown = Counter[str](), [], [], 0
     numbers = range(DRAWN * asked.count)
-    given = dict(word.split("=") for word in asked.set)
+    given = {key: read(value) for key, value in (word.split("=") for word in asked.set)}
     for number, drawn in zip(
         numbers, designs(found.family(name), found, asked.seed, numbers, asked.way), strict=True
     ):
         content = dict(drawn.content)
         content["parameters"] = {
             **content["parameters"],
-            **{key: float(value) for key, value in given.items()},
+            **given,
         }
         try:
             plain = design_of(content, Path("random.toml"), "", found)
@@ -84,9 +84,17 @@ def one_family(name: str, asked: argparse.Namespace) -> list[str]:
     print(f"\n{name}, {asked.way}: {shown} designs that can be made, seed {asked.seed}")
     print(f"  framed {framed}, refused {sum(refused.values())}: {dict(refused.most_common())}")
     if asked.fix:
-        print(f"  of the refused: {dict(fixed.most_common())}")
+        print(f"  the refused after their remedies: {dict(fixed.most_common())}")
     print(f"  processor time: mean {sum(times) / max(shown, 1):.2f} s, most {max(times, default=0):.1f} s")
     return faults
+
+
+def read(value: str) -> float | str:
+    """A number, or words."""
+    try:
+        return float(value)
+    except ValueError:
+        return value
 
 
 def named(finding: Finding) -> bool:
@@ -99,7 +107,9 @@ def outcome(design: Design) -> str:
     for _ in range(STEPS):
         told = errors(design.check(), Stage.PARTS)
         if not told:
-            return "framed after its remedies"
+            machine = design.content["machine"]
+            kept = "framed" if machine["frame"] != "none" else "left without a frame"
+            return kept if machine["motor"] != "none" else f"{kept}, without a motor"
         step = next(
             (better for change in told[0].proposed if (better := changed(design, told[0], change))), None
         )

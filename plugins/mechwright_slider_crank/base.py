@@ -1,4 +1,4 @@
-"""The base plate, the end of the crank's shaft below it, and what a frame is told of both.
+"""The base plate, and the end of the crank's shaft below it.
 
 A base with screw holes goes on legs: it reaches under all that moves, its holes lie beside that, and the
 shaft's end has a bore in which couplings are sold. A circlip under the base holds the shaft, where there is
@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright import DesignError, GroundPlate, MountingError, Outline
+from mechwright import DesignError, Outline
 from mechwright.contracts.turned import Groove, Step, Turned
 from mechwright.mechanics.linkage import (
     PIN_MATERIAL,
@@ -22,9 +22,6 @@ from mechwright.standards.circlips import Circlip, shaft_circlip
 from mechwright.standards.couplings import BORES, couplings
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
-
-HOLE = 6.0
-"""Diameter of screw holes that is advised: M5 screws go through, and usual mills make it."""
 
 TAIL_SHARE = 1.5
 """How far the shaft sticks out under a base without screw holes, over its diameter: room for a handle."""
@@ -152,33 +149,3 @@ def rim_of(sizes: Sizes, rail: Outline, rails: Sequence[complex]) -> tuple[compl
     xs = [-reach, reach, *(place.real + x for place in rails for x in (x0, x1))]
     ys = [-reach, reach, *(place.imag + y for place in rails for y in (y0, y1))]
     return complex(min(xs), min(ys)), complex(max(xs), max(ys))
-
-
-def mounting_of(params: SliderCrankParams) -> GroundPlate:
-    """The base and the crank's shaft; raises DesignError where the base has no holes for legs."""
-    from mechwright_slider_crank.plates import layout_of
-
-    layout, hole = layout_of(params), params.screw_hole
-    if hole is None:
-        raise MountingError(
-            f"parameters.screw_hole: the base has no holes for the screws of legs; make it {HOLE:g}",
-            ({"parameters.screw_hole": HOLE},),
-        )
-    low, end = layout.stack.bottom("base"), shaft_end(params)
-    one, two, three, four = ((at.real, at.imag) for at in layout.screws)
-    return GroundPlate(
-        "base",
-        low,
-        low + params.thickness,
-        (one, two, three, four),
-        hole,
-        "crank",
-        (0.0, 0.0),
-        end.diameter,
-        low - end.whole,
-        "parameters.screw_offset",
-        "parameters.screw_hole",
-        "parameters.shaft",
-        "parameters.thickness",
-        neck=end.neck,
-    )

@@ -62,7 +62,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
     def mounting(self, params: SliderCrankParams) -> "GroundPlate":
         """The base, if it has holes for the screws of legs."""
-        from mechwright_slider_crank.base import mounting_of
+        from mechwright_slider_crank.mounting import mounting_of
 
         return mounting_of(params)
 

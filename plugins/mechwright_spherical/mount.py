@@ -30,8 +30,14 @@ WALL = 2.0
 AIR = 0.3
 """Between a hub and the ring on its shaft, and about a spacer, mm."""
 
-ADVISED = {"parameters.stand.motor_flange": 56.0, "parameters.stand.screw": 5.5}
-"""What is tried first where there is no flange: it takes motors NEMA 17 and of 37 mm, on screws M5."""
+LEAST_SCREW = 5.0
+"""Of screws into the base, mm: thinner ones are for holes that no usual drill makes through a thick plate."""
+
+HEAD = 1.25
+"""Least diameter of a screw's head over that of its hole."""
+
+ADVISED = {"parameters.stand.motor_flange": 56.0}
+"""What is tried first where there is no flange: it takes motors NEMA 17 and of 37 mm."""
 
 
 @dataclass(frozen=True)
@@ -116,13 +122,18 @@ def spacer_form(params: SphericalParams) -> Turned | None:
 
 
 def thread_of(stand: StandTable) -> float:
-    """The largest screw that goes through the base's holes, mm; DesignError where none does."""
-    able = [one.size for one in screw_sizes() if one.clearance("fine") <= stand.screw]
+    """The thinnest screw whose shank goes through the stand's holes and whose head does not, mm.
+
+    DesignError where there is none from M5 upwards.
+    """
+    able = [
+        one.size
+        for one in screw_sizes()
+        if one.size >= LEAST_SCREW and one.clearance("fine") <= stand.screw and one.head >= HEAD * stand.screw
+    ]
     if not able:
-        raise DesignError(
-            f"parameters.stand.screw: no screw goes through holes of {stand.screw:g} mm; make them 5.5"
-        )
-    return max(able)
+        raise DesignError(f"parameters.stand.screw: no screw fits holes of {stand.screw:g} mm; make them 5.5")
+    return min(able)
 
 
 def mounting_of(params: SphericalParams) -> Flange:

@@ -68,7 +68,7 @@ def _threads(params: SphericalParams) -> Iterator[Finding]:
         yield Finding.error(
             "spherical.mount",
             "stand.screw",
-            f"no screw goes through holes of {stand.screw:g} mm",
+            f"no screw fits holes of {stand.screw:g} mm",
             stand.screw,
             5.5,
             "mm",

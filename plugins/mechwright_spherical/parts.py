@@ -140,17 +140,18 @@ def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
 
 def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
     hardware, stand, flat = params.hardware, params.stand, params.flat
+    thread = None if stand.motor_flange is None else thread_of(stand)
     base = Part(
         "base",
-        base_outline(stand),
+        base_outline(stand, thread or stand.screw),
         stand.plate_thickness,
         hardware.material,
         instances=(Instance("base"),),
         colour=COLOURS["base"],
     )
-    if stand.motor_flange is not None:
+    if thread is not None:
         for number in range(1, len(FLANGE_SCREWS) + len(MOUNTING_SCREWS) + 1):
-            base = threaded(base, f"bore-{number}", f"M{thread_of(stand):g}")
+            base = threaded(base, f"bore-{number}", f"M{thread:g}")
     yield base
     if not flat.make:
         return

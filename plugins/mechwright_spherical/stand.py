@@ -30,8 +30,8 @@ def post_direction(stand: StandTable) -> Array:
     return np.array([math.cos(angle), -math.sin(angle), 0.0])
 
 
-def base_outline(stand: StandTable) -> Outline:
-    """The base plate, seen against the post: a square with rounded corners and eight screw holes."""
+def base_outline(stand: StandTable, hole: float) -> Outline:
+    """The base plate, seen against the post: a square with rounded corners and eight holes of a diameter."""
     half, round_ = stand.plate / 2, 0.1 * stand.plate
     flat = half - round_
     segments: list[Segment] = []
@@ -43,7 +43,7 @@ def base_outline(stand: StandTable) -> Outline:
         ]
         segments += [segment.moved(0.0, 0.0, turn) for segment in side]
     holes = tuple(
-        Loop((circle((stand.plate * x, stand.plate * y), stand.screw / 2, clockwise=True, tag="screw"),))
+        Loop((circle((stand.plate * x, stand.plate * y), hole / 2, clockwise=True, tag="screw"),))
         for x, y in (*FLANGE_SCREWS, *MOUNTING_SCREWS)
     )
     return Outline(Loop(tuple(segments)), holes)

@@ -133,7 +133,7 @@ def test_pins_of_a_machine_have_bushes_rings_and_couplings(size):
     [
         (
             {},
-            {"stand": {"motor_flange": None, "screw": 5.5}},
+            {"stand": {"motor_flange": None, "screw": None}},
             "frame.mounting",
             {"parameters.stand.motor_flange": 56.0},
         ),
@@ -141,7 +141,7 @@ def test_pins_of_a_machine_have_bushes_rings_and_couplings(size):
         ({}, {"stand": {"motor_flange": 50}}, "frame.flange", {"parameters.stand.motor_flange": 56.0}),
         ({}, {"stand": {"arc": 55}}, "frame.flange-tilt", None),
         ({}, {"hardware": {"pin_diameter": 7}}, "spherical.mount", {"parameters.hardware.pin_diameter": 6.0}),
-        ({}, {"stand": {"screw": 6.6}}, "spherical.mount", {"parameters.stand.plate_thickness": 10}),
+        ({}, {"stand": {"plate_thickness": 6}}, "spherical.mount", None),
         ({"load": 3.0}, {}, "frame.coupling", None),
     ],
 )

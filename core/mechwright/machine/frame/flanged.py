@@ -201,7 +201,7 @@ def _add_base(kit: Kit, flange: Flange, standing: Standing, material: str) -> No
     top = -plate.thickness
     low = top - thickness
     fixing = _fixing(plate, thickness)
-    clear = max(HOLE, screw_size(plate.screw).clearance()) if plate.screw >= SCREW else HOLE
+    clear = float(math.ceil(screw_size(plate.screw).clearance()))
     holes = []
     for k, (x, y) in enumerate(plate.holes, start=1):
         holes.append(Hole.through(f"stand-{k}", (x, -y), clear, thickness))
