@@ -33,5 +33,5 @@ def mounting_of(params: SliderCrankParams) -> GroundPlate:
         "parameters.screw_hole",
         "parameters.shaft",
         "parameters.thickness",
-        end.neck,
+        neck=end.neck,
     )
