@@ -1,6 +1,9 @@
 """What is tried with every change, and what only by night, when MECHWRIGHT_NIGHT is set."""
 
 import os
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
 
 import pytest
 
@@ -13,3 +16,14 @@ by_night = pytest.mark.skipif(not NIGHT, reason="by night, with MECHWRIGHT_NIGHT
 def examples(day: int, night: int) -> int:
     """Random examples of a property whose examples take up to seconds each."""
     return night if NIGHT else day
+
+
+def thinned(step: int, *axes: Sequence[Any]) -> list[Any]:
+    """Every combination of the axes as cases: by day one in ``step``, of all values alike; the rest by night.
+
+    By day are those whose places along the axes add up to a multiple of ``step``, as on a diagonal.
+    """
+    return [
+        pytest.param(*(one for _, one in case), marks=() if sum(n for n, _ in case) % step == 0 else by_night)
+        for case in product(*map(enumerate, axes))
+    ]

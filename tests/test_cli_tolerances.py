@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from by_night import thinned
 
 from mechwright import Build, Design, Host, Tolerances, Wanted
 from mechwright.build.tolerances import TolerancePage, TolerancesTable
@@ -144,7 +145,7 @@ def test_a_family_without_an_analysis_says_so_in_one_line(run, tmp_path, monkeyp
     assert "tolerances: family four-bar has no tolerance analysis; leave the table out" in said
 
 
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", thinned(2, DESIGNS), ids=lambda path: path.stem)
 def test_the_page_of_an_example(path):
     with Build(path, host(), Wanted("build")) as build:
         if type(build.design.family).tolerances is Family.tolerances:

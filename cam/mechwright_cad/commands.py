@@ -1,9 +1,11 @@
 """The commands of the CAD room."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from mechwright.cli import completing
 from mechwright.cli.command import Also, AsJson, At, Command, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
@@ -40,13 +42,21 @@ class Live(Command):
 
     def run(
         self,
-        design: DesignFile,
+        design: Annotated[
+            Path,
+            typer.Argument(
+                metavar="FILE",
+                help="A design file or a requirement file (TOML).",
+                show_default=False,
+                autocompletion=completing.any_files,
+            ),
+        ],
         port: Annotated[
             int, typer.Option(min=0, max=65535, help="Port on this machine; a free one by default.")
         ] = 0,
         show: Annotated[bool, typer.Option("--open/--no-open", help="Show the page in a browser.")] = True,
     ) -> None:
-        """Show a design in the browser, and redraw it as you change it.
+        """Show a design, or a requirement, in the browser, and redraw it as you change it.
 
         The page is for this machine alone. Nothing is written unless you ask for it there. Ctrl-C ends it.
         """

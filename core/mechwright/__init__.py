@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
-    from mechwright.contracts.mounting import GroundPlate, Hub, Mounting, Spindle
+    from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.result import Result
     from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
+    from mechwright.contracts.target import Target, point_targets
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
     from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
@@ -83,7 +84,7 @@ _HOMES = {
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
-    "mechwright.contracts.mounting": "GroundPlate Hub Mounting Spindle",
+    "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
@@ -92,6 +93,7 @@ _HOMES = {
     "mechwright.contracts.result": "Result",
     "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
+    "mechwright.contracts.target": "Target point_targets",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
     "mechwright.contracts.turned": "Groove KeySeat Step Turned",
@@ -134,7 +136,7 @@ __all__ += [
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
-__all__ += ["FittingMark", "GroundPlate", "Hub", "Mounting", "Spindle"]
+__all__ += ["FittingMark", "Flange", "Foot", "GroundPlate", "Hub", "Mounting", "MountingError", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += [
     "Finding",
@@ -147,7 +149,7 @@ __all__ += [
     "refuse",
     "until_error",
 ]
-__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
+__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis", "Target", "point_targets"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "RefusedError", "ToolError"]

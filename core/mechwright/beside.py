@@ -27,9 +27,11 @@ class Beside:
     ----------
     modules
         Names; one that cannot be imported does no harm before the call needs it.
+    heard
+        Told each line that the call prints, on standard output or standard error, by a thread.
     """
 
-    def __init__(self, modules: Sequence[str]) -> None:
+    def __init__(self, modules: Sequence[str], heard: Callable[[str], None] | None = None) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._call: tuple[Callable[..., object], tuple[object, ...]] | None = None
         if sys.executable:
@@ -39,10 +41,12 @@ class Beside:
                     [sys.executable, "-P", "-c", _SERVE, *modules],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
-                    stderr=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL if heard is None else subprocess.PIPE,
                 )
             except OSError:
                 return
+            if heard is not None and self._process.stderr is not None:
+                threading.Thread(target=_listen, args=(self._process.stderr, heard), daemon=True).start()
 
     def ask(self, function: Callable[..., object], *arguments: object) -> None:
         """Begin the call of a function of a module, without side effects; arguments are copied by pickle."""
@@ -83,7 +87,7 @@ class Beside:
         if process is None:
             return
         process.kill()
-        for stream in (process.stdin, process.stdout):
+        for stream in (process.stdin, process.stdout):  # who listens closes the third, at its end
             if stream is not None:
                 with contextlib.suppress(OSError):
                     stream.close()
@@ -95,6 +99,12 @@ def _send(pipe: IO[bytes], request: bytes) -> None:
     with contextlib.suppress(OSError, ValueError):  # the other end is gone, or the pipe closed meanwhile
         pipe.write(request)
         pipe.flush()
+
+
+def _listen(pipe: IO[bytes], heard: Callable[[str], None]) -> None:
+    with pipe:
+        for line in pipe:
+            heard(line.decode(errors="replace").rstrip())
 
 
 def serve() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from planar_machine import plan
+from spherical_machine import figure
 
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable import Pins, PlaneSpace, follow, settings_of
@@ -171,6 +172,7 @@ def pictures(design: PlanarDesign) -> dict[str, Callable[[], str]]:
         "spherical-figure-7.svg": section,
         "spherical-figure-11.svg": lambda: chart(design, (2, 3, 4), 0.12),
         "spherical-figure-12.svg": lambda: chart(design, (6, 7), 0.042),
+        "spherical-figure-13.svg": figure,
     }
 
 
@@ -180,7 +182,7 @@ tool in the coupler's point; on the sphere `examples/spherical-five-bar-refined.
 
 2 (a) | a four-bar, a1, a1n, b1, b1n, points p1 to p8 with p5 = p1; no numbers | picture below: points of
 our own. Family `four-bar`, `phases` and the requirement `adjustable-path`, built in
-`examples/four-bar-slots.toml`; on the sphere `linkage = "four-bar"`
+`examples/four-bar-slots.toml`, on the sphere in `examples/spherical-four-bar-slots.toml`
 
 2 (b) | a five-bar, a1, a1n, c1, c1n, b1 kept | picture below, from the printed pins; with three phases
 `examples/five-bar-three-phases.toml`
@@ -208,8 +210,9 @@ Table 1 | lost: prescribed points and coupler angles | angles in Table 2 below, 
 
 12 | structural error times d of position 7, axis to 0.040 | picture below: all positions of phase 2
 
-13, Tables 3, 4 | the spherical mechanism, pins and points | tables below; the gap of R3, 0.1403°, in
-Lengths after the projection
+13, Tables 3, 4 | the spherical mechanism, pins and points | picture below and
+`examples/spherical-five-bar-refined.toml`, one machine for both phases; tables below; the gap of R3, 0.1403°,
+in Lengths after the projection
 """
 """Figure, what the source has, and what answers it here; blocks that a blank line parts."""
 
@@ -222,6 +225,8 @@ CAPTIONS = {
     "spherical-figure-7.svg": "Figure 7: the section y = 0 for two projection lengths.",
     "spherical-figure-11.svg": "Figure 11, as phase 1: error times d; d = 5 is marked. There is no minimum.",
     "spherical-figure-12.svg": "Figure 12, as phase 2: error times d; d = 5 is marked. There is no minimum.",
+    "spherical-figure-13.svg": "Figure 13: the machine on the sphere in the pose of setting, both phases, "
+    "the slots of its coupler in grey.",
 }
 
 

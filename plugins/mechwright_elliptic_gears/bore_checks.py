@@ -5,12 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, kept
+from mechwright import Finding, Severity
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright.tolerances import falls_short
-from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -19,9 +18,6 @@ LEAST_RIM = 1.0
 
 FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
-
-_PITCH_SAMPLES = 4096
-"""Points of the pitch curve for the rim: a millionth of its size apart from the exact distance."""
 
 
 def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
@@ -119,17 +115,4 @@ def _without_relief(params: EllipticGearParams) -> float:
 
 def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
     """Least distance, mm, of points (n, 2), part frame, from the root curve; negative beyond it."""
-    ellipse = ellipse_of(params)
-    on_pitch = _pitch_points(ellipse)
-    nearest = min(float(np.hypot(*(on_pitch - point).T).min()) for point in points)
-    level = ((points[:, 0] - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (
-        points[:, 1] / ellipse.semi_minor
-    ) ** 2
-    return (nearest if level.max() < 1 else -nearest) - rack_of(params).dedendum
-
-
-@kept
-def _pitch_points(ellipse: Ellipse) -> Array:
-    """The pitch curve in points (n, 2); the openings of many designs are held against the same one."""
-    around = np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)
-    return ellipse.frame(around).point
+    return float(ellipse_of(params).depth(points).min()) - rack_of(params).dedendum

@@ -6,6 +6,7 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 from mechwright import (
     Finding,
@@ -18,6 +19,7 @@ from mechwright import (
     of_stage,
     until_error,
 )
+from mechwright.contracts.finding import errors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import (
     backlash_of,
@@ -39,11 +41,9 @@ from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import prove
 from mechwright_elliptic_gears.strength_checks import strength_findings
+from mechwright_elliptic_gears.tip_reach import LEAST_CLEARANCE, may_collide, that_clear
 from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
-
-LEAST_CLEARANCE = 0.1
-"""Modules between tip and root below which dirt and run-out make them touch (ISO 53 racks have 0.25)."""
 
 LEAST_TIP = 0.2
 """Narrowest tip land in modules: the usual least of gear standards for teeth that are not case-hardened;
@@ -67,13 +67,15 @@ def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 
 def judged(params: EllipticGearParams) -> tuple[Finding, ...]:
-    """The same without the mesh proof, which takes ten times as long as the rest."""
-    return until_error(params, _of_the_parts, _of_the_load, _backlash)
+    """The same with the mesh proof only where tips may collide, and without advice on loads."""
+    parts = partial(_of_the_parts, noted=False)
+    return until_error(params, parts, _of_the_doubtful_mesh, _of_the_load, _backlash)
 
 
 @kept
-def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
-    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive)
+def _of_the_parts(params: EllipticGearParams, *, noted: bool = True) -> tuple[Finding, ...]:
+    trains = partial(train_findings, noted=noted)
+    checks = (_rack, undercut_findings, _tip, opening_findings, trains, _drive)
     return tuple(at_stage(Stage.PARTS, until_error(params, *checks)))
 
 
@@ -83,8 +85,14 @@ def _of_the_mesh(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 
 @of_stage(Stage.PARTS)
+def _of_the_doubtful_mesh(params: EllipticGearParams) -> Iterator[Finding]:
+    if may_collide(params):
+        yield from errors(_mesh(params))
+
+
+@of_stage(Stage.PARTS)
 def _of_the_load(params: EllipticGearParams) -> Iterator[Finding]:
-    yield from strength_findings(params)
+    yield from strength_findings(params, advise=False)
 
 
 def _rack(params: EllipticGearParams) -> Iterator[Finding]:
@@ -269,7 +277,8 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
             depth,
             proof.allowance,
             "mm",
-            "make addendum smaller, or use more teeth",
+            "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
+            proposed=tuple(that_clear(params)),
         )
         return
     if exceeds(proof.flank_error, FLANK_ERROR):

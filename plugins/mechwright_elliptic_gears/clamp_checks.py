@@ -49,7 +49,11 @@ def clamp_findings(params: EllipticGearParams) -> Iterator[Finding]:
         turn,
         "deg",
     )
-    yield window_note(params, SETTING / clamp.scale, f"a mark that is set {SETTING:g} mm wrong")
+
+
+def setting_note(params: EllipticGearParams) -> Finding:
+    """What a mark that is set wrong does to the window."""
+    return window_note(params, SETTING / clamp_of(params).scale, f"a mark that is set {SETTING:g} mm wrong")
 
 
 def _length(params: EllipticGearParams) -> Iterator[Finding]:

@@ -5,19 +5,21 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.requirements import REQUIREMENTS
+from mechwright_elliptic_gears.requirements import REQUIREMENTS, TrainRequirement
 
 if TYPE_CHECKING:
     import shapely
 
     from mechwright import (
         AsMade,
+        GroundPlate,
         MadePart,
         Motion,
         Mounting,
         Part,
         Progress,
         Synthesis,
+        Target,
         ToleranceModel,
         Tolerances,
     )
@@ -58,8 +60,8 @@ class EllipticGears(Family[EllipticGearParams]):
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
-    def mounting(self, params: EllipticGearParams) -> "Mounting":
-        """The shafts of a pair; a train has a base plate of its own."""
+    def mounting(self, params: EllipticGearParams) -> "Mounting | GroundPlate":
+        """The shafts of a pair; of a train its base plate."""
         from mechwright_elliptic_gears.mounting import mounting_of
 
         return mounting_of(params)
@@ -99,3 +101,11 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.synthesis import synthesise
 
         return synthesise(kind, REQUIREMENTS[kind].model_validate(requirement.model_dump()), progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The end of the figure of eight."""
+        from mechwright_elliptic_gears.targets import targets_of
+
+        if not isinstance(requirement, TrainRequirement):
+            return super().targets(kind, requirement)
+        return targets_of(requirement)

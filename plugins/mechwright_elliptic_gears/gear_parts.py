@@ -8,6 +8,7 @@ import numpy as np
 from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
+from mechwright_elliptic_gears.bushes import bush_parts, bush_seat
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.clamp_parts import (
     clamp_plates,
@@ -82,12 +83,13 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     low, high = layout.lower, layout.upper
     back = -phase_offset(phase, params.eccentricity) % math.tau
     joint = Bore("joint", (layout.focus, 0.0), layout.pin, 0, layout.thickness)
-    last = Gear("gear-5", (("gear-5", high),), None, (joint,))
+    seat = bush_seat(params, params.thickness)
+    last = Gear("gear-5", (("gear-5", high),), None, (joint,), seat)
     if params.phase_joint == "pins":
         return (
             Gear("gear-2", (("gear-2", low),), key),
-            Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params)),
-            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params))),
+            Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params), seat),
+            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params)), seat),
             last,
         )
     if params.phase_joint == "clamp":
@@ -95,7 +97,7 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
         drilled = screw_holes(clamp, core_of(clamp), layout.thickness)
         return (
             Gear("gear-2", (("gear-2", low),), key),
-            Gear("gear-3", (("gear-3", low),), None, drilled, None, threads(params)),
+            Gear("gear-3", (("gear-3", low),), None, drilled, seat, threads(params)),
             Gear("gear-4", (("gear-4", high),), None, (joint,), clamp.seat, (scale(params),)),
             last,
         )
@@ -212,4 +214,4 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     if params.phase_joint == "clamp":
         plates += clamp_plates(params, layout)
         turned += (clamp_screw_part(params, layout),)
-    return (*gears, *plates, *turned)
+    return (*gears, *plates, *turned, *bush_parts(params, layout))

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, kept, material
-from mechwright_elliptic_gears.gear import ellipse_of, outline_of
+from mechwright import Array, Loop, kept, material
+from mechwright_elliptic_gears.gear import ellipse_of, opening_of, teeth_of, toothed
 from mechwright_elliptic_gears.kinematics import Turning, coupler, train
 from mechwright_elliptic_gears.layout import Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.peak import Peak, grid_of, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
 
@@ -60,10 +60,15 @@ def masses_of(params: EllipticGearParams) -> Masses:
 
 def gear_inertia(params: EllipticGearParams) -> float:
     """Moment of inertia of a full gear about its axis, kg mm²."""
-    # The outline is the same for all loads and thicknesses, which are tried one after the other.
-    plain = params.model_copy(update={"load_torque": 0.0, "speed": 60.0, "thickness": 10.0})
     density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
-    return outline_of(plain).polar_moment * params.thickness * density
+    outside, opening = toothed(teeth_of(params))[0], opening_of(params)
+    inside = 0.0 if opening is None else _polar(opening.loop())
+    return (_polar(outside) - abs(inside)) * params.thickness * density
+
+
+def _polar(loop: Loop) -> float:
+    """Polar moment, mm⁴, of what a loop holds, about the origin; below 0 where it runs clockwise."""
+    return float(loop.moments[3] + loop.moments[4])
 
 
 def joint_torque(
@@ -73,8 +78,15 @@ def joint_torque(
 
     Without ``driver`` it is that of the bodies behind gear 4 alone.
     """
+    _, four, five = train(Turning.of(theta2, params.speed * math.tau / 60), params.eccentricity, phase)
+    return torque_behind(four, five, params, masses, driver=driver)
+
+
+def torque_behind(
+    four: Turning, five: Turning, params: EllipticGearParams, masses: Masses, *, driver: bool = True
+) -> Array:
+    """The same torque (n,), N m, from the motion of gears 4 and 5."""
     a, e = ellipse_of(params).semi_major, params.eccentricity
-    _, four, five = train(Turning.of(theta2, params.speed * math.tau / 60), e, phase)
     link = coupler(four, five)
     centre = point_of_coupler(four, five, a, e, masses.centre)
     power = masses.gear * five.alpha * five.omega + masses.turning * link.omega * link.alpha
@@ -84,7 +96,9 @@ def joint_torque(
     return torque * TO_NM
 
 
+@kept
 def greatest_torque(params: EllipticGearParams, phase: float) -> Peak:
     """The greatest torque, N m, either way, at a phase angle in degrees, and where it is."""
     masses = masses_of(params)
-    return peak(lambda theta2: np.abs(joint_torque(theta2, params, math.radians(phase), masses)))
+    gamma, grid = math.radians(phase), grid_of(params.eccentricity)
+    return peak(lambda theta2: np.abs(joint_torque(theta2, params, gamma, masses)), grid)

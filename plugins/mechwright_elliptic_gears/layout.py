@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from mechwright import kept
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.dividing import Dividing, circle_for, placed
-from mechwright_elliptic_gears.gear import ellipse_of
+from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 COUPLER_THICKNESS, BASE_THICKNESS = 6.0, 10.0
@@ -30,10 +30,19 @@ AXIAL_PLAY = 0.1
 """Between coupler and the heads of its pins, mm, so that it turns freely."""
 
 STUB = 2.0
-"""How far the input shaft stands out below the base plate, in diameters: room for a shaft coupling."""
+"""How far the input's shaft stands out below the base plate, in bores: room for a shaft coupling."""
 
 MARGIN = 2.0
 """Of the base plate around the shafts' axes, in bores: one and a half bores of wall."""
+
+BEYOND = 8.0
+"""From the teeth to the screws of a frame, mm: half the head of an M5, and 3 mm of air."""
+
+OUTWARDS = (0.5, math.sqrt(0.75))
+"""Direction from the axes of gears 2 and 5 to those screws: a base plate about half as wide as it is long."""
+
+EDGE = 1.5
+"""From a screw's middle to the edge of the plate, in its holes."""
 
 FIXING = 0.55
 """Holes that fix the base plate, in bores: 6.6 mm, M6, at a shaft of 12 mm."""
@@ -66,6 +75,8 @@ class Layout:
         As the design says, or their defaults.
     crown
         From gears 4 and 5 to the coupler.
+    stub_diameter, stub
+        Of the input's shaft below the base plate, and its length.
     """
 
     semi_major: float
@@ -80,6 +91,8 @@ class Layout:
     dowel: float
     dowel_circle: float
     crown: float
+    stub_diameter: float
+    stub: float
 
     @classmethod
     def of(cls, params: EllipticGearParams) -> "Layout":
@@ -101,6 +114,8 @@ class Layout:
             dowel,
             params.dowel_circle or _dowel_circle(params, dowel),
             max(gap, clamp_of(params).crown) if params.phase_joint == "clamp" else gap,
+            _or(params.stub_diameter, bore),
+            _or(params.stub_length, STUB * bore),
         )
 
     @property
@@ -132,6 +147,22 @@ class Layout:
     def focus(self) -> float:
         """From a gear's axis to its joint: 2 a e."""
         return 2 * self.semi_major * self.eccentricity
+
+
+def screw_offset_of(params: EllipticGearParams) -> float:
+    """Of the screws of a frame from the axes of gears 2 and 5, mm."""
+    ellipse = ellipse_of(params)
+    reach = ellipse.semi_major * (1 + params.eccentricity) + rack_of(params).addendum
+    return _or(params.screw_offset, math.ceil(reach + BEYOND))
+
+
+def screw_places(params: EllipticGearParams) -> tuple[complex, ...]:
+    """Where screws of a frame go through the base plate, x + i y, mm; none without their holes."""
+    if params.screw_hole is None:
+        return ()
+    out, reach = screw_offset_of(params), 2 * ellipse_of(params).semi_major
+    x, y = reach + OUTWARDS[0] * out, OUTWARDS[1] * out
+    return tuple(complex(a * x, b * y) for a in (-1, 1) for b in (-1, 1))
 
 
 def _or(value: float | None, default: float) -> float:

@@ -5,17 +5,18 @@ behind it take up by inertia, and the load. Teeth touch at the pitch point, wher
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array
+from mechwright import Array, kept
 from mechwright.mechanics.strength.tooth_bending import EllipticMesh, tangential_force
 from mechwright_elliptic_gears.gear import ellipse_of
-from mechwright_elliptic_gears.joint_load import TO_NM, gear_inertia, joint_torque, masses_of
+from mechwright_elliptic_gears.joint_load import TO_NM, gear_inertia, masses_of, torque_behind
 from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.peak import Peak, grid_of, peak
 
 _SAMPLES = 721
 """Angles of a turn at which the sign of a torque is asked for."""
@@ -39,63 +40,77 @@ class Mesh:
     names: tuple[str, str]
     params: EllipticGearParams
 
+    def turning(self, theta2: Array) -> tuple[Turning, Turning, Array]:
+        """Driver and driven gear at angles (n,) of gear 2, rad and rad/s, and the torque on the driven one.
+
+        The torque, N m, is positive where the mesh drives that gear on, negative where it holds it back.
+        """
+        params, e = self.params, self.params.eccentricity
+        gear2 = Turning.of(theta2, params.speed * math.tau / 60)
+        if params.stages == 1:
+            follower = driven(gear2, e)
+            inertia = gear_inertia(params) * follower.alpha * TO_NM
+            own: Array = np.sign(follower.omega) * inertia + params.load_torque
+            return gear2, follower, own
+        masses = masses_of(params)
+        gear3, gear4, gear5 = train(gear2, e, params.phase_angle or 0.0)
+        if self.names == ("2", "3"):
+            behind = torque_behind(gear4, gear5, params, masses) + masses.gear * gear3.alpha * TO_NM
+            return gear2, gear3, np.sign(gear3.omega) * behind
+        # All that is behind gear 4 goes through this mesh; the coupler's own way is left out.
+        behind = torque_behind(gear4, gear5, params, masses, driver=False)
+        return gear4, gear5, np.sign(gear5.omega) * behind * gear4.omega / gear5.omega
+
     def driver(self, theta2: Array) -> Turning:
         """The driving gear at angles (n,) of gear 2, rad and rad/s."""
-        gear2 = Turning.of(theta2, self.params.speed * math.tau / 60)
-        if self.names[0] == "2":
-            return gear2
-        return train(gear2, self.params.eccentricity, self.params.phase_angle or 0.0)[1]
+        return self.turning(theta2)[0]
 
     def contact(self, theta2: Array) -> EllipticMesh:
         """The pitch point; angles of a driver that turns backwards count the other way."""
-        driver = self.driver(theta2)
-        return EllipticMesh.at(driver.theta, ellipse_of(self.params).semi_major, self.params.eccentricity)
+        return self.loaded(theta2)[0]
 
     def torque(self, theta2: Array) -> Array:
-        """On the driven gear, N m, positive where the mesh drives it on, negative where it holds it back."""
-        params, e = self.params, self.params.eccentricity
-        follower = driven(self.driver(theta2), e)
-        sense = np.sign(follower.omega)
-        if self.names == ("2", "3"):
-            masses = masses_of(params)
-            behind = joint_torque(theta2, params, params.phase_angle or 0.0, masses)
-            return sense * (behind + masses.gear * follower.alpha * TO_NM)
-        if self.names == ("4", "5"):
-            # All that is behind gear 4 goes through this mesh; the coupler's own way is left out.
-            behind = joint_torque(theta2, params, params.phase_angle or 0.0, masses_of(params), driver=False)
-            back: Array = sense * behind * self.driver(theta2).omega / follower.omega
-            return back
-        own: Array = sense * gear_inertia(params) * follower.alpha * TO_NM + params.load_torque
-        return own
+        """On the driven gear, N m, as of :meth:`turning`."""
+        return self.turning(theta2)[2]
 
     def force(self, theta2: Array) -> Array:
         """Along the pitch tangent, N, of the flank that has the shorter lever."""
-        point = self.contact(theta2)
+        return self.loaded(theta2)[1]
+
+    def loaded(self, theta2: Array) -> tuple[EllipticMesh, Array]:
+        """The pitch point, and the force (n,), N, along the pitch tangent there."""
+        driver, _, torque = self.turning(theta2)
+        point = EllipticMesh.at(driver.theta, ellipse_of(self.params).semi_major, self.params.eccentricity)
         alpha = math.radians(self.params.pressure_angle)
-        return tangential_force(np.abs(self.torque(theta2)), point.radius, point.slant, alpha)
+        return point, tangential_force(np.abs(torque), point.radius, point.slant, alpha)
+
+    def greatest(self, size: Callable[[EllipticMesh, Array], Array]) -> Peak:
+        """The greatest of what follows from pitch point and force, as of :meth:`loaded`, and where it is."""
+        return self._peak(lambda theta2: size(*self.loaded(theta2)), size(*_loaded(self)))
+
+    def _peak(self, function: Callable[[Array], Array], values: Array | None = None) -> Peak:
+        return peak(function, grid_of(self.params.eccentricity), values)
 
     @property
     def greatest_force(self) -> Peak:
         """Of the teeth on each other, along their normal, N, and where it is."""
-        cos = math.cos(math.radians(self.params.pressure_angle))
-        return peak(lambda theta2: self.force(theta2) / cos)
+        return _greatest_force(self)
 
     @property
     def greatest_torque(self) -> float:
         """On the driven gear, N m."""
-        return peak(lambda theta2: np.abs(self.torque(theta2))).value
+        return self._peak(lambda theta2: np.abs(self.torque(theta2))).value
 
     @property
     def input_torque(self) -> float:
         """The greatest on the driver, N m."""
 
         def own(theta2: Array) -> Array:
-            driver = self.driver(theta2)
-            ratio = driven(driver, self.params.eccentricity).omega / driver.omega
-            found: Array = np.abs(self.torque(theta2) * ratio)
+            driver, follower, torque = self.turning(theta2)
+            found: Array = np.abs(torque * follower.omega / driver.omega)
             return found
 
-        return peak(own).value
+        return self._peak(own).value
 
     @property
     def reverses(self) -> bool:
@@ -103,6 +118,18 @@ class Mesh:
         torque = self.torque(np.linspace(0.0, math.tau, _SAMPLES))
         most = float(np.abs(torque).max())
         return bool(torque.min() < -STEADY * most and torque.max() > STEADY * most)
+
+
+@kept
+def _loaded(mesh: Mesh) -> tuple[EllipticMesh, Array]:
+    """What all stresses of a mesh follow from, on the grid where their peaks are sought."""
+    return mesh.loaded(grid_of(mesh.params.eccentricity))
+
+
+@kept
+def _greatest_force(mesh: Mesh) -> Peak:
+    cos = math.cos(math.radians(mesh.params.pressure_angle))
+    return mesh.greatest(lambda _, force: force / cos)
 
 
 def meshes_of(params: EllipticGearParams) -> tuple[Mesh, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 from mechwright import Array, Channel, Curve, Motion, Poses, Trace
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
-from mechwright.mechanics.planar.channels import turning_channels
+from mechwright.mechanics.planar.channels import along, turning_channels
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.figures import figures
@@ -49,17 +49,20 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
         link, inputs = "6", [gear2, first]
     turning[link] = coupler(first, second)
     q = point_of_coupler(first, second, a, e, place(params.point_along, params.point_across, a))
-    channels = {"time": Channel(theta2 / omega, "s")}
+    channels = {"time": Channel(theta2 / omega, "s", "time")}
     for number, one in turning.items():
-        channels |= turning_channels(one, f"theta{number}", number)
-    channels["ratio"] = Channel(second.omega / omega, "")
+        channels |= turning_channels(one, f"theta{number}", number, _called(number, link))
+    channels["ratio"] = Channel(second.omega / omega, "", "ratio of the speeds")
     if phase is None:
         s2, s4 = pitch_radii(gear2, a, e)
-        channels |= {"s2": Channel(s2, "mm"), "s4": Channel(s4, "mm")}
+        channels |= {
+            "s2": Channel(s2, "mm", "pitch radius of gear 2"),
+            "s4": Channel(s4, "mm", "pitch radius of gear 4"),
+        }
     channels |= _point_channels(q)
     alpha = math.radians(params.pressure_angle)
     steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
-    channels["pressure_angle"] = Channel(steepest, "rad")
+    channels["pressure_angle"] = Channel(steepest, "rad", "pressure angle at the shaft")
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
     around = np.linspace(0, math.tau, _PITCH_SAMPLES)
@@ -77,19 +80,27 @@ _PITCH_SAMPLES = 181
 """Points of a pitch curve that is drawn: each two degrees."""
 
 
+POINT = "point Q"
+
+
+def _called(number: str, link: str) -> str:
+    """What turns, as people are told it; the coupler is counted after the gears."""
+    return "the coupler" if number == link else f"gear {number}"
+
+
 def _point_channels(q: PointMotion) -> dict[str, Channel]:
     return {
-        "Q.x": Channel(q.position.real, "mm"),
-        "Q.y": Channel(q.position.imag, "mm"),
-        "Q.velocity.x": Channel(q.velocity.real, "mm/s"),
-        "Q.velocity.y": Channel(q.velocity.imag, "mm/s"),
-        "Q.speed": Channel(q.speed, "mm/s"),
-        "Q.acceleration.x": Channel(q.acceleration.real, "mm/s^2"),
-        "Q.acceleration.y": Channel(q.acceleration.imag, "mm/s^2"),
-        "Q.acceleration": Channel(np.abs(q.acceleration), "mm/s^2"),
-        "Q.jerk.x": Channel(q.jerk.real, "mm/s^3"),
-        "Q.jerk.y": Channel(q.jerk.imag, "mm/s^3"),
-        "Q.jerk": Channel(np.abs(q.jerk), "mm/s^3"),
+        "Q.x": Channel(q.position.real, "mm", along("x", "", POINT)),
+        "Q.y": Channel(q.position.imag, "mm", along("y", "", POINT)),
+        "Q.velocity.x": Channel(q.velocity.real, "mm/s", along("x", "velocity", POINT)),
+        "Q.velocity.y": Channel(q.velocity.imag, "mm/s", along("y", "velocity", POINT)),
+        "Q.speed": Channel(q.speed, "mm/s", f"speed of {POINT}"),
+        "Q.acceleration.x": Channel(q.acceleration.real, "mm/s^2", along("x", "acceleration", POINT)),
+        "Q.acceleration.y": Channel(q.acceleration.imag, "mm/s^2", along("y", "acceleration", POINT)),
+        "Q.acceleration": Channel(np.abs(q.acceleration), "mm/s^2", f"acceleration of {POINT}"),
+        "Q.jerk.x": Channel(q.jerk.real, "mm/s^3", along("x", "jerk", POINT)),
+        "Q.jerk.y": Channel(q.jerk.imag, "mm/s^3", along("y", "jerk", POINT)),
+        "Q.jerk": Channel(np.abs(q.jerk), "mm/s^3", f"jerk of {POINT}"),
     }
 
 

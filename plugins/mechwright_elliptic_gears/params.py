@@ -47,6 +47,11 @@ TRAIN_ONLY = (
     "coupler_thickness",
     "tracer_diameter",
     "base_thickness",
+    "bushes",
+    "stub_diameter",
+    "stub_length",
+    "screw_hole",
+    "screw_offset",
     "dowel_diameter",
     "dowel_circle",
 )
@@ -189,6 +194,26 @@ class EllipticGearParams(Parameters):
     base_thickness: Annotated[float, Field(ge=0.3, le=200), Unit("mm")] | None = Field(
         None, description="Base plate; left out, 10."
     )
+    bushes: bool | None = Field(
+        None,
+        description="Sintered bronze bushes (ISO 2795) wherever something turns on or in a plate; left out, "
+        "plates and shafts run on each other.",
+    )
+    stub_diameter: Annotated[float, Field(ge=0.5, le=300), Unit("mm")] | None = Field(
+        None, description="Of the input's shaft below the base plate; left out, the bore's."
+    )
+    stub_length: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
+        None, description="How far it stands out there; left out, two bores."
+    )
+    screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
+        None,
+        description="Holes in the corners of the base plate, for the screws of a frame; left out, four under "
+        "the gears fix it.",
+    )
+    screw_offset: Annotated[float, Field(ge=0, le=5000), Unit("mm")] | None = Field(
+        None,
+        description="Distance of those holes from the axes of gears 2 and 5; left out, 8 beyond the teeth.",
+    )
     dowel_diameter: Annotated[float, Field(ge=0.5, le=50), Unit("mm")] | None = Field(
         None,
         description=(
@@ -241,6 +266,13 @@ class EllipticGearParams(Parameters):
                     raise ValueError(f"{name} belongs to a train; set stages = 2, or leave it out")
         elif self.bore == 0:
             raise ValueError("stages = 2 needs shafts; set bore")
+        elif self.stub_diameter is not None and self.stub_diameter > self.bore:
+            raise ValueError(
+                f"stub_diameter is {self.stub_diameter:g}, and the shaft goes through a base plate with "
+                f"bores of {self.bore:g}; make it smaller, or leave it out"
+            )
+        elif self.screw_offset is not None and self.screw_hole is None:
+            raise ValueError("screw_offset needs holes; set screw_hole = 6, or leave it out")
         elif self.keyed_phase and (self.dowel_diameter or self.dowel_circle):
             raise ValueError(
                 "dowel_diameter and dowel_circle are for gears without a key; leave them out, "

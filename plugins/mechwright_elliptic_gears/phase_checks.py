@@ -32,7 +32,11 @@ def pin_findings(params: EllipticGearParams) -> Iterator[Finding]:
     yield from _strength(params, layout)
     yield _note(params)
     yield _held(layout)
-    yield window_note(params, pin_play(params) / 2, "the play of the pin")
+
+
+def play_note(params: EllipticGearParams) -> Finding:
+    """What the play of the pin does to the window."""
+    return window_note(params, pin_play(params) / 2, "the play of the pin")
 
 
 def pin_play(params: EllipticGearParams, holes: float | None = None, pin: float | None = None) -> float:

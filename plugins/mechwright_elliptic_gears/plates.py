@@ -1,7 +1,8 @@
 """Plates of a train that are no gears: the coupler and the base."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from mechwright import (
     Arc,
@@ -17,9 +18,11 @@ from mechwright import (
     Profile,
     Segment,
 )
+from mechwright.contracts.fits import Fit
 from mechwright.mechanics.linkage import Boss, rectangle
 from mechwright.mechanics.linkage.outlines import bores
-from mechwright_elliptic_gears.layout import FIXING, MARGIN, Layout
+from mechwright_elliptic_gears.bushes import bush_seat
+from mechwright_elliptic_gears.layout import EDGE, FIXING, MARGIN, Layout, screw_places
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 COUPLER, BASE = "coupler", "base"
@@ -45,28 +48,42 @@ def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
 
 
 def base_part(params: EllipticGearParams, layout: Layout) -> Part:
-    """The base plate: bores of the three shafts, and four holes that fix it."""
+    """The base plate: bores of the three shafts, and four holes that fix it, or those of a frame's screws."""
     reach, rounding = 2 * layout.semi_major, layout.bore / 2
     side, fixing = MARGIN * layout.bore, round(FIXING * layout.bore, 1)
     axes = {"2": -reach, "4": 0.0, "5": reach}
-    holes = [Boss(complex(x), 0.0, layout.bore, f"shaft-{name}") for name, x in axes.items()]
-    high = side - rounding - fixing / 2
+    seat = bush_seat(params, layout.base)
+    bushed = {"2", "4"} if params.keyed_phase else {"2"}
+    fits = {f"shaft-{name}": seat for name in bushed if seat is not None}
+    holes = [
+        Boss(complex(x), 0.0, seat.middle if seat and name in bushed else layout.bore, f"shaft-{name}")
+        for name, x in axes.items()
+    ]
+    high, corner = side - rounding - fixing / 2, complex(reach + side, side)
     places = [complex(x, y) for x in (-layout.semi_major, layout.semi_major) for y in (-high, high)]
+    if params.screw_hole is not None:
+        fixing, rounding, places = params.screw_hole, EDGE * params.screw_hole, [*screw_places(params)]
+        corner = places[-1] + complex(rounding, rounding)
     holes += [Boss(place, 0.0, fixing, f"fixing-{number}") for number, place in enumerate(places)]
-    corner = complex(reach + side, side)
     outline, at = rectangle(-corner, corner, rounding, holes), Instance(BASE, -layout.base)
-    return _plate(BASE, outline, layout.base, params.material, at, (0.55, 0.57, 0.60))
+    return _plate(BASE, outline, layout.base, params.material, at, (0.55, 0.57, 0.60), fits)
 
 
 def _plate(
-    name: str, outline: Outline, thickness: float, material: str, at: Instance, colour: Colour
+    name: str,
+    outline: Outline,
+    thickness: float,
+    material: str,
+    at: Instance,
+    colour: Colour,
+    fits: Mapping[str, Fit] = MappingProxyType({}),
 ) -> Part:
     """A plate whose features have the names of its holes."""
     features: list[Feature] = []
     for loop in outline.inner:
         (hole,) = loop.segments
         assert isinstance(hole, Arc)  # noqa: S101 - a bore is a circle
-        features.append(Bore(hole.tag, hole.centre, 2 * hole.radius, 0, thickness))
+        features.append(Bore(hole.tag, hole.centre, 2 * hole.radius, 0, thickness, fits.get(hole.tag)))
     features.append(Profile("outside", outline.outer, "outside", 0, thickness))
     return Part(name, outline, thickness, material, (at,), colour, tuple(features))
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -29,32 +30,32 @@ from mechwright.mechanics.strength.hertz import (
 )
 from mechwright.mechanics.strength.judging import STUD_SHARE, Stress, Way, judged
 from mechwright.mechanics.strength.shaft import von_mises
-from mechwright.mechanics.strength.tooth_bending import Rack, root_stress, virtual_teeth
+from mechwright.mechanics.strength.tooth_bending import EllipticMesh, Rack, root_stress, virtual_teeth
 from mechwright_elliptic_gears.gear import opening_of, rack_of
 from mechwright_elliptic_gears.joint_load import greatest_torque
 from mechwright_elliptic_gears.layout import DOWELS, Layout
-from mechwright_elliptic_gears.mesh_load import Mesh, meshes_of
+from mechwright_elliptic_gears.mesh_load import meshes_of
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import peak
 from mechwright_elliptic_gears.turned import MATERIAL
 
 
-def strength_findings(params: EllipticGearParams) -> Iterator[Finding]:
-    """Teeth, their flanks, then what joins gears and carries them."""
+def strength_findings(params: EllipticGearParams, *, advise: bool = True) -> Iterator[Finding]:
+    """Teeth, their flanks, then what joins gears and carries them; values that help only to ``advise``."""
+    told = partial(judged, advise=advise)
     most = max(meshes_of(params), key=lambda mesh: mesh.greatest_force.value).greatest_force
     load = f"{most.value:.4g} N on a tooth at {math.degrees(most.angle):.1f} degrees of gear 2"
     wider = Way("thickness", params.thickness)
     size = "module" if params.module is not None else "semi_major"
     larger = Way(size, params.module or params.semi_major or 0.0)
     less = [Way("load_torque", params.load_torque, up=False), Way("speed", params.speed, up=False)]
-    yield from judged("gear.root", params, root_stresses, [wider, larger, *less], load)
-    yield from judged("gear.flank", params, flank_pressures, [wider, larger, *less], load)
+    yield from told("gear.root", params, root_stresses, [wider, larger, *less], load)
+    yield from told("gear.flank", params, flank_pressures, [wider, larger, *less], load)
     thicker = Way("bore", params.bore)
-    yield from judged("gear.key", params, key_stresses, [wider, thicker, *less])
+    yield from told("gear.key", params, key_stresses, [wider, thicker, *less])
     if params.stages == 2:
-        yield from judged("train.shaft", params, shaft_stresses, [thicker, *less], load)
+        yield from told("train.shaft", params, shaft_stresses, [thicker, *less], load)
         dowel = Way("dowel_diameter", Layout.of(params).dowel)
-        yield from judged("train.dowel-load", params, dowel_stresses, [dowel, wider, *less])
+        yield from told("train.dowel-load", params, dowel_stresses, [dowel, wider, *less])
 
 
 @kept
@@ -68,12 +69,12 @@ def root_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
     found = []
     for mesh in meshes_of(params):
 
-        def stress(theta2: Array, mesh: Mesh = mesh) -> Array:
-            teeth = virtual_teeth(mesh.contact(theta2).curvature, module)
-            return root_stress(mesh.force(theta2), params.thickness, module, teeth, rack=own)
+        def stress(point: EllipticMesh, force: Array) -> Array:
+            teeth = virtual_teeth(point.curvature, module)
+            return root_stress(force, params.thickness, module, teeth, rack=own)
 
         with np.errstate(all="ignore"):  # a rack far from the usual one has no section of 30 degrees
-            value = peak(stress).value
+            value = mesh.greatest(stress).value
         if math.isfinite(value):
             limit = bears * (REVERSING_ROOT if mesh.reverses else 1.0)
             what = f"teeth of gears {mesh.names[0]} and {mesh.names[1]} are bent at their roots with"
@@ -89,14 +90,14 @@ def flank_pressures(params: EllipticGearParams) -> tuple[Stress, ...]:
     found = []
     for mesh in meshes_of(params):
 
-        def pressure(theta2: Array, mesh: Mesh = mesh) -> Array:
-            flank = flank_radius(mesh.contact(theta2).curvature, alpha)
+        def pressure(point: EllipticMesh, force: Array) -> Array:
+            flank = flank_radius(point.curvature, alpha)
             # Both flanks are alike at the pitch point.
             radius = flank * relative_radius(1.0, 1.0)
-            return line_pressure(mesh.force(theta2) / math.cos(alpha), params.thickness, radius, modulus)
+            return line_pressure(force / math.cos(alpha), params.thickness, radius, modulus)
 
         what = f"flanks of gears {mesh.names[0]} and {mesh.names[1]} press on each other with"
-        found.append(Stress(what, peak(pressure).value, allowed(params.material).contact))
+        found.append(Stress(what, mesh.greatest(pressure).value, allowed(params.material).contact))
     return tuple(found)
 
 

@@ -9,13 +9,14 @@ from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
-from mechwright_elliptic_gears.clamp_checks import clamp_findings
+from mechwright_elliptic_gears.bushes import bush_findings
+from mechwright_elliptic_gears.clamp_checks import clamp_findings, setting_note
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.phase_checks import pin_findings
+from mechwright_elliptic_gears.phase_checks import pin_findings, play_note
 
 WALL = 0.5
 """Least wall between two openings, in diameters of the larger round one: the usual edge distance of a hole, a
@@ -28,8 +29,8 @@ PHASE_STEP = 1
 """Step, in degrees, in which a phase angle that works is sought."""
 
 
-def train_findings(params: EllipticGearParams) -> Iterator[Finding]:
-    """Point Q, then the train's own parts."""
+def train_findings(params: EllipticGearParams, *, noted: bool = True) -> Iterator[Finding]:
+    """Point Q, then the train's own parts; ``noted`` with what the play of its joint does to the window."""
     off = list(_on_coupler(params))
     yield from off
     if params.stages == 1 or errors(off):
@@ -37,11 +38,16 @@ def train_findings(params: EllipticGearParams) -> Iterator[Finding]:
     layout = Layout.of(params)
     found = [*_tracer(params, layout), *_joint(params, layout), *_sweep(params, layout)]
     found += _dowel_circle(params, layout) if params.dowelled else ()
+    found += bush_findings(params)
     yield from found
     if errors(found):
         return
     if params.adjustable:
-        yield from (pin_findings if params.phase_joint == "pins" else clamp_findings)(params)
+        pins = params.phase_joint == "pins"
+        joint = list((pin_findings if pins else clamp_findings)(params))
+        yield from joint
+        if noted and not errors(joint):
+            yield (play_note if pins else setting_note)(params)
         return
     turned = list(_turned_openings(params))
     yield from turned

@@ -3,6 +3,8 @@
 They get no milling program.
 """
 
+from dataclasses import replace
+
 from mechwright import Colour, Instance, KeySeat, Part, Step, Turned
 from mechwright.contracts.fits import Fit, shaft_fit
 from mechwright.contracts.turned import tube
@@ -16,7 +18,6 @@ from mechwright_elliptic_gears.layout import (
     PHASE_PIN,
     PIN_HEAD,
     SPACER,
-    STUB,
     Layout,
 )
 
@@ -41,21 +42,23 @@ def round_parts(
     """
     joined = keyed or dowelled or phase_pin is not None
     low, high, t = layout.lower, layout.upper, layout.thickness
-    foot = layout.base + STUB * layout.bore
+    foot = layout.base + layout.stub
     # Seats are open at the upper end of the shaft, so that gears and keys can be put on from there.
     seat = opening if opening.has_keyway else None
     joints = ("joint-j", "joint-k")
     parts = [
-        _part("shaft-2", _shaft(layout.bore, foot + low + t, t, seat), (Instance("gear-2", -foot),), _STEEL),
+        _part("shaft-2", _input(layout, low + t, seat), (Instance("gear-2", -foot),), _STEEL),
         _part(
             "shaft-4",
-            _shaft(layout.bore, layout.base + high + t, high - low + t, seat if keyed else None),
+            _shaft(layout.bore, layout.base + high + t, high - low + t, seat)
+            if keyed
+            else _standing(layout, high + t),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
         _part(
             "shaft-5",
-            _shaft(layout.bore, layout.base + high + t, 0.0, None),
+            _standing(layout, high + t),
             (Instance("axis-5", -layout.base),),
             _STEEL,
         ),
@@ -115,6 +118,25 @@ def _shaft(diameter: float, length: float, seat_length: float, opening: Opening 
         floor = opening.bore / 2 - opening.seat_depth
         seats = (KeySeat(length - seat_length, seat_length, opening.width, floor),)
     return Turned((_running(diameter, length),), seats=seats)
+
+
+def _standing(layout: Layout, over: float) -> Turned:
+    """A shaft that is pressed into the base plate, and on which gears turn."""
+    return Turned((Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6")), _running(layout.bore, over)))
+
+
+def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:
+    """The shaft of gear 2, so much over the base plate, with a thinner stub below if one is asked for."""
+    if layout.stub_diameter == layout.bore:
+        return _shaft(layout.bore, layout.base + layout.stub + over, layout.thickness, seat)
+    whole = _shaft(layout.bore, layout.base + over, layout.thickness, seat)
+    fit = shaft_fit(layout.stub_diameter, "h6")
+    stub = Step(fit.middle, layout.stub, fit)
+    return replace(
+        whole,
+        steps=(stub, *whole.steps),
+        seats=tuple(replace(one, at=one.at + layout.stub) for one in whole.seats),
+    )
 
 
 def _pin(diameter: float, seat: float, running: float) -> Turned:

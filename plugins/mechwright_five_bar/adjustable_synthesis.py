@@ -1,15 +1,14 @@
 """Synthesis of adjustable five-bars: one set of links whose pivots are set to a path per phase."""
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from pydantic import ValidationError
 
-from mechwright import Candidate, Progress, Rejected, Scalar, Synthesis
-from mechwright.contracts.finding import errors
+from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.adjustable import PlaneSpace, settings_of
-from mechwright.mechanics.adjustable.machine import SAME, Machine, count_note, machines, missed, refusal
-from mechwright.mechanics.multistart import distinct
+from mechwright.mechanics.adjustable.designs import Phased, designs_of
+from mechwright.mechanics.adjustable.machine import Machine
 from mechwright_five_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_five_bar.loop import FiveBar, close
 from mechwright_five_bar.params import FiveBarParams
@@ -17,37 +16,66 @@ from mechwright_five_bar.phases import in_phase
 from mechwright_five_bar.reach import transmission_range, turns_fully
 from mechwright_five_bar.requirements import AdjustablePathRequirement
 
-MISSED = "allow a larger tolerance, leave points out, take other gears, or use more starts"
-
 
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FiveBarParams]:
     """Machines whose coupler point follows all paths, each as one design per phase; the best first."""
-    size, found = machines(wanted, 5, "moving", wanted.ratio, lambda part: progress(0.9 * part, "linkages"))
-    rejected = Rejected()
-    kept = [one.rounded(size) for one in found if _keeps(one, wanted, rejected)]
-    kept.sort(key=lambda one: _rank(one, wanted))
-    candidates: list[Candidate[FiveBarParams]] = []
-    given: list[np.ndarray] = []
-    reason = ""
-    for one in kept:
-        row = np.concatenate([bar.lengths for bar in _bars(one, wanted)]) / size
-        if given and distinct(np.array([*given, row]), SAME).size <= len(given):
-            continue
-        designs = _designs(one, wanted, rejected)
-        if isinstance(designs, str):
-            reason = reason or designs
-            continue
-        given.append(row)
-        candidates += designs
-        if len(given) == wanted.designs:
-            break
-    progress(1.0, "done")
-    notes = [count_note(wanted, 5, "moving")]
-    if not candidates:
-        return Synthesis((), (*notes, refusal(found, reason)), rejected.reasons)
-    if candidates[0].residual.value > wanted.tolerance:
-        notes.append(missed(wanted, candidates[0].residual.value, MISSED))
-    return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
+    return designs_of(PhasedFiveBar(wanted), progress)
+
+
+class PhasedFiveBar(Phased[AdjustablePathRequirement, FiveBarParams]):
+    """A five-bar whose coupler pivots are set."""
+
+    bars = 5
+    out_of_bounds = "five-bar.out-of-bounds"
+    good_transmission = GOOD_TRANSMISSION
+    remedy = "allow a larger tolerance, leave points out, take other gears, or use more starts"
+    params = FiveBarParams
+
+    @property
+    def ratio(self) -> float:
+        """Turns of the arm per turn of the crank."""
+        return self.wanted.ratio
+
+    def lengths(self, one: Machine, k: int) -> Sequence[float]:
+        """Of all links, mm."""
+        return bar_in(one, k, self.wanted).lengths
+
+    def branch(self, one: Machine, k: int) -> int:
+        """On which side of the line from A to B1 C lies."""
+        return bar_in(one, k, self.wanted).branch
+
+    def turns_fully(self, one: Machine, k: int) -> bool:
+        """Whether the crank does."""
+        return turns_fully(bar_in(one, k, self.wanted))
+
+    def transmission(self, one: Machine, k: int) -> float:
+        """Least transmission angle of a phase, rad: over all turns, or as far as its points go."""
+        bar, start = bar_in(one, k, self.wanted), start_of(one, k)
+        way = math.tau * bar.turns if self.wanted.full_turn else float(one.theta[k][-1])
+        return transmission_range(bar, start, start + way)[0]
+
+    def table(self, one: Machine, k: int) -> Mapping[str, object]:
+        """As :func:`table_of`."""
+        return table_of(one, k, self.wanted)
+
+    def faults(self, params: FiveBarParams) -> Sequence[Finding]:
+        """The findings."""
+        return findings(in_phase(params))
+
+    def figures(self, one: Machine, k: int) -> dict[str, Scalar]:
+        """How a phase is set, and crank, arm and rocker at each point."""
+        settings = settings_of(PlaneSpace(0j), one.pins)
+        bar, angles = bar_in(one, k, self.wanted), start_of(one, k) + one.theta[k]
+        rocker = np.angle(close(bar, angles).rocker.direction)
+        found = {
+            "crank_turned": Scalar(float(settings.crank[k]), "rad"),
+            "rocker_turned": Scalar(float(settings.follower[k]), "rad"),
+        }
+        for number, angle in enumerate(angles, start=1):
+            found[f"crank_angle_{number}"] = Scalar(float(angle), "rad")
+            found[f"arm_angle_{number}"] = Scalar(bar.offset + bar.ratio * float(angle), "rad")
+            found[f"rocker_angle_{number}"] = Scalar(float(rocker[number - 1]), "rad")
+        return found
 
 
 def bar_in(one: Machine, phase: int, wanted: AdjustablePathRequirement) -> FiveBar:
@@ -63,10 +91,6 @@ def bar_in(one: Machine, phase: int, wanted: AdjustablePathRequirement) -> FiveB
     )  # fmt: skip
 
 
-def _bars(one: Machine, wanted: AdjustablePathRequirement) -> list[FiveBar]:
-    return [bar_in(one, k, wanted) for k in range(len(one.theta))]
-
-
 def start_of(one: Machine, k: int) -> float:
     """Crank angle of a phase in the pose of setting, rad: that of the first phase and the turn from it on.
 
@@ -74,76 +98,6 @@ def start_of(one: Machine, k: int) -> float:
     """
     first, own = (complex(one.pins.a[n] - one.pins.a0[n]) for n in (0, k))
     return float(np.angle(first) + np.angle(own / first))
-
-
-def _transmission(one: Machine, k: int, wanted: AdjustablePathRequirement) -> float:
-    """Least transmission angle of a phase, rad: over all turns, or as far as its points go."""
-    bar, start = bar_in(one, k, wanted), start_of(one, k)
-    way = math.tau * bar.turns if wanted.full_turn else float(one.theta[k][-1])
-    return transmission_range(bar, start, start + way)[0]
-
-
-def _weakest(one: Machine, wanted: AdjustablePathRequirement) -> float:
-    return min(_transmission(one, k, wanted) for k in range(len(one.theta)))
-
-
-def _rank(one: Machine, wanted: AdjustablePathRequirement) -> tuple[float, float, float]:
-    """The nearest first; of exact ones those with a good transmission angle, the smallest leading."""
-    angle = min(_weakest(one, wanted), math.radians(GOOD_TRANSMISSION))
-    return one.rms, -angle, max(max(bar.lengths) for bar in _bars(one, wanted))
-
-
-def _keeps(one: Machine, wanted: AdjustablePathRequirement, rejected: Rejected) -> bool:
-    """Whether a machine keeps the limits; one that does not is counted under the first that it breaks."""
-    if not one.finite:
-        return False
-    bars = _bars(one, wanted)
-    lengths = [length for bar in bars for length in bar.lengths]
-    broken = {
-        "path.longest-link": (max(lengths) > wanted.longest_link, f"a link is {max(lengths):.4g} mm long"),
-        "path.shortest-link": (min(lengths) < wanted.shortest_link, f"a link is {min(lengths):.4g} mm long"),
-        "path.rotation": (
-            wanted.full_turn and not all(turns_fully(bar) for bar in bars),
-            "the crank does not turn fully in all phases",
-        ),
-        "path.order": (
-            not one.in_order,
-            "points are passed out of their order, or not within one turn",
-        ),
-        "path.branch": (len({bar.branch for bar in bars}) > 1, "the phases are on different branches"),
-        "path.chord": (
-            bool(one.chords) and min(one.chords) < wanted.least_chord,
-            f"two places of a pivot are {min(one.chords, default=0.0):.4g} mm apart",
-        ),
-    }
-    for code, (breaks, message) in broken.items():
-        if breaks:
-            rejected.because(code, message)
-            return False
-    angle = math.degrees(_weakest(one, wanted))
-    if angle < wanted.least_transmission_angle:
-        rejected.because("path.transmission", f"the transmission angle falls to {angle:.3g} degrees")
-        return False
-    return True
-
-
-def _designs(
-    one: Machine, wanted: AdjustablePathRequirement, rejected: Rejected
-) -> list[Candidate[FiveBarParams]] | str:
-    """A design per phase, or why there is none."""
-    found = []
-    for k in range(len(one.theta)):
-        try:
-            params = FiveBarParams.model_validate(table_of(one, k, wanted))
-        except ValidationError as error:
-            said = error.errors(include_url=False)[0]["msg"]
-            rejected.because("five-bar.out-of-bounds", said)
-            return said
-        faults = errors(findings(in_phase(params)))
-        if rejected.by(faults):
-            return f"phase {k + 1}: {faults[0].parameter}: {faults[0].message}"
-        found.append(Candidate(params, Scalar(one.rms, "mm"), _figures(one, k, wanted)))
-    return found
 
 
 def table_of(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[str, object]:
@@ -190,28 +144,3 @@ def _swing(one: Machine, k: int) -> dict[str, float]:
     """From the pose of setting to a phase's last point, degrees, counted on from phase 1."""
     start = start_of(one, k)
     return {"swing_from": math.degrees(start), "swing_to": math.degrees(start + float(one.theta[k][-1]))}
-
-
-def _figures(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[str, Scalar]:
-    """What is to be said of a phase: its errors point by point, and crank, arm and rocker at each."""
-    settings = settings_of(PlaneSpace(0j), one.pins)
-    bar, misses, theta = bar_in(one, k, wanted), one.misses[k], one.theta[k]
-    loop = close(bar, start_of(one, k) + theta)
-    rocker = np.angle(loop.rocker.direction)
-    figures = {
-        "phase": Scalar(float(k + 1), ""),
-        "phase_error": Scalar(float(np.sqrt(np.mean(misses**2))), "mm"),
-        "path_error_max": Scalar(float(misses.max()), "mm"),
-        "transmission_min": Scalar(_transmission(one, k, wanted), "rad"),
-        "crank_turned": Scalar(float(settings.crank[k]), "rad"),
-        "rocker_turned": Scalar(float(settings.follower[k]), "rad"),
-        "chord_min": Scalar(min(one.chords, default=0.0), "mm"),
-        "longest_link": Scalar(max(max(each.lengths) for each in _bars(one, wanted)), "mm"),
-    }
-    for number in range(len(misses)):
-        angle = start_of(one, k) + float(theta[number])
-        figures[f"error_{number + 1}"] = Scalar(float(misses[number]), "mm")
-        figures[f"crank_angle_{number + 1}"] = Scalar(angle, "rad")
-        figures[f"arm_angle_{number + 1}"] = Scalar(bar.offset + bar.ratio * angle, "rad")
-        figures[f"rocker_angle_{number + 1}"] = Scalar(float(rocker[number]), "rad")
-    return figures

@@ -29,6 +29,7 @@ from mechwright_five_bar.reach import (
     ways_about,
     within,
 )
+from mechwright_five_bar.strength_checks import teeth_bear
 from mechwright_five_bar.train import train_of
 
 GOOD_TRANSMISSION = 40.0
@@ -52,7 +53,7 @@ def findings(params: FiveBarParams) -> tuple[Finding, ...]:
     """
     return until_error(
         params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures, _bearings,
-        clamps_hold,
+        teeth_bear, clamps_hold,
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """The family ``five-bar``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, refuse
@@ -9,7 +9,17 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.requirements import AdjustablePathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import (
+        AsMade,
+        GroundPlate,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class FiveBars(Family[FiveBarParams]):
@@ -46,6 +56,35 @@ class FiveBars(Family[FiveBarParams]):
 
         refuse(self.check(params))
         return parts_of(in_phase(params))
+
+    def mounting(self, params: FiveBarParams) -> "GroundPlate":
+        """Its ground plate with the crank's shaft."""
+        from mechwright_five_bar.mounting import mounting_of
+        from mechwright_five_bar.phases import in_phase
+
+        return mounting_of(in_phase(params))
+
+    def settings(self, params: FiveBarParams) -> Mapping[str, FiveBarParams]:
+        """The other phases that the pivots of the coupler and the arm's gear are set to."""
+        return {
+            f"phase = {phase}": params.model_copy(update={"phase": phase})
+            for phase in range(1, 2 + len(params.phases))
+            if phase != params.phase
+        }
+
+    def as_made(self, params: FiveBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Error of the coupler point, from bores and pins."""
+        from mechwright_five_bar.as_made import as_made
+        from mechwright_five_bar.phases import in_phase
+
+        return as_made(in_phase(params), made)
+
+    def tolerances(self, params: FiveBarParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the coupler point, from links, pins and the play of the gears."""
+        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.tolerances import FiveBarTolerances
+
+        return FiveBarTolerances(in_phase(params), tolerances)
 
     def synthesise(
         self,

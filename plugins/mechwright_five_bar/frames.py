@@ -57,7 +57,8 @@ def fixed_frames(params: FiveBarParams) -> dict[str, tuple[str, complex]]:
         return places
     if params.idler_teeth:
         places["ground-idler"] = ("ground", train_of(params).places["idler"])
-    places |= {f"ground-post-{n}": ("ground", at) for n, at in enumerate(layout.posts, start=1)}
+    if params.screw_hole is None:
+        places |= {f"ground-post-{n}": ("ground", at) for n, at in enumerate(layout.posts, start=1)}
     hub = hub_of(params)
     if hub is not None:
         places |= {f"wheel-screw-{n}": ("wheel", at) for n, at in enumerate(screw_places(hub), start=1)}

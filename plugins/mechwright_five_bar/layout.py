@@ -52,7 +52,7 @@ class Layout:
     stack
         The layers.
     posts
-        Axes of the posts under the ground plate, x + i y in its frame, mm.
+        Axes of the posts under the ground plate, or of its screw holes, x + i y in its frame, mm.
     heights
         Height of each plate's underside, mm.
     """
@@ -229,11 +229,12 @@ def _ground(params: FiveBarParams, train: Train) -> tuple[Outline, tuple[complex
     high = complex(*(max(_part(at, k) + tips[name] for name, at in train.places.items()) for k in (0, 1)))
     # A post in the corner beside the smallest gear clears it by its own radius.
     least = min(tips.values())
-    out = max(0.0, (least + corner + params.clearance) / math.sqrt(2) - least)
+    out = max(0.0, (least + corner + params.clearance) / math.sqrt(2) - least) + params.post_offset
     low, high = low - out * (1 + 1j), high + out * (1 + 1j)
     posts = tuple(complex(x, y) for x in (low.real, high.real) for y in (low.imag, high.imag))
     edge = corner * (1 + 1j)
-    holes = [*axes, *(Boss(at, corner, params.pin_diameter, "post") for at in posts)]
+    bore, tag = (params.pin_diameter, "post") if params.screw_hole is None else (params.screw_hole, "screw")
+    holes = [*axes, *(Boss(at, corner, bore, tag) for at in posts)]
     return rectangle(low - edge, high + edge, corner, holes), posts
 
 
@@ -242,5 +243,5 @@ def _part(z: complex, number: int) -> float:
 
 
 def post_radius(params: FiveBarParams) -> float:
-    """Of posts, and of the ground plate's corners, mm."""
-    return params.pin_diameter / 2 + params.rim
+    """Of posts, and of the ground plate's corners about them or about its screws, mm."""
+    return max(params.pin_diameter, params.screw_hole or 0.0) / 2 + params.rim

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
-from mechwright.mechanics.planar.channels import point_channels, turning_channels
+from mechwright.mechanics.planar.channels import point_channels, rate_channels, turning_channels
 from mechwright_five_bar.checks import findings
 from mechwright_five_bar.frames import frames_of, held_by, pivot_of
 from mechwright_five_bar.masses import MILLI, masses_of
@@ -32,16 +32,17 @@ def motion_of(params: FiveBarParams, samples: int) -> Motion:
     period = period_of(params, samples)
     drive, bodies, loop = period.drive, period.bodies, period.loop
     channels = {
-        "theta": Channel(drive.theta, "rad"),
-        "time": Channel(period.time, "s"),
-        "omega_a": Channel(drive.omega, "rad/s"),
+        "theta": Channel(drive.theta, "rad", "angle of the crank"),
+        "time": Channel(period.time, "s", "time"),
     }
-    if is_lever(params):
-        channels |= {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
+    driven = rate_channels(drive, "_a", "the crank")
+    channels |= driven if is_lever(params) else {"omega_a": driven["omega_a"]}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("rocker", "psi", "_r"), ("arm", "phi", "_b")):
-        channels |= turning_channels(bodies[name].turning, angle, suffix)
+        channels |= turning_channels(bodies[name].turning, angle, suffix, f"the {name}")
     cosine = (loop.coupler.direction * np.conj(loop.rocker.direction)).real
-    channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
+    channels["transmission_angle"] = Channel(
+        np.arccos(np.minimum(1.0, np.abs(cosine))), "rad", "transmission angle"
+    )
     point = params.coupler_point
     moving = bodies["coupler"].point(point)
     channels |= point_channels("P", replace(moving, position=moving.position + pivot_of(params)))
@@ -49,10 +50,12 @@ def motion_of(params: FiveBarParams, samples: int) -> Motion:
     if not errors(found):
         forces = carried(params, period)
         for name in JOINTS:
-            channels[f"force_{name}"] = Channel(forces.joint(name), "N")
-        channels["shaking_force"] = Channel(np.asarray(np.abs(forces.forces.shaking)) * MILLI, "N")
-        channels["arm_torque"] = Channel(forces.arm_torque, "N*m")
-        channels["drive_torque"] = Channel(forces.drive, "N*m")
+            channels[f"force_{name}"] = Channel(forces.joint(name), "N", f"force in joint {name}")
+        channels["shaking_force"] = Channel(
+            np.asarray(np.abs(forces.forces.shaking)) * MILLI, "N", "force on the ground"
+        )
+        channels["arm_torque"] = Channel(forces.arm_torque, "N*m", "torque on the arm")
+        channels["drive_torque"] = Channel(forces.drive, "N*m", "torque of the drive")
         figures |= {f"{name}_max": value for name, value in peaks_of(params).items()}
         figures |= {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses_of(params).items()}
     else:

@@ -5,7 +5,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
-from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
+from mechwright.mechanics.linkage import fields
+from mechwright.units import Degrees, Millimetres, Unit
 
 Angle = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
 
@@ -56,9 +57,7 @@ class FiveBarParams(Parameters):
     ground: Millimetres = Field(
         105.0, ge=1, le=5000, description="Ground, from A0 to B0.", json_schema_extra=FIRST
     )
-    ground_angle: Degrees = Field(
-        0.0, ge=-360, le=360, description="Direction from A0 to B0, counter-clockwise from X."
-    )
+    ground_angle: fields.GroundAngle = 0.0
     arm_angle: Degrees = Field(
         60.0,
         ge=-720,
@@ -71,8 +70,8 @@ class FiveBarParams(Parameters):
         description="Assembly: C to the left of the line from A to B1, or to the right of it.",
         json_schema_extra=FIRST,
     )
-    pivot_x: Millimetres = Field(0.0, ge=-10000, le=10000, description="X of the crank's pivot A0.")
-    pivot_y: Millimetres = Field(0.0, ge=-10000, le=10000, description="Y of the crank's pivot A0.")
+    pivot_x: fields.PivotX = 0.0
+    pivot_y: fields.PivotY = 0.0
     coupler_point_x: Millimetres = Field(
         40.0,
         ge=-10000,
@@ -104,31 +103,17 @@ class FiveBarParams(Parameters):
         None, description="Module of the gears; left out, the one with which their axes stand in line."
     )
     backlash: Millimetres = Field(0.08, ge=0, le=2, description="Play of two gears along the pitch circle.")
-    speed: RevPerMin = Field(
-        60.0,
-        ge=0.001,
-        le=20000,
-        description="Speed of the crank; of a lever, swings there and back in a minute.",
-        json_schema_extra=FIRST,
-    )
-    direction: Literal["ccw", "cw"] = Field(
-        "ccw", description="Sense of the crank, or of a lever's first swing, seen from above."
-    )
-    swing_from: Angle | None = Field(
-        None,
-        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
-        "turns fully, or goes as far as it can.",
-    )
-    swing_to: Angle | None = Field(None, description="The other end of that swing.")
-    setting_angle: Angle | None = Field(
-        None, description="Crank angle from X in phase 1 at which the machine is set to another phase."
-    )
+    speed: fields.Speed = 60.0
+    direction: fields.Direction = "ccw"
+    swing_from: fields.SwingFrom = None
+    swing_to: fields.SwingTo = None
+    setting_angle: fields.SettingAngle = None
     phases: tuple[PhaseTable, ...] = Field(
         (),
         max_length=7,
         description="Further phases: the coupler has more places for A and C; its point stays.",
     )
-    phase: int = Field(1, ge=1, le=8, description="Phase that motion and parts show.")
+    phase: fields.Phase = 1
     load_x: Annotated[float, Unit("N")] = Field(
         0.0, ge=-1e5, le=1e5, description="Force of the load on the coupler point along X."
     )
@@ -139,24 +124,26 @@ class FiveBarParams(Parameters):
         6.0, ge=1, le=100, description="Of crank, arm, coupler and rocker.", json_schema_extra=FIRST
     )
     gear_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Of the gears and their clamp.")
-    ground_thickness: Millimetres = Field(10.0, ge=1, le=100, description="Of the ground plate.")
+    ground_thickness: fields.GroundThickness = 10.0
+    screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
+        None,
+        description="Holes in the corners of the ground plate, for the screws of a frame; left out, it "
+        "stands on posts that are pressed into it.",
+    )
+    post_offset: Millimetres = Field(
+        0.0, ge=0, le=1000, description="By how much posts or screws stand farther out than the gears ask."
+    )
     pin_diameter: Millimetres = Field(
         8.0, ge=1, le=200, description="Pins and shafts of all joints.", json_schema_extra=FIRST
     )
-    bushing_wall: Millimetres = Field(
-        1.0, ge=0, le=50, description="Wall of the plain bushings in the turning joints; 0 for none."
-    )
-    running_fit: Millimetres = Field(
-        0.03, ge=0.005, le=0.5, description="Diameter by which a turning bore is larger than its pin."
-    )
-    rim: Millimetres = Field(4.0, ge=0.5, le=100, description="Material of the plates around the bores.")
+    bushing_wall: fields.BushingWall = 1.0
+    running_fit: fields.RunningFit = 0.03
+    rim: fields.Rim = 4.0
     web_width: Millimetres = Field(
         12.0, ge=1, le=500, description="Width of straight links between their bosses."
     )
-    clearance: Millimetres = Field(
-        1.0, ge=0.1, le=50, description="Least distance in plan of what moves in one layer."
-    )
-    washer: Millimetres = Field(0.5, ge=0.05, le=20, description="Air between the layers of plates.")
+    clearance: fields.Clearance = 1.0
+    washer: fields.Washer = 0.5
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     @model_validator(mode="after")
@@ -167,20 +154,10 @@ class FiveBarParams(Parameters):
                 "idler, "
                 f"or {LEAST_TEETH} and more"
             )
-        if (self.setting_angle is None) != (not self.phases):
-            raise ValueError("give both setting_angle and phases, or neither")
-        if self.phase > 1 + len(self.phases):
-            raise ValueError(
-                f"phase is {self.phase}, and there are {1 + len(self.phases)}; give the others in phases"
-            )
-        ends = [(self.swing_from, self.swing_to), *((row.swing_from, row.swing_to) for row in self.phases)]
-        for one, two in ends:
-            if (one is None) != (two is None):
-                raise ValueError("give both swing_from and swing_to, or neither")
-            if one is not None and one == two:
-                raise ValueError("swing_from and swing_to are the same angle, so nothing moves; give two")
-        if self.swing_from is not None and self.direction == "cw":
-            raise ValueError("direction is that of a crank that turns; exchange swing_from and swing_to")
+        fields.phases_together(self.setting_angle, self.phases, self.phase)
+        fields.swing_together(self.swing_from, self.swing_to, self.direction)
+        for row in self.phases:
+            fields.swing_together(row.swing_from, row.swing_to, "ccw")
         if self.swing_from is None and any(row.swing_from is not None for row in self.phases):
             raise ValueError("swing_from of a phase goes with one of phase 1; give that, or leave both out")
         return self

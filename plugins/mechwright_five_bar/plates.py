@@ -168,7 +168,9 @@ def _clamps(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part
 
 
 def _posts(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part]:
-    """Feet pressed into the ground plate from below, long enough for what hangs under it."""
+    """Feet pressed into the ground plate from below, long enough for what hangs under it; or none."""
+    if params.screw_hole is not None:
+        return []
     low = layout.heights["pinion"] - head_of(params)[1]
     if hub is not None:
         low = layout.heights["clamp"] - washer(hub.clamp.size.size).height - hub.clamp.size.head_height

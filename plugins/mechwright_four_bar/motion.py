@@ -9,7 +9,12 @@ from mechwright import Channel, KinematicsError, Load, Motion, Scalar, Stage, Tr
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright.mechanics.planar.channels import (
+    point_channels,
+    pole_channels,
+    rate_channels,
+    turning_channels,
+)
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
@@ -36,16 +41,17 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     bar, period = bar_of(params), period_of(params, samples)
     loop, bodies, drive = period.loop, period.bodies, period.drive
     channels = {
-        "phi": Channel(drive.theta, "rad"),
-        "time": Channel(period.time, "s"),
-        "omega_a": Channel(drive.omega, "rad/s"),
+        "phi": Channel(drive.theta, "rad", "angle of the crank"),
+        "time": Channel(period.time, "s", "time"),
     }
-    if is_lever(params) or params.acceleration_ratio:
-        channels |= {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
+    driven, varies = rate_channels(drive, "_a", "the crank"), is_lever(params) or params.acceleration_ratio
+    channels |= driven if varies else {"omega_a": driven["omega_a"]}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
-        channels |= turning_channels(bodies[name].turning, angle, suffix)
+        channels |= turning_channels(bodies[name].turning, angle, suffix, f"the {name}")
     cosine = (loop.coupler.direction * np.conj(loop.follower.direction)).real
-    channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
+    channels["transmission_angle"] = Channel(
+        np.arccos(np.minimum(1.0, np.abs(cosine))), "rad", "transmission angle"
+    )
     pivot = pivot_of(params)
     point = params.coupler_point
     if point is not None:
@@ -59,9 +65,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         masses = masses_of(params)
         carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
         for joint, force in carried.joints.items():
-            channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
-        channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
-        channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+            channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N", f"force in joint {joint}")
+        channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N", "force on the ground")
+        channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m", "torque of the drive")
         figures |= {f"{name}_max": value for name, value in peaks_of(params).items()}
         figures |= moving_figures(masses, force_balance(bar, masses))
     else:

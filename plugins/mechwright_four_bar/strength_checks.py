@@ -30,24 +30,24 @@ SLOWEST = 1.0
 @of_stage(Stage.PARTS)
 def strength_findings(params: FourBarParams) -> Iterator[Finding]:
     """Pins, plates, bushings, with the sizes that would bear the load."""
-    yield from _joints(params, sought=True)
+    yield from _joints(params, advise=True)
 
 
 @of_stage(Stage.PARTS)
 def strength_judged(params: FourBarParams) -> Iterator[Finding]:
     """The same without these sizes, whose search takes many times as long."""
-    yield from _joints(params, sought=False)
+    yield from _joints(params, advise=False)
 
 
-def _joints(params: FourBarParams, *, sought: bool) -> Iterator[Finding]:
+def _joints(params: FourBarParams, *, advise: bool) -> Iterator[Finding]:
     most = max(pairs_of(params), key=lambda pair: pair.greatest)
     load = f"{most.greatest:.4g} N at {most.name}"
     pin = Way("pin_diameter", params.pin_diameter)
     wide, rim = Way("thickness", params.thickness), Way("rim", params.rim)
     less = [Way("load_torque", params.load_torque, up=False), Way("speed", params.speed, up=False)]
-    yield from judged("four-bar.pin", params, pins, [pin, *less], load, sought=sought)
-    yield from judged("four-bar.eye", params, eyes, [rim, wide, *less], load, sought=sought)
-    yield from judged("four-bar.bushing", params, bushes, [wide, *less], load, sought=sought)
+    yield from judged("four-bar.pin", params, pins, [pin, *less], load, advise=advise)
+    yield from judged("four-bar.eye", params, eyes, [rim, wide, *less], load, advise=advise)
+    yield from judged("four-bar.bushing", params, bushes, [wide, *less], load, advise=advise)
 
 
 def pins(params: FourBarParams) -> list[Stress]:

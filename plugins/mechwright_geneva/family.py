@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         Part,
         Progress,
         Synthesis,
+        Target,
         ToleranceModel,
         Tolerances,
     )
@@ -83,3 +84,11 @@ class Geneva(Family[GenevaParams]):
         if not isinstance(requirement, IndexingRequirement):
             return super().synthesise(kind, requirement, progress)
         return from_indexing(requirement, progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The size that is given, and the angle of the driver that the time of a move comes to."""
+        from mechwright_geneva.targets import targets_of
+
+        if not isinstance(requirement, IndexingRequirement):
+            return super().targets(kind, requirement)
+        return targets_of(requirement)

@@ -9,6 +9,7 @@ from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Stage
 from mechwright.contracts.joint import fixed
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright.mechanics.planar.channels import rate_channels
 from mechwright_geneva.contact import contact
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.figures import figures
@@ -52,26 +53,25 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     def still(values: Array) -> Array:
         return np.where(moving, values, 0.0)
 
+    driven = rate_channels(turning, "_d", "the driver")
     channels = {
-        "time": Channel(driver.time(theta_d), "s"),
-        "theta_d": Channel(theta_d, "rad"),
-        "omega_d": Channel(turning.omega, "rad/s"),
+        "time": Channel(driver.time(theta_d), "s", "time"),
+        "theta_d": Channel(theta_d, "rad", "angle of the driver"),
+        "omega_d": driven["omega_d"],
+        **(driven if driver.varies else {}),
+        "theta_w": Channel(theta_w, "rad", "angle of the wheel"),
+        "omega_w": Channel(still(rates[0]), "rad/s", "angular velocity of the wheel"),
+        "alpha_w": Channel(still(rates[1]), "rad/s^2", "angular acceleration of the wheel"),
+        "jerk_w": Channel(still(rates[2]), "rad/s^3", "angular jerk of the wheel"),
+        "pressure_angle": Channel(still(forces.pressure_angle), "rad", "pressure angle of the roller"),
+        "contact_force": Channel(still(forces.force), "N", "force between roller and slot"),
+        "contact_wall": Channel(still(forces.carrier.astype(float)), "", "wall of the slot that carries"),
         **(
-            {"alpha_d": Channel(turning.alpha, "rad/s^2"), "jerk_d": Channel(turning.jerk, "rad/s^3")}
-            if driver.varies
+            {"contact_pressure": Channel(still(forces.pressure), "MPa", "pressure between roller and slot")}
+            if m.params.roller_length > 0
             else {}
         ),
-        "theta_w": Channel(theta_w, "rad"),
-        "omega_w": Channel(still(rates[0]), "rad/s"),
-        "alpha_w": Channel(still(rates[1]), "rad/s^2"),
-        "jerk_w": Channel(still(rates[2]), "rad/s^3"),
-        "pressure_angle": Channel(still(forces.pressure_angle), "rad"),
-        "contact_force": Channel(still(forces.force), "N"),
-        "contact_wall": Channel(still(forces.carrier.astype(float)), ""),
-        **(
-            {"contact_pressure": Channel(still(forces.pressure), "MPa")} if m.params.roller_length > 0 else {}
-        ),
-        "crank_torque": Channel(still(forces.crank_torque), "N*m"),
+        "crank_torque": Channel(still(forces.crank_torque), "N*m", "torque of the drive"),
     }
     # The roller stands at a - b exp(iφ): the crank line points to π + φ.
     back = turning.scaled(-1.0)

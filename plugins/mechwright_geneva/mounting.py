@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import DesignError, Hub, Mounting, Spindle
+from mechwright import Hub, Mounting, MountingError, Spindle
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import DRIVER, WHEEL, motion_of
 from mechwright_geneva.params import GenevaParams
@@ -20,7 +20,10 @@ def mounting_of(params: GenevaParams) -> Mounting:
     sizes = m.params
     for key, bore in (("bore", sizes.bore), ("driver_bore", sizes.driver_bore)):
         if bore == 0:
-            raise DesignError(f"parameters.{key}: a plate without a bore has no shaft; set {key} = 10")
+            raise MountingError(
+                f"parameters.{key}: a plate without a bore has no shaft; set {key} = 10",
+                ({f"parameters.{key}": 10.0},),
+            )
     force, wheel_torque = shares(m)
     top = sizes.thickness + sizes.axial_gap + sizes.crank_thickness
     driver = Hub(

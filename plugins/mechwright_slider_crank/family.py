@@ -8,7 +8,18 @@ from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        GroundPlate,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        Target,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -49,6 +60,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         refuse(findings(params))
         return parts_of(params)
 
+    def mounting(self, params: SliderCrankParams) -> "GroundPlate":
+        """The base, if it has holes for the screws of legs."""
+        from mechwright_slider_crank.base import mounting_of
+
+        return mounting_of(params)
+
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""
         from mechwright_slider_crank.as_made import as_made
@@ -72,3 +89,11 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         if isinstance(requirement, PolesRequirement):
             return from_poles(requirement, progress)
         return super().synthesise(kind, requirement, progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The ends of the stroke, or the poles."""
+        if not isinstance(requirement, StrokeRequirement):
+            return super().targets(kind, requirement)
+        from mechwright_slider_crank.targets import ends_of
+
+        return ends_of(requirement)

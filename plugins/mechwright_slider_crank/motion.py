@@ -9,7 +9,12 @@ from mechwright import Array, Channel, KinematicsError, Load, Motion, Scalar, St
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import Turning, acceleration_pole
-from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright.mechanics.planar.channels import (
+    point_channels,
+    pole_channels,
+    rate_channels,
+    turning_channels,
+)
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.course import course_of, ends_of, is_lever, least_of, toggles
@@ -45,18 +50,14 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     time, drive = course.period(samples, abs(params.omega))
     phi, bodies = drive.theta, linkage.bodies(drive.theta, drive)
     masses = None if errors(found) else masses_of(params)
+    driven = rate_channels(drive, "_a", "the crank")
     channels = {
-        "time": Channel(time, "s"),
-        "phi": Channel(phi, "rad"),
-        "omega_a": Channel(drive.omega, "rad/s"),
-        **(
-            {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
-            if course.rocks or params.acceleration_ratio
-            else {}
-        ),
+        "time": Channel(time, "s", "time"),
+        "phi": Channel(phi, "rad", "angle of the crank"),
+        **(driven if course.rocks or params.acceleration_ratio else {"omega_a": driven["omega_a"]}),
         **_slider(linkage, bodies),
-        **turning_channels(bodies.rod.turning, "sigma", "_c"),
-        "transmission_angle": Channel(transmission_angle(linkage, phi), "rad"),
+        **turning_channels(bodies.rod.turning, "sigma", "_c", "the rod"),
+        "transmission_angle": Channel(transmission_angle(linkage, phi), "rad", "transmission angle"),
         **point_channels("P", bodies.rod.point(params.coupler_point)),
         **_poles(linkage, drive, bodies),
         **({} if masses is None else _forces(joint_forces(linkage, bodies, masses, params.load))),
@@ -74,10 +75,10 @@ def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
     back = np.exp(-1j * linkage.direction)
     pin = bodies.slider.origin
     return {
-        "s": Channel(bodies.position, "mm"),
-        "v": Channel((pin.velocity * back).real, "mm/s"),
-        "a": Channel((pin.acceleration * back).real, "mm/s^2"),
-        "jerk": Channel((pin.jerk * back).real, "mm/s^3"),
+        "s": Channel(bodies.position, "mm", "place of the slider"),
+        "v": Channel((pin.velocity * back).real, "mm/s", "velocity of the slider"),
+        "a": Channel((pin.acceleration * back).real, "mm/s^2", "acceleration of the slider"),
+        "jerk": Channel((pin.jerk * back).real, "mm/s^3", "jerk of the slider"),
     }
 
 
@@ -85,7 +86,9 @@ def _poles(linkage: SliderCrank, drive: Turning, bodies: Bodies) -> dict[str, Ch
     """The rod's acceleration pole on the ground and in the rod, for both assemblies."""
     other = SliderCrank(linkage.crank, linkage.rod, linkage.offset, linkage.direction, -linkage.branch)
     return pole_channels(acceleration_pole(bodies.rod)) | pole_channels(
-        acceleration_pole(other.bodies(drive.theta, drive).rod), suffix="_other"
+        acceleration_pole(other.bodies(drive.theta, drive).rod),
+        suffix="_other",
+        what="the other assembly's acceleration pole",
     )
 
 
@@ -96,9 +99,15 @@ def _sizes(carried: Forces) -> dict[str, Array]:
 
 
 def _forces(carried: Forces) -> dict[str, Channel]:
-    found = {name: Channel(size, "N") for name, size in _sizes(carried).items()}
-    found["moment_guide"] = Channel(carried.moments["guide"] * MILLI, "N*m")
-    found["drive_torque"] = Channel(carried.drive * MILLI, "N*m")
+    found = {
+        f"force_{name.replace('-', '_')}": Channel(
+            np.abs(force), "N", f"force in the {name.replace('-', ' ')}"
+        )
+        for name, force in carried.joints.items()
+    }
+    found["shaking_force"] = Channel(np.abs(carried.shaking), "N", "force on the ground")
+    found["moment_guide"] = Channel(carried.moments["guide"] * MILLI, "N*m", "moment on the guide")
+    found["drive_torque"] = Channel(carried.drive * MILLI, "N*m", "torque of the drive")
     return found
 
 

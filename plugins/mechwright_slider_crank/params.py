@@ -118,6 +118,16 @@ class SliderCrankParams(Parameters):
     rail: Annotated[float, Field(ge=1, le=400), Unit("mm")] | None = Field(
         None, description="Width of the guide's rails; left out, a dowel of 0.6 pins and two walls."
     )
+    screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None,
+        description="Diameter of holes in the corners of the base, which then goes on legs: it reaches under "
+        "all that moves, and the shaft's end fits a coupling; left out, there are none.",
+    )
+    screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
+        None,
+        description="Least distance of these holes from the line through the crank's pivot along the slide; "
+        "left out, beside all that moves.",
+    )
     play: Millimetres = Field(0.05, ge=0, le=2, description="Play of the slider on each side.")
     gap: Millimetres = Field(0.3, ge=0, le=20, description="Air between plates of neighbouring layers.")
     clearance: Millimetres = Field(

@@ -5,6 +5,7 @@ slide. The crank's pin and shaft are pressed into the crank, the slider's pin in
 dowels into rails and base. Rod and base carry bushings.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
     Boss,
+    Closeness,
     Mass,
     Plate,
     Spindle,
@@ -32,7 +34,15 @@ from mechwright.mechanics.linkage import (
     web_link,
 )
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright.standards.parts import dowel_part
+from mechwright.standards.parts import GREY, dowel_part
+from mechwright_slider_crank.base import (
+    base_outline,
+    hole_places,
+    rim_of,
+    shaft_end,
+    shaft_form,
+    shaft_masses,
+)
 from mechwright_slider_crank.course import course_of, ends_of
 from mechwright_slider_crank.figures import Limits
 from mechwright_slider_crank.params import SliderCrankParams
@@ -47,6 +57,9 @@ FILLET_SHARE = 0.6
 BEND_SHARE = 2.0
 """Radius of a bent rod's middle line over its width."""
 
+MOVING = ("crank", "rod", "slider")
+"""Plates that do not stand still."""
+
 COLOURS: dict[str, Colour] = {
     "base": (0.78, 0.80, 0.82),
     "rail": (0.60, 0.66, 0.72),
@@ -54,9 +67,6 @@ COLOURS: dict[str, Colour] = {
     "rod": (0.35, 0.52, 0.70),
     "slider": (0.85, 0.70, 0.35),
 }
-
-TAIL_SHARE = 1.5
-"""How far the shaft sticks out under the base, over its diameter: room for a coupling or a crank handle."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +85,8 @@ class Layout:
         The rails' dowels in the base's coordinates, mm.
     stack
         The layers.
+    screws
+        The base's holes for screws, counter-clockwise from the lower left one; none without.
     heads
         Whether the joint pins have heads.
     """
@@ -84,6 +96,7 @@ class Layout:
     rails: tuple[complex, complex]
     dowels: tuple[complex, ...]
     stack: Stack
+    screws: tuple[complex, ...]
     heads: bool
 
 
@@ -147,7 +160,15 @@ def _layout(params: SliderCrankParams) -> Layout:
     outlines = {"crank": crank_outline(params), "rod": rod_outline(params)}
     outlines["slider"] = _slider_outline(sizes)
     outlines["rail"], rails, dowels = _rails(params, sizes, ends)
-    outlines["base"] = _base_outline(sizes, outlines["rail"], rails, dowels)
+    rim = rim_of(sizes, outlines["rail"], rails)
+    poses = body_poses(params, course_of(params).way(TURN_SAMPLES))
+    screws: tuple[complex, ...] = ()
+    if params.screw_hole is not None:
+        still = seen_from_base(params, poses)
+        swept = Closeness(_moving(params, outlines), (), still, params.clearance).swept(MOVING)
+        screws = hole_places(params, params.screw_hole, swept, rim)
+    holes = (Boss(0j, 0, sizes.base_bore, "shaft"), *(Boss(at, 0, sizes.dowel, "dowel") for at in dowels))
+    outlines["base"] = base_outline(params.screw_hole, rim, holes, screws)
     for heads in (True, False):
         try:
             found = _stack(params, sizes, outlines, rails, dowels, heads)
@@ -155,7 +176,7 @@ def _layout(params: SliderCrankParams) -> Layout:
             if heads:
                 continue
             raise
-        return Layout(sizes, outlines, rails, dowels, found, heads)
+        return Layout(sizes, outlines, rails, dowels, found, screws, heads)
     raise AssertionError("the loop returns or raises")
 
 
@@ -186,20 +207,8 @@ def _rails(
     return outline, places, tuple(place + hole.centre for place in places for hole in holes)
 
 
-def _base_outline(
-    sizes: Sizes,
-    rail: Outline,
-    rails: tuple[complex, complex],
-    dowels: tuple[complex, ...],
-) -> Outline:
-    """A rectangle around the shaft and the rails."""
-    x0, y0, x1, y1 = rail.bounds
-    reach = sizes.base_bore / 2 + sizes.wall
-    xs = [-reach, reach, *(place.real + x for place in rails for x in (x0, x1))]
-    ys = [-reach, reach, *(place.imag + y for place in rails for y in (y0, y1))]
-    low, high = complex(min(xs), min(ys)), complex(max(xs), max(ys))
-    holes = (Boss(0j, 0, sizes.base_bore, "shaft"), *(Boss(at, 0, sizes.dowel, "dowel") for at in dowels))
-    return rectangle(low, high, CORNER, holes)
+def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[Plate]:
+    return [Plate(name, name, outlines[name], params.thickness) for name in MOVING]
 
 
 def _stack(
@@ -211,7 +220,7 @@ def _stack(
     heads: bool,
 ) -> Stack:
     plates = [Plate("base", "base", outlines["base"], params.thickness, (0,))]
-    plates += [Plate(name, name, outlines[name], params.thickness) for name in ("crank", "rod", "slider")]
+    plates += _moving(params, outlines)
     for number, place in enumerate(rails, start=1):
         moved = outlines["rail"].moved(place.real, place.imag)
         plates.append(Plate(f"rail-{number}", "base", moved, params.thickness))
@@ -256,6 +265,12 @@ def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
     return poses
 
 
+def seen_from_base(params: SliderCrankParams, poses: Mapping[str, Poses]) -> dict[str, Poses]:
+    """The same poses in the base's coordinates."""
+    turn = Poses.planar(np.zeros(1), np.zeros(1), np.full(1, -params.linkage.direction)).rotation[0]
+    return {name: Poses(one.position @ turn.T, turn @ one.rotation) for name, one in poses.items()}
+
+
 def held_by(params: SliderCrankParams) -> dict[str, Joint]:
     """What holds the bodies of :func:`body_poses`, the loop closed in the slider's pin."""
     rails = [f"rail-{number}" for number in (1, 2)]
@@ -290,9 +305,7 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
         Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
         for name in ("base", "rail", "crank", "rod", "slider")
     ]
-    low, high = spans["shaft"]
-    tail = TAIL_SHARE * sizes.shaft
-    parts.append(pin_part("shaft", sizes.shaft, high - low + tail, (Instance("crank", low - tail),)))
+    parts += _shaft_parts(params, spans["shaft"])
     for name, body in (("crank-pin", "crank-pin"), ("wrist-pin", "slider")):
         low, high = spans[name]
         head = sizes.head if _has_head(layout, name) else (0.0, 0.0)
@@ -313,6 +326,19 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
         base = (Instance("base", heights.bottom("base")),)
         parts.append(bushing_part("shaft-bushing", sizes.shaft, sizes.base_bore, params.thickness, base))
     return tuple(parts)
+
+
+def _shaft_parts(params: SliderCrankParams, span: tuple[float, float]) -> list[Part]:
+    """The crank's shaft, and the circlip on it under the base."""
+    (low, high), end = span, shaft_end(params)
+    at = Instance("crank", low - end.whole)
+    form = shaft_form(params, high - low)
+    parts = [Part("shaft", None, 0.0, PIN_MATERIAL, (at,), GREY, turned=form)]
+    if end.ring is not None:
+        under = (Instance("crank", low - params.gap - end.ring.thickness),)
+        name = f"circlip-{end.ring.size:g}"
+        parts.append(Part(name, None, 0.0, PIN_MATERIAL, under, GREY, bought=end.ring.bought))
+    return parts
 
 
 def _has_head(layout: Layout, pin: str) -> bool:
@@ -340,14 +366,14 @@ def masses_of(params: SliderCrankParams) -> dict[str, Mass]:
         return found
 
     low, high = spans["shaft"]
-    shaft = cylinder_mass(sizes.shaft, high - low + TAIL_SHARE * sizes.shaft, PIN_MATERIAL)
+    shaft = shaft_masses(params, high - low)
     bushings = [
         cylinder_mass(sizes.rod_bore, params.thickness, BUSHING_MATERIAL, complex(x), sizes.pin)
         for x in (0.0, params.rod)
         if params.bushing > 0
     ]
     return {
-        "crank": together([plate("crank"), shaft, *pin("crank-pin", complex(params.crank))]),
+        "crank": together([plate("crank"), *shaft, *pin("crank-pin", complex(params.crank))]),
         "rod": together([plate("rod"), *bushings]),
         "slider": together([plate("slider"), *pin("wrist-pin", 0j)]),
     }

@@ -22,25 +22,25 @@ from mechwright_slider_crank.sizes import sizes_of
 @of_stage(Stage.PARTS)
 def strength_findings(params: SliderCrankParams) -> Iterator[Finding]:
     """Pins, plates, bushings, with the sizes that would bear the load."""
-    yield from _joints(params, sought=True)
+    yield from _joints(params, advise=True)
 
 
 @of_stage(Stage.PARTS)
 def strength_judged(params: SliderCrankParams) -> Iterator[Finding]:
     """The same without these sizes, whose search takes many times as long."""
-    yield from _joints(params, sought=False)
+    yield from _joints(params, advise=False)
 
 
-def _joints(params: SliderCrankParams, *, sought: bool) -> Iterator[Finding]:
+def _joints(params: SliderCrankParams, *, advise: bool) -> Iterator[Finding]:
     sizes = sizes_of(params)
     most = max(pairs_of(params), key=lambda pair: pair.greatest)
     load = f"{most.greatest:.4g} N at the {most.name.removeprefix('the ')}"
     pin, wall = Way("pin", sizes.pin), Way("wall", sizes.wall)
     wide = Way("thickness", params.thickness)
     less = [Way("load", params.load, up=False), Way("speed", params.speed, up=False)]
-    yield from judged("slider-crank.pin", params, pins, [pin, *less], load, sought=sought)
-    yield from judged("slider-crank.eye", params, eyes, [wall, wide, *less], load, sought=sought)
-    yield from judged("slider-crank.bushing", params, bushes, [wide, *less], load, sought=sought)
+    yield from judged("slider-crank.pin", params, pins, [pin, *less], load, advise=advise)
+    yield from judged("slider-crank.eye", params, eyes, [wall, wide, *less], load, advise=advise)
+    yield from judged("slider-crank.bushing", params, bushes, [wide, *less], load, advise=advise)
 
 
 def pins(params: SliderCrankParams) -> list[Stress]:

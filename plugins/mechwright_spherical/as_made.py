@@ -83,8 +83,8 @@ def _shown(
     other = second_size(linkage, shells) if phase.number == 2 else {}
     arcs = link_arcs(linkage) | ground_arcs(params) | other
     arcs |= {"coupler": float(np.arccos(float(phase.loop.ca)))}
-    second = {*other, *(("coupler",) if phase.number == 2 else ())}
-    return arcs, {name: f"flat-{name}{'-n' if name in second else ''}" for name in arcs}
+    marks = dict.fromkeys(other, phase.mark) | {"coupler": phase.mark}
+    return arcs, {name: f"flat-{name}{f'-{mark}' if (mark := marks.get(name)) else ''}" for name in arcs}
 
 
 def _stretch(angle: float, radius: float, flat: FlatTable) -> float:

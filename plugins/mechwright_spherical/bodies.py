@@ -12,14 +12,16 @@ crank, arm
 rocker
     B (x) to C; the output link of a four-bar, from its fixed axis.
 coupler
-    A (x) to C in phase 1; in phase 2 the same body stands on other pins.
+    A (x) to C in phase 1; in other phases the same body stands on other pins.
+coupler-a, coupler-c
+    Parts of the coupler at a pin that is clamped in a slot: z points along the pin to the centre.
 pinion, idler
     Gears of the drive; the wheel belongs to the arm.
 base
     The base plate: z along the post, the origin on its underside.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -28,7 +30,8 @@ from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train
 from mechwright_spherical.linkage import Linkage, Phase
 from mechwright_spherical.loop import State
-from mechwright_spherical.vectors import rotation_about
+from mechwright_spherical.seats import seats_of
+from mechwright_spherical.vectors import perpendicular, rotation_about
 
 
 def link_frames(linkage: Linkage, phase: Phase, state: State) -> Mapping[str, Array]:
@@ -51,7 +54,7 @@ def coupler_frame(linkage: Linkage, phase: Phase, state: State) -> Array:
     moved = orientation(state.a[0], state.c[0])
     if phase.number == 1:
         return moved
-    return _times(moved, pins_of_phase(linkage, 2).T @ pins_of_phase(linkage, 1))
+    return _times(moved, pins_of_phase(linkage, phase.number).T @ pins_of_phase(linkage, 1))
 
 
 def pins_of_phase(linkage: Linkage, number: int) -> Array:
@@ -60,11 +63,28 @@ def pins_of_phase(linkage: Linkage, number: int) -> Array:
     return orientation(state.a[0], state.c[0])[:, :, 0]
 
 
+def clamped_frames(linkage: Linkage, phase: Phase, slotted: Sequence[str]) -> dict[str, Array]:
+    """Frames (3, 3) of clamped pins in the coupler's frame, by body: z along the pin to the centre."""
+    frame = pins_of_phase(linkage, 1)
+    found = {}
+    for seat in seats_of(linkage):
+        if seat.name in slotted:
+            z = -(frame.T @ seat.places[phase.number - 1])
+            x = perpendicular(z)
+            found[f"coupler-{seat.name}"] = np.stack([x, np.cross(z, x), z], axis=1)
+    return found
+
+
 def poses(
-    linkage: Linkage, phase: Phase, state: State, angles: Array, train: Train | None
+    linkage: Linkage, phase: Phase, state: State, angles: Array, train: Train | None, slotted: Sequence[str]
 ) -> dict[str, Poses]:
-    """Poses of all bodies that turn about the centre, for a state at input angles (n,), rad."""
+    """Poses of all bodies that turn about the centre, for a state at input angles (n,), rad.
+
+    ``slotted`` are the pins, a or c, that are clamped in slots.
+    """
     frames = dict(link_frames(linkage, phase, state))
+    for name, own in clamped_frames(linkage, phase, slotted).items():
+        frames[name] = _times(frames["coupler"], own)
     if train is not None:
         frames["pinion"] = _turned(phase.loop.a0, angles, frames["ground"][:, :, 0])
         if train.idler_axis is not None:

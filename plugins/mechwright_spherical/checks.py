@@ -14,10 +14,11 @@ from mechwright.mechanics.planar import Turning
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.frame import shells_of
 from mechwright_spherical.hardware_checks import hardware_findings
-from mechwright_spherical.linkage import TURN_BACK, Linkage, Phase, PinError, linkage_of
+from mechwright_spherical.linkage import TURN_BACK, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import second_size
+from mechwright_spherical.setting_checks import setting_findings
 
 DEAD_CENTRE = math.degrees(TURN_BACK)
 """Transmission angle, degrees, below which a linkage counts as standing in a dead centre."""
@@ -33,6 +34,7 @@ def findings(params: SphericalParams) -> tuple[Finding, ...]:
     return until_error(
         params,
         _pins,
+        setting_findings,
         _assembly,
         _path,
         hardware_findings,
@@ -55,11 +57,11 @@ def _pins(params: SphericalParams) -> Iterator[Finding]:
         )
 
 
-def travel_key(params: SphericalParams, phase: Phase) -> str:
-    """The parameter that says how far a phase goes."""
+def key_of(params: SphericalParams, phase: Phase, name: str) -> str:
+    """The parameter of that name for a phase; of further phases the list that has it."""
     if params.kind == "four-bar":
-        return "four_bar.travel"
-    return "five_bar.travel" if phase.number == 1 else "five_bar.travel_n"
+        return f"four_bar.{name}" if phase.number == 1 else "four_bar.phases"
+    return {1: f"five_bar.{name}", 2: f"five_bar.{name}_n"}.get(phase.number, "five_bar.phases")
 
 
 def transmission_sine(phase: Phase, angles: Array) -> Array:
@@ -96,11 +98,11 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
         if phase.rocks:
             yield _lever(phase)
         if falls_short(sine, math.sin(math.radians(DEAD_CENTRE))):
-            yield _apart(params, linkage, phase, at, sine, where)
+            yield _apart(params, phase, at, sine, where)
         elif falls_short(worst := math.degrees(math.asin(sine)), params.least_transmission):
             yield Finding.warning(
                 "spherical.transmission",
-                travel_key(params, phase),
+                key_of(params, phase, "travel"),
                 f"the transmission angle falls to {worst:.4g}° or {180 - worst:.4g}° {where}",
                 worst,
                 params.least_transmission,
@@ -126,12 +128,10 @@ def _lever(phase: Phase) -> Finding:
 _NO_FOUR_BAR = "make the longest arc shorter than the others together, and all four less than 360° together"
 
 
-def _apart(
-    params: SphericalParams, linkage: Linkage, phase: Phase, at: float, sine: float, where: str
-) -> Finding:
+def _apart(params: SphericalParams, phase: Phase, at: float, sine: float, where: str) -> Finding:
     fault = "it cannot be assembled" if sine < 0 else "it stands in a dead centre"
     reach = _reach(phase)
-    four = linkage.four_bar
+    four = phase.four_bar
     if four is not None:
         ranges = input_range(*four.arcs)
         said = ", ".join(
@@ -142,7 +142,7 @@ def _apart(
         remedy = f"end at less than {reach:.4g}°, or choose other pins"
     return Finding.error(
         "spherical.assembly",
-        travel_key(params, phase),
+        key_of(params, phase, "travel"),
         f"{fault} {where}",
         math.degrees(at),
         reach,
@@ -164,9 +164,7 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
     for phase in linkage_of(params).phases:
         if not phase.target_angles.size:
             continue
-        table = "four_bar" if params.kind == "four-bar" else "five_bar"
-        mark = "" if phase.number == 1 else "_n"
-        key, keys = f"{table}.path{mark}", f"{table}.path_angles{mark}"
+        key, keys = key_of(params, phase, "path"), key_of(params, phase, "path_angles")
         yield from _order(phase, keys)
         misses = params.radius * phase.path_errors
         if not np.isfinite(misses).all():

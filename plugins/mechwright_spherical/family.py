@@ -8,7 +8,7 @@ from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, ToleranceModel, Tolerances
+    from mechwright import AsMade, Flange, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
 
 
 class Spherical(Family[SphericalParams]):
@@ -16,7 +16,7 @@ class Spherical(Family[SphericalParams]):
 
     name = "spherical"
     title = "Spherical linkages"
-    summary = "Spherical four-bars, and adjustable five-bars that trace a path on a sphere in two phases."
+    summary = "Spherical four-bars, and geared five-bars, set to another path on the sphere in each phase."
     Params = SphericalParams
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,
@@ -43,12 +43,24 @@ class Spherical(Family[SphericalParams]):
         refuse(findings(params))
         return parts_of(params)
 
+    def mounting(self, params: SphericalParams) -> "Flange":
+        """The flange of the ground link about the input axis, and the base."""
+        from mechwright_spherical.mount import mounting_of
+
+        return mounting_of(params)
+
     def settings(self, params: SphericalParams) -> Mapping[str, SphericalParams]:
-        """The other phase of an adjustable five-bar."""
-        if params.kind != "five-bar":
-            return {}
-        other = params.five_bar.model_copy(update={"phase": 3 - params.five_bar.phase})
-        return {f"five_bar.phase = {other.phase}": params.model_copy(update={"five_bar": other})}
+        """The other phases."""
+        table = "five_bar" if params.kind == "five-bar" else "four_bar"
+        shown = params.five_bar if params.kind == "five-bar" else params.four_bar
+        count = len(shown.phases) + (2 if params.kind == "five-bar" else 1)
+        return {
+            f"{table}.phase = {phase}": params.model_copy(
+                update={table: shown.model_copy(update={"phase": phase})}
+            )
+            for phase in range(1, count + 1)
+            if phase != shown.phase
+        }
 
     def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the output, in angles, from the bores of flat strips."""
@@ -78,3 +90,11 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.fourbar_synthesis import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The points of the path, or of each phase's, on the sphere."""
+        from mechwright_spherical.targets import targets_of
+
+        if not isinstance(requirement, (AdjustablePathRequirement, FourBarPathRequirement)):
+            return super().targets(kind, requirement)
+        return targets_of(requirement)

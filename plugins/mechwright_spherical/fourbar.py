@@ -9,7 +9,8 @@ and the output angle ψ is 0 where b lies on the prolongation of oc beyond c. Cl
 The sign σ of c.(a x b) stays the same on a branch.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ from mechwright import Array
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.chain import EDGE
 from mechwright_spherical.loop import Loop, State
-from mechwright_spherical.vectors import column
+from mechwright_spherical.vectors import arc, column, cross, dot, norm, rotate
 
 POLE = np.array([0.0, 0.0, 1.0])
 """The input axis o."""
@@ -78,6 +79,24 @@ class FourBar:
             np.cos(self.output),
             -np.asarray(self.side, dtype=float),  # b.(a x c) = -c.(a x b)
             tuple(np.asarray(x) for x in point),  # type: ignore[arg-type]
+        )
+
+    def set_to(self, pose: float, crank: float, follower: float) -> "FourBar":
+        """The four-bar after its pins were set: the coupler held at the input angle ``pose``, rad.
+
+        Crank and output link are turned about their axes by so much, rad, to the coupler's new pins. A pose
+        in which it cannot be assembled gives NaN.
+        """
+        state = self.loop().at(Turning.of(np.array([pose])), 0)
+        o, c, p = POLE, self.output_axis, state.p[0][:, 0]
+        a, b = rotate(o, crank, state.a[0][:, 0]), rotate(c, follower, state.c[0][:, 0])
+        m = cross(a, b) / norm(cross(a, b))
+        return replace(
+            self,
+            coupler=float(arc(a, b)),
+            side=1.0 if float(dot(c, cross(a, b))) > 0 else -1.0,
+            point_azimuth=math.atan2(float(dot(p, cross(m, a))), float(dot(p, a))),
+            point_elevation=math.asin(float(np.clip(dot(p, m), -1.0, 1.0))),
         )
 
     def output_angle(self, theta: ArrayLike) -> Array:

@@ -13,8 +13,9 @@ import numpy as np
 
 from mechwright import Array, kept
 from mechwright_spherical.clearances import SAMPLES, Link, approaches, pin_apart
-from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.seats import stud_room
 from mechwright_spherical.shells import Shells, one_side, two_sides
 from mechwright_spherical.vectors import arc, dot, norm, rotate
 
@@ -45,7 +46,7 @@ class Frame:
 @kept
 def frame_of(params: SphericalParams) -> Frame:
     """On one side of the links where they have room for that, else on both."""
-    linkage, outside = linkage_of(params), one_side(params)
+    linkage, outside = linkage_of(params), one_side(params, stud_room(params))
     if linkage.four_bar is None or params.hardware.frame == "one":
         return Frame(outside)
     if params.hardware.frame == "auto":
@@ -70,9 +71,17 @@ def ground_arcs(params: SphericalParams) -> dict[str, float]:
 
 
 def bridge_rooms(params: SphericalParams, linkage: Linkage, shells: Shells, place: float) -> dict[str, Array]:
-    """Air (samples,), mm, between a bridge at that arc and each link that passes it over the travel."""
-    hardware, phase = params.hardware, linkage.shown
-    loop, state = phase.loop, phase.state(SAMPLES)
+    """Air (samples,), mm, between a bridge at that arc and each link that passes it, in the worst phase."""
+    found: dict[str, Array] = {}
+    for phase in linkage.phases:
+        for name, room in _phase_rooms(params, phase, shells, place).items():
+            found[name] = np.minimum(found[name], room) if name in found else room
+    return found
+
+
+def _phase_rooms(params: SphericalParams, phase: Phase, shells: Shells, place: float) -> dict[str, Array]:
+    """The same in one phase."""
+    hardware, loop, state = params.hardware, phase.loop, phase.state(SAMPLES)
     a, c, p = state.a[0], state.c[0], state.p[0]
     a0, b0 = (np.broadcast_to(axis[:, None], a.shape) for axis in (loop.a0, loop.b0))
     normal = np.cross(loop.a0, loop.b0) / norm(np.cross(loop.a0, loop.b0))

@@ -2,22 +2,24 @@
 
 import math
 from collections.abc import Iterator
-from itertools import combinations
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, Stage, of_stage
+from mechwright import Finding, Severity, Stage, of_stage
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
 from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount_checks import mount_findings
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_span, link_arcs, second_size
+from mechwright_spherical.seats import seats_of, slotted_of
+from mechwright_spherical.setting_checks import slot_findings
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
-from mechwright_spherical.vectors import arc, rotate
+from mechwright_spherical.vectors import arc
 
 WALL = 1.0
 """Least material around a bore or between two, mm: less bulges when a pin goes in."""
@@ -39,9 +41,10 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
     yield from _bosses(params, shells)
     yield from _shafts(params, linkage, shells)
     yield from _sideways(params, linkage, shells)
-    yield from _slots(params, linkage, shells)
+    yield from slot_findings(params)
     yield from _drive(params, linkage, shells)
     yield from _stand(params, linkage, shells)
+    yield from mount_findings(params)
     yield from _strips(params, linkage, shells)
 
 
@@ -97,8 +100,12 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         ]
     pairs += [(names[link], angle, bored, link) for link, angle in arcs.items()]
     point = linkage.phases[0].at_reference.p[0][:, 0]
-    for name, seat in _seats(linkage).items():
-        pairs.append((f"tool and pin {name}", float(arc(point, seat)), bored, "coupler"))
+    for seat in seats_of(linkage):
+        if seat.name not in slotted_of(params):  # those of a slot are looked at with it
+            pairs += [
+                (f"tool and pin {seat.name}", float(arc(point, place)), bored, "coupler")
+                for place in seat.own
+            ]
     for said, angle, diameter, link in pairs:
         needed, there = clear_radius(diameter, angle), shells.links[link][0]
         if exceeds(needed, there):
@@ -114,14 +121,6 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
                 "mm",
                 f"use a radius of {radius:g} mm or more, smaller pins and bosses, or a shorter projection",
             )
-
-
-def _seats(linkage: Linkage) -> dict[str, Array]:
-    mechanism = linkage.five_bar
-    if mechanism is None:
-        state = linkage.phases[0].at_reference
-        return {"a": state.a[0][:, 0], "c": state.c[0][:, 0]}
-    return {name: getattr(mechanism, name) for name in ("a1", "a1n", "c1", "c1n")}
 
 
 def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
@@ -197,39 +196,6 @@ def _collision(params: SphericalParams, linkage: Linkage, near: Approach) -> Fin
         ('set hardware.frame = "auto", or ' if other else "")
         + "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
     )
-
-
-def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
-    mechanism = linkage.five_bar
-    if mechanism is None:
-        return
-    hardware = params.hardware
-    slots = {
-        "the slot of pin a": slot_points(mechanism.a0, mechanism.a1, float(mechanism.crank_setting)),
-        "the slot of pin c": slot_points(mechanism.b1, mechanism.c1, float(mechanism.rocker_setting)),
-        "the path point": mechanism.p1[:, None],
-    }
-    radius = shells.links["coupler"][0]
-    least = hardware.pin_diameter + hardware.fit + WALL
-    for (one, here), (two, there) in combinations(slots.items(), 2):
-        nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
-        apart = 2 * radius * math.tan(nearest / 2)
-        if falls_short(apart, least):
-            yield Finding.error(
-                "spherical.slot",
-                "five_bar.c1n",
-                f"{one} and {two} come as near as {apart:.4g} mm on the coupler and run into each other",
-                apart,
-                least,
-                "mm",
-                f"keep them {least:g} mm apart: use thinner pins or a larger radius",
-            )
-
-
-def slot_points(axis: Array, start: Array, sweep: float) -> Array:
-    """Points (3, n) along a circular slot."""
-    steps = np.linspace(0.0, sweep, 61)  # a sixtieth of a slot is far less than a pin
-    return rotate(axis[:, None], steps, start[:, None])
 
 
 def _drive(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:

@@ -1,6 +1,7 @@
 """What holds the bodies of a spherical linkage: pins whose axes all meet in the centre."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +14,13 @@ from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.vectors import arc
 
 
-def held_by(linkage: Linkage, train: Train | None, radius: float) -> dict[str, Joint]:
+def held_by(
+    linkage: Linkage, train: Train | None, radius: float, slotted: Sequence[str] = ()
+) -> dict[str, Joint]:
     """Joints of the phase that is shown, each at ``radius`` mm from the centre; the loop is closed in C.
 
-    The arm of a five-bar turns with the crank, by gears or by two motors that keep their ratio.
+    Pins that are ``slotted``, a or c, are fixed in the coupler. The arm of a five-bar turns with the crank,
+    by gears or by two motors that keep their ratio.
     """
     loop = linkage.shown.loop
     rocker = math.acos(float(loop.cb))
@@ -34,6 +38,8 @@ def held_by(linkage: Linkage, train: Train | None, radius: float) -> dict[str, J
         held["ratio"] = Joint("gear", "crank", "arm", ratio=float(loop.ratio))
     held["a"] = pin("crank", "coupler", arcs["a"])
     held["c"] = pin("rocker", "coupler", rocker)
+    for name in slotted:
+        held |= fixed("coupler", f"coupler-{name}")
     if train is not None:
         held |= fixed("crank", "pinion")
         if train.idler_axis is not None:

@@ -11,9 +11,9 @@ from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.mobility import input_range
-from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
+from mechwright_spherical.params import FiveBarTable, FourBarPhase, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
-from mechwright_spherical.vectors import arc, cross, dot, norm, vector
+from mechwright_spherical.vectors import arc, cross, dot, norm, rotate, vector
 
 
 @dataclass(frozen=True)
@@ -23,20 +23,23 @@ class Phase:
     Parameters
     ----------
     number
-        1 or 2; a four-bar has only 1.
+        From 1 on.
     loop
         The linkage, its input angle counted from the position of adjustment or, for a four-bar, from its
         start.
     reference
-        Input angle at which bodies are measured, rad: 0, the adjustment, or a four-bar's start.
+        Input angle in the pose of setting, at which bodies are measured, rad; the start where nothing is
+        set.
     start, travel
         Input angle at which it starts, and how far it goes from there, rad.
-    rocks
-        Whether the input is a lever that goes back to its start, as it cannot turn fully.
     targets
         Prescribed path points (3, n), unit vectors.
     target_angles
         Input angles (n,) of them, rad.
+    rocks
+        Whether the input is a lever that goes back to its start, as it cannot turn fully.
+    four_bar
+        The four-bar that it is, if it is one.
     """
 
     number: int
@@ -47,6 +50,12 @@ class Phase:
     targets: Array
     target_angles: Array
     rocks: bool = False
+    four_bar: FourBar | None = None
+
+    @property
+    def mark(self) -> str:
+        """What names of its figures and of its own parts end on: nothing for phase 1."""
+        return {1: "", 2: "n"}.get(self.number, str(self.number))
 
     @property
     def course(self) -> Course:
@@ -79,17 +88,21 @@ class Linkage:
     Parameters
     ----------
     phases
-        One for a four-bar, two for an adjustable five-bar.
+        One or more of a four-bar, two or more of an adjustable five-bar.
     shown
         The phase that motion and assembly show.
-    five_bar, four_bar
-        The one that it is.
+    five_bar
+        Its first two phases, if it is one.
     """
 
     phases: tuple[Phase, ...]
     shown: Phase
     five_bar: AdjustableFiveBar | None = None
-    four_bar: FourBar | None = None
+
+    @property
+    def four_bar(self) -> FourBar | None:
+        """The four-bar of the phase that is shown, if it is one."""
+        return self.shown.four_bar
 
 
 @kept
@@ -163,7 +176,7 @@ def _five_bar(table: FiveBarTable) -> Linkage:
     mechanism = AdjustableFiveBar(**pins, p1=_direction(table.point, table, "point"), ratio=table.ratio)
     if table.common_arcs:
         mechanism = mechanism.equalised()
-    phases = tuple(
+    phases = [
         Phase(
             number,
             mechanism.phase(number),
@@ -174,8 +187,28 @@ def _five_bar(table: FiveBarTable) -> Linkage:
             np.radians(np.array(getattr(table, f"path_angles{mark}"), dtype=float)),
         )
         for number, mark in ((1, ""), (2, "_n"))
-    )
-    return Linkage(phases, phases[table.phase - 1], five_bar=mechanism)
+    ]
+    for number, row in enumerate(table.phases, start=3):
+        a = rotate(mechanism.a0, math.radians(row.crank_turn), mechanism.a1)
+        c = rotate(mechanism.b1, math.radians(row.rocker_turn), mechanism.c1)
+        start, travel = _or(row.start, table.start), _or(row.travel, table.travel)
+        phases.append(
+            Phase(
+                number,
+                Loop.of_pins(mechanism.a0, a, mechanism.b0, mechanism.b1, c, mechanism.p1, mechanism.ratio),
+                0.0,
+                math.radians(start or 0.0),
+                math.radians(travel or 0.0),
+                _points(row.path, table, f"phases[{number - 3}].path"),
+                np.radians(np.array(row.path_angles, dtype=float)),
+            )
+        )
+    return Linkage(tuple(phases), phases[table.phase - 1], five_bar=mechanism)
+
+
+def _or(own: float | None, other: float | None) -> float | None:
+    """What a phase says, or what phase 1 does."""
+    return other if own is None else own
 
 
 def _four_bar(table: FourBarTable) -> Linkage:
@@ -199,23 +232,33 @@ def _four_bar(table: FourBarTable) -> Linkage:
         math.radians(table.point_elevation),
     )
     axes = _frame(table)
-    own = four_bar.loop()
-    turned = {name: axes @ getattr(own, name) for name in ("a0", "a1", "b0", "b1")}
-    loop = replace(own, **turned)
-    course, zero = _course(table, four_bar)
-    found = [_vector(pin, "four_bar.path") for pin in table.path]
-    targets = np.array(found).T.reshape(3, len(found))
-    phase = Phase(
-        1,
-        loop,
-        zero,
-        course.start,
-        course.travel,
-        targets,
-        zero + np.radians(np.array(table.path_angles, dtype=float)),
-        course.rocks,
-    )
-    return Linkage((phase,), phase, four_bar=four_bar)
+    rows: list[tuple[FourBarTable | FourBarPhase, FourBar, float]] = [
+        (table, four_bar, math.radians(table.setting_angle or 0.0))
+    ]
+    for row in table.phases:
+        own = four_bar.set_to(rows[0][2], math.radians(row.crank_turn), math.radians(row.follower_turn))
+        rows.append((row, own, rows[0][2] + math.radians(row.crank_turn)))
+    phases = []
+    for number, (said, bar, pose) in enumerate(rows, start=1):
+        start, travel = _or(said.start, table.start), _or(said.travel, table.travel)
+        course, zero = _course(start, travel, bar)
+        found = [_vector(pin, "four_bar.path") for pin in said.path]
+        loop = bar.loop()
+        turned = {name: axes @ getattr(loop, name) for name in ("a0", "a1", "b0", "b1")}
+        phases.append(
+            Phase(
+                number,
+                replace(loop, **turned),
+                pose if table.phases else zero,
+                course.start,
+                course.travel,
+                np.array(found).T.reshape(3, len(found)),
+                zero + np.radians(np.array(said.path_angles, dtype=float)),
+                course.rocks,
+                bar,
+            )
+        )
+    return Linkage(tuple(phases), phases[table.phase - 1])
 
 
 TURN_BACK = math.radians(1.0)
@@ -223,14 +266,15 @@ TURN_BACK = math.radians(1.0)
 would have to come from the input there, and friction blocks it long before."""
 
 
-def _course(table: FourBarTable, four_bar: FourBar) -> tuple[Course, float]:
+def _course(said: float | None, travel: float | None, four_bar: FourBar) -> tuple[Course, float]:
     """One period of the input, and the input angle from which path angles count, rad.
 
-    What cannot be assembled is left as the design says it, for the checks to find.
+    Start and travel are as a design says them, degrees. What cannot be assembled is left as it is said, for
+    the checks to find.
     """
-    start = math.radians(table.start or 0.0)
-    if table.travel is not None:
-        return Course(start, math.radians(table.travel)), start
+    start = math.radians(said or 0.0)
+    if travel is not None:
+        return Course(start, math.radians(travel)), start
     ways = input_range(*four_bar.arcs, TURN_BACK)
     if not ways or ways == ((0.0, math.tau),):
         return Course(start, math.tau), start
@@ -238,9 +282,9 @@ def _course(table: FourBarTable, four_bar: FourBar) -> tuple[Course, float]:
         ways = ((-ways[0][1], ways[0][1]),)
     for low, high in ways:
         turn = math.tau * math.floor((start - low) / math.tau)
-        if table.start is not None and low + turn <= start <= high + turn:
+        if said is not None and low + turn <= start <= high + turn:
             return Course(low + turn, high - low, rocks=True), start
-    if table.start is not None:
+    if said is not None:
         return Course(start, math.tau), start
     low, high = ways[0]
     return Course(low, high - low, rocks=True), low

@@ -12,12 +12,24 @@ from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount import EDGE, HOLE, hubs_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size, tool_of
-from mechwright_spherical.shells import Shells, Span
-from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
+from mechwright_spherical.seats import (
+    MARK,
+    MARK_DEPTH,
+    MARK_WIDTH,
+    Seat,
+    clamp_of,
+    land_width,
+    seats_of,
+    slot_width,
+    slotted_of,
+)
+from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip, stroke
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
-from mechwright_spherical.vectors import arc
+from mechwright_spherical.vectors import arc, cross, norm, rotate
 
 PITCH_PLAY = 0.05
 """How much thinner pitch cones are drawn, mm, so that two that touch do not cut each other."""
@@ -93,25 +105,54 @@ _OVER = 1.0
 
 
 def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Solid:
-    """The coupler: seats or slots for its two pins, and an arm to the path point."""
+    """The coupler: bores or slots for its two pins, and an arm to the path point."""
     hardware = params.hardware
     frame = pins_of_phase(linkage, 1)
     point = path_point(linkage, frame)
-    seats = coupler_slots(linkage, frame)
+    seats = coupler_seats(linkage, frame)
     span, arcs = shells.links["coupler"], shells.arc("coupler")
-    wide, bored = hardware.boss_diameter, hardware.pin_diameter + hardware.fit
     # Seats and bosses are trimmed to one spherical shell: their own ends differ by hundredths of a
     # millimetre, and the kernel would make slivers of that.
     beyond = (span[0] - _OVER, span[1] + _OVER)
-    bodies = [seat.surroundings(beyond, wide) for seat in seats]
-    bodies.append(_arc(params, seats[0].start, seats[1].start, arcs))
-    bodies.append(cylinder(point, beyond, wide))
-    nearest = min(
-        (pin for seat in seats for pin in (seat.start, seat.end)), key=lambda pin: float(arc(pin, point))
-    )
+    bodies: list[cq.Solid] = []
+    holes: list[cq.Solid] = []
+    for seat in seats:
+        if seat.name in slotted_of(params):
+            slot = Slot(seat.axis, *seat.ends)
+            bodies.append(slot.surroundings(beyond, land_width(params)))
+            holes += slot.swept(beyond, slot_width(params))
+            holes += marks(params, seat, span)
+        else:
+            bodies += [cylinder(place, beyond, hardware.boss_diameter) for place in seat.own]
+            holes += [bore(params, place, span) for place in seat.own]
+    first = seats[0].places[0], seats[1].places[0]
+    bodies.append(_arc(params, *first, arcs))
+    bodies.append(cylinder(point, beyond, hardware.boss_diameter))
+    pins = [place for seat in seats for place in seat.own]
+    for seat, start in zip(seats, first, strict=True):
+        if seat.name not in slotted_of(params):
+            bodies += [_arc(params, start, place, arcs) for place in seat.own[1:]]
+    nearest = min(pins, key=lambda pin: float(arc(pin, point)))
     bodies.append(_arc(params, nearest, point, arcs))
-    holes = [hole for seat in seats for hole in seat.swept(beyond, bored)]
     return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
+
+
+def marks(params: SphericalParams, seat: Seat, span: Span) -> list[cq.Solid]:
+    """The scale of a slot, cut into the coupler's inner face: at each place as many lines as its phase says.
+
+    The lines stand beside the washer, away from the axis about which the pin is set.
+    """
+    clamp = clamp_of(params)
+    if clamp is None:
+        return []
+    pitch = 2 * MARK_WIDTH / (span[0] * float(norm(cross(seat.axis, seat.places[0]))))
+    deep = (span[0] - _OVER, span[0] + MARK_DEPTH)
+    found = []
+    for number, place in enumerate(seat.places, start=1):
+        for line in range(number):
+            at = rotate(seat.axis, (line - (number - 1) / 2) * pitch, place)
+            found.append(stroke(seat.axis, at, deep, (clamp.reach, clamp.reach + MARK + _OVER), MARK_WIDTH))
+    return found
 
 
 def path_point(linkage: Linkage, frame: Array) -> Array:
@@ -119,14 +160,13 @@ def path_point(linkage: Linkage, frame: Array) -> Array:
     return np.asarray(frame.T @ linkage.phases[0].at_reference.p[0][:, 0])
 
 
-def coupler_slots(linkage: Linkage, frame: Array) -> tuple[Slot, Slot]:
-    """Where the coupler takes its two pins, in its frame; a four-bar's slots have no length."""
-    mechanism = linkage.five_bar
-    if mechanism is None:
-        a, c = X, direction(math.acos(float(linkage.shown.loop.ca)))
-        return Slot(a, a, a), Slot(c, c, c)
-    own = {name: frame.T @ getattr(mechanism, name) for name in ("a0", "b1", "a1", "a1n", "c1", "c1n")}
-    return Slot(own["a0"], own["a1"], own["a1n"]), Slot(own["b1"], own["c1"], own["c1n"])
+def coupler_seats(linkage: Linkage, frame: Array) -> tuple[Seat, Seat]:
+    """Where the coupler takes its two pins, in its frame."""
+    a, c = (
+        Seat(seat.name, frame.T @ seat.axis, tuple(frame.T @ place for place in seat.places))
+        for seat in seats_of(linkage)
+    )
+    return a, c
 
 
 def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Train | None) -> cq.Solid:
@@ -149,14 +189,21 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
         axes.append(_in_ground(linkage, train.idler_axis))
         bodies.append(_arc(params, axes[0], axes[2], arcs))
         bodies.append(_arc(params, axes[1], axes[2], arcs))
-    bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+    if hubs := hubs_of(params):
+        for at, hub in zip(axes, hubs.values(), strict=True):
+            bodies.append(cylinder(at, hub.span, max(hub.diameter, hardware.boss_diameter)))
+            holes.append(cylinder(at, (hub.span[0] - _OVER, hub.span[1] + _OVER), hub.outside + hardware.fit))
+        bodies.append(motor_flange(params, shells))
+        holes += flange_holes(params, shells)
+    else:
+        bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+        holes += [bore(params, axis, span) for axis in axes]
     post = post_direction(stand)
     top = shells.outside + stand.height
     flange = (top - hardware.link_thickness, top)
     bodies.append(cylinder(post, (span[0], top), hardware.boss_diameter))
     bodies.append(cylinder(post, flange, flange_diameter(stand)))
     side, up = np.array([0.0, 0.0, 1.0]), np.cross(post, [0.0, 0.0, 1.0])
-    holes += [bore(params, axis, span) for axis in axes]
     for one, two in FLANGE_SCREWS:
         at = stand.plate * (one * side + two * up)
         holes.append(
@@ -168,6 +215,22 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
             )
         )
     return fused(bodies, holes)
+
+
+def motor_flange(params: SphericalParams, shells: Shells) -> cq.Solid:
+    """The square flange about the input axis."""
+    side = (params.stand.motor_flange or 0.0) + 2 * EDGE
+    at = cq.Vector(shells.outside + RISE, -side / 2, -side / 2)
+    found = cq.Solid.makeBox(FLANGE, side, side, at)
+    assert isinstance(found, cq.Solid)  # noqa: S101 - a box is one
+    return found
+
+
+def flange_holes(params: SphericalParams, shells: Shells) -> list[cq.Solid]:
+    """What its four screw holes take away."""
+    half, low = (params.stand.motor_flange or 0.0) / 2, shells.outside + RISE - _OVER
+    places = [cq.Vector(low, y, z) for y in (-half, half) for z in (-half, half)]
+    return [cq.Solid.makeCylinder(HOLE / 2, FLANGE + 2 * _OVER, at, cq.Vector(1, 0, 0)) for at in places]
 
 
 def _in_ground(linkage: Linkage, axis: Array) -> Array:

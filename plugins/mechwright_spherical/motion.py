@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Channel, KinematicsError, Motion, Poses, Scalar, Trace
 from mechwright.mechanics.planar import Turning
-from mechwright.mechanics.planar.channels import turning_channels
+from mechwright.mechanics.planar.channels import RATES, along, turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
@@ -17,7 +17,9 @@ from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import input_range, mobility
+from mechwright_spherical.mounted import axis_joints, axis_poses
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.seats import clamped
 from mechwright_spherical.stand import base_pose
 from mechwright_spherical.vectors import norm
 
@@ -48,55 +50,60 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
             f"{phase.number}; shorten the travel, or choose other arcs"
         )
     channels = {
-        "time": Channel(time, "s"),
-        **turning_channels(turning, "theta", ""),
+        "time": Channel(time, "s", "time"),
+        **turning_channels(turning, "theta", "", "the crank"),
         **_driven(linkage, phase, state, turning),
-        "transmission_angle": Channel(state.transmission, "rad"),
+        "transmission_angle": Channel(state.transmission, "rad", "transmission angle"),
         **_point(state.p, params.radius),
         **_spin(linkage, phase, state),
     }
     train = train_of(linkage, params.drive)
-    bodies = poses(linkage, phase, state, angles, train)
+    slotted = clamped(params)
+    bodies = poses(linkage, phase, state, angles, train, slotted)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
+    bodies |= axis_poses(params, bodies)
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    return Motion(
-        "theta", channels, bodies, _figures(params, linkage), traces, held_by(linkage, train, params.radius)
-    )
+    held = held_by(linkage, train, params.radius, slotted) | axis_joints(params)
+    return Motion("theta", channels, bodies, _figures(params, linkage), traces, held)
 
 
 def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:
     four_bar = linkage.four_bar
     if four_bar is None:
         arm = turning.scaled(phase.loop.ratio)
-        return turning_channels(arm, "phi", "_phi")
+        return turning_channels(arm, "phi", "_phi", "the arm")
     rates = turning_about(phase.loop.b0, state.c)
     angle = four_bar.output_angle(turning.theta)
     angle = angle - math.tau * np.round(angle[0] / math.tau)
-    return turning_channels(replace(rates, theta=angle), "psi", "_psi")
+    return turning_channels(replace(rates, theta=angle), "psi", "_psi", "the rocker")
 
 
 def _point(p: Jet, radius: float) -> dict[str, Channel]:
     found: dict[str, Channel] = {}
-    for name, unit, value in zip(("", "v", "a", "j"), _RATES, p, strict=True):
+    for name, word, unit, value in zip(("", "v", "a", "j"), ("", *RATES), _RATES, p, strict=True):
         found |= {
-            f"{name}{axis}P": Channel(radius * x, f"mm{unit}") for axis, x in zip("xyz", value, strict=True)
+            f"{name}{axis}P": Channel(radius * x, f"mm{unit}", along(axis, word, "point P"))
+            for axis, x in zip("xyz", value, strict=True)
         }
         if name:
-            found[f"{name}P"] = Channel(radius * norm(value), f"mm{unit}")
+            found[f"{name}P"] = Channel(radius * norm(value), f"mm{unit}", f"size of the {word} of point P")
     return found
 
 
 def _spin(linkage: Linkage, phase: Phase, state: State) -> dict[str, Channel]:
     found: dict[str, Channel] = {}
     spins = state.coupler_spin
-    for name, unit, value in zip(("omega", "alpha", "jerk"), _RATES[1:], spins, strict=True):
-        found |= {f"{name}3{axis}": Channel(x, f"rad{unit}") for axis, x in zip("xyz", value, strict=True)}
+    for name, word, unit, value in zip(("omega", "alpha", "jerk"), RATES, _RATES[1:], spins, strict=True):
+        found |= {
+            f"{name}3{axis}": Channel(x, f"rad{unit}", along(axis, f"angular {word}", "the coupler"))
+            for axis, x in zip("xyz", value, strict=True)
+        }
     # From the coupler's place in the position of adjustment, or at the start.
     turn = np.einsum("ijn,kj->ikn", coupler_frame(linkage, phase, state), pins_of_phase(linkage, 1))
     for name, part in zip(("q0", "q1", "q2", "q3"), quaternions(turn), strict=True):
-        found[name] = Channel(part, "")
+        found[name] = Channel(part, "", f"part {name[1]} of the quaternion of the coupler")
     return found
 
 
@@ -107,7 +114,7 @@ _FIGURE_SAMPLES = 721
 def _figures(params: SphericalParams, linkage: Linkage) -> dict[str, Scalar]:
     found: dict[str, Scalar] = {}
     for phase in linkage.phases:
-        mark = "" if phase.number == 1 else "_n"
+        mark = f"_{phase.mark}" if phase.mark else ""
         mu = phase.state(_FIGURE_SAMPLES).transmission
         found[f"transmission_min{mark}"] = Scalar(float(np.nanmin(mu)), "rad")
         found[f"transmission_max{mark}"] = Scalar(float(np.nanmax(mu)), "rad")

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
+from mechwright.mechanics.linkage.fields import Phase, phases_together
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 
@@ -25,6 +26,49 @@ def same_length(name: str, points: tuple[Any, ...], other: str, angles: tuple[An
         raise ValueError(
             f"{name} has {len(points)} entries and {other} {len(angles)}; give one angle for each point"
         )
+
+
+Start = Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None
+Travel = Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None
+
+
+class PhaseTable(Parameters):
+    """A further phase: how far crank and follower are turned to it in the pose of setting, and its path."""
+
+    crank_turn: Degrees = Field(
+        0.0, ge=-360, le=360, description="Of the crank about its axis, from phase 1 to this one."
+    )
+    start: Start = Field(None, description="As of phase 1; left out, the same.")
+    travel: Travel = Field(None, description="As of phase 1; left out, the same.")
+    path: tuple[Direction, ...] = Field(
+        (), max_length=MOST_POSITIONS, description="Prescribed path points of this phase, as directions."
+    )
+    path_angles: tuple[Turn, ...] = Field(
+        (), max_length=MOST_POSITIONS, description="Their input angles, counted as those of phase 1."
+    )
+
+    @model_validator(mode="after")
+    def _phase(self) -> Self:
+        if self.travel == 0:
+            raise ValueError("travel is 0; give the angle that the input turns")
+        same_length("path", self.path, "path_angles", self.path_angles)
+        return self
+
+
+class FourBarPhase(PhaseTable):
+    """A further phase of a four-bar."""
+
+    follower_turn: Degrees = Field(
+        0.0, ge=-360, le=360, description="Of the output link about its axis, likewise."
+    )
+
+
+class FiveBarPhase(PhaseTable):
+    """A third or further phase of a five-bar."""
+
+    rocker_turn: Degrees = Field(
+        0.0, ge=-360, le=360, description="Of the rocker about its pin of the arm, likewise."
+    )
 
 
 class FourBarTable(Parameters):
@@ -57,13 +101,13 @@ class FourBarTable(Parameters):
     point_elevation: Degrees = Field(
         15.0, ge=-90, le=90, description="Path point: angle η out of the coupler's great circle, to its left."
     )
-    start: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+    start: Start = Field(
         None,
         description="Input angle at the start; 0 where the input link points at the output axis. Left out, "
         "0, or where the swing of an input begins that cannot turn fully.",
         json_schema_extra=FIRST,
     )
-    travel: Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None = Field(
+    travel: Travel = Field(
         None,
         description="How far the input turns from there; left out, a turn, or as far as it can and back.",
         json_schema_extra=FIRST,
@@ -80,12 +124,20 @@ class FourBarTable(Parameters):
     path_angles: tuple[Turn, ...] = Field(
         (), max_length=MOST_POSITIONS, description="Input angles of the path points, from the start."
     )
+    setting_angle: Travel = Field(
+        None, description="Input angle in phase 1 at which the machine is set to another phase."
+    )
+    phases: tuple[FourBarPhase, ...] = Field(
+        (), max_length=7, description="Further phases: the coupler has more places for its pins."
+    )
+    phase: Phase = 1
 
     @model_validator(mode="after")
     def _together(self) -> Self:
         if self.travel == 0:
             raise ValueError("travel is 0; give the angle that the input turns")
         same_length("path", self.path, "path_angles", self.path_angles)
+        phases_together(self.setting_angle, self.phases, self.phase)
         return self
 
 
@@ -135,9 +187,10 @@ class FiveBarTable(Parameters):
         description="Turns of the arm per turn of the crank.",
         json_schema_extra=FIRST,
     )
-    phase: Literal[1, 2] = Field(
-        1, description="Phase that motion and assembly show.", json_schema_extra=FIRST
+    phases: tuple[FiveBarPhase, ...] = Field(
+        (), max_length=6, description="Third and further phases, each by its turns from phase 1."
     )
+    phase: Annotated[Phase, Field(json_schema_extra=FIRST)] = 1
     start: Degrees = Field(
         0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 1 starts."
     )
@@ -171,6 +224,10 @@ class FiveBarTable(Parameters):
             raise ValueError("travel or travel_n is 0; give the angle that the crank turns")
         same_length("path", self.path, "path_angles", self.path_angles)
         same_length("path_n", self.path_n, "path_angles_n", self.path_angles_n)
+        if self.phase > 2 + len(self.phases):
+            raise ValueError(
+                f"phase is {self.phase}, and there are {2 + len(self.phases)}; give more in phases"
+            )
         if not self.flat_pins:
             fields = type(self).model_fields
             for name in ("projection_length", "projection_centre"):
@@ -231,6 +288,11 @@ class StandTable(Parameters):
     height: Millimetres = Field(40.0, ge=2, le=1000, description="Of the post over the ground link.")
     plate: Millimetres = Field(80.0, ge=10, le=1000, description="Side of the square base plate.")
     plate_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the base plate.")
+    motor_flange: Annotated[float, Field(ge=20, le=300), Unit("mm")] | None = Field(
+        None,
+        description="Side of the square of screws in a flange about the input axis, on which a motor goes; "
+        "both fixed axes then have bushes. Left out, there is none.",
+    )
     screw: Millimetres = Field(6.6, ge=1, le=50, description="Diameter of the screw holes in the base plate.")
 
 
@@ -311,6 +373,8 @@ class SphericalParams(Parameters):
             raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
         if self.kind == "five-bar" and self.hardware.frame == "two":
             raise ValueError('hardware.frame = "two" is for a four-bar; leave it out with a five-bar')
+        if self.kind == "five-bar" and self.stand.motor_flange is not None:
+            raise ValueError("stand.motor_flange is for a four-bar; leave it out with a five-bar")
         if self.path_tolerance is not None and not self._has_path:
             raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
         return self
@@ -318,4 +382,5 @@ class SphericalParams(Parameters):
     @property
     def _has_path(self) -> bool:
         table = self.five_bar if self.kind == "five-bar" else self.four_bar
-        return bool(table.path) or bool(self.kind == "five-bar" and self.five_bar.path_n)
+        more = any(row.path for row in table.phases)
+        return bool(table.path) or more or bool(self.kind == "five-bar" and self.five_bar.path_n)

@@ -6,14 +6,19 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from mechwright import Colour, Instance, Part, Step, Turned
+from mechwright.contracts.holes import threaded
+from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.mount import hubs_of, thread_of
+from mechwright_spherical.mounted import axis_parts
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size, tool_of
+from mechwright_spherical.seats import clamp_of, head_of, slotted_of, stud_length
 from mechwright_spherical.shells import Shells
-from mechwright_spherical.stand import base_outline
+from mechwright_spherical.stand import FLANGE_SCREWS, MOUNTING_SCREWS, base_outline
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -38,7 +43,9 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
     return (
         *_links(params, linkage, shells),
         *_pins(params, shells, train),
+        *_clamps(params, shells),
         *_gears(params, train),
+        *axis_parts(params),
         *_plates(params, linkage, shells),
     )
 
@@ -99,11 +106,30 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
         low, high = spans[span]
         return Turned((Step(diameter, high - low),))
 
+    loose = {f"shaft-{name}" for name in hubs_of(params)}
     for name, (span, body, _) in pin_places(params).items():
+        if name in loose:
+            continue
         yield _solid(name, params, body, "pin", turned=turned(span))
     if train is not None and train.idler_axis is not None:
         yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
     yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))
+
+
+def _clamps(params: SphericalParams, shells: Shells) -> Iterator[Part]:
+    """Studs in slots with their screws and washers, which come from inside the coupler."""
+    clamp = clamp_of(params)
+    if clamp is None:
+        return
+    (inner, outer), head = shells.links["coupler"], head_of(params)
+    names = slotted_of(params)
+    seat = math.sqrt(
+        inner**2 - (clamp.washer[0] / 2) ** 2
+    )  # a washer lies on its rim in the hollow of the coupler
+    for name in names:
+        at = Instance(f"coupler-{name}", -(outer + stud_length(params) + head[1]))
+        yield stud_part(f"pin-{name}", params.hardware.pin_diameter, stud_length(params), head, clamp, at)
+    yield from screw_parts("clamp", clamp, [Instance(f"coupler-{name}", -seat) for name in names])
 
 
 def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
@@ -114,7 +140,7 @@ def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
 
 def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
     hardware, stand, flat = params.hardware, params.stand, params.flat
-    yield Part(
+    base = Part(
         "base",
         base_outline(stand),
         stand.plate_thickness,
@@ -122,16 +148,20 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         instances=(Instance("base"),),
         colour=COLOURS["base"],
     )
+    if stand.motor_flange is not None:
+        for number in range(1, len(FLANGE_SCREWS) + len(MOUNTING_SCREWS) + 1):
+            base = threaded(base, f"bore-{number}", f"M{thread_of(stand):g}")
+    yield base
     if not flat.make:
         return
     arcs = link_arcs(linkage) | ground_arcs(params)
     arcs |= {f"{n}-n": a for n, a in second_size(linkage, shells).items()}
     arcs |= {
-        f"coupler{'-n' if phase.number == 2 else ''}": math.acos(float(phase.loop.ca))
+        f"coupler{f'-{phase.mark}' if phase.mark else ''}": math.acos(float(phase.loop.ca))
         for phase in linkage.phases
     }
     for name, angle in arcs.items():
-        radius = shells.arc(name.removesuffix("-n"))[0]
+        radius = shells.arc("coupler" if name.startswith("coupler") else name.removesuffix("-n"))[0]
         outline = strip_outline(
             strip(angle, radius, flat), hardware.boss_diameter, hardware.pin_diameter + hardware.fit
         )

@@ -1,12 +1,19 @@
-"""The designs that show an adjustable machine: one per phase of a four-bar, one per pair of a five-bar."""
+"""The designs that show an adjustable machine, one for each phase."""
 
 import math
+from typing import Any
 
 import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.adjustable import Pins
-from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
+from mechwright_spherical.params import (
+    FiveBarPhase,
+    FiveBarTable,
+    FourBarPhase,
+    FourBarTable,
+    SphericalParams,
+)
 from mechwright_spherical.requirements import AdjustablePathRequirement
 from mechwright_spherical.vectors import arc, azimuth, cross, dot, norm
 
@@ -19,8 +26,8 @@ def designs_of(
 ) -> list[tuple[int, SphericalParams]]:
     """Designs with the number of the phase that each shows.
 
-    A four-bar has one per phase, with the arcs and places of that phase. A five-bar has one for each phase,
-    with the pins of phase 1 and of another one, phase 2 where it shows the first.
+    They are one machine with all its phases. Where pins of the ground are set, each is a four-bar of one
+    phase with the arcs and places of that.
 
     Parameters
     ----------
@@ -32,49 +39,84 @@ def designs_of(
         Path points (3, n) of each phase.
     """
     phases = range(len(theta))
-    if wanted.linkage == "four-bar":
-        return [(k + 1, _four_bar(wanted, pins.of(k), theta[k], targets[k])) for k in phases]
-    return [(k + 1, _five_bar(wanted, pins, theta, targets, max(k, 1), 1 + (k > 0))) for k in phases]
-
-
-def _four_bar(wanted: AdjustablePathRequirement, pins: Pins, theta: Array, targets: Array) -> SphericalParams:
-    o, a, c, b, p = pins.a0, pins.a, pins.b0, pins.c, pins.p
-    m = cross(a, b) / norm(cross(a, b))
-    arcs = {"ground": (o, c), "input": (o, a), "coupler": (a, b), "output": (c, b)}
-    degrees = {name: round(math.degrees(float(arc(*ends))), DIGITS) for name, ends in arcs.items()}
-    travel = math.copysign(360.0, theta[-1]) if wanted.full_turn else math.degrees(theta[-1])
-    table = FourBarTable(
-        **degrees,
-        branch=1 if float(dot(c, cross(a, b))) > 0 else -1,
-        point_azimuth=round(math.degrees(math.atan2(float(dot(p, cross(m, a))), float(dot(p, a)))), DIGITS),
-        point_elevation=round(math.degrees(math.asin(max(-1.0, min(1.0, float(dot(p, m)))))), DIGITS),
-        start=round(math.degrees(float(azimuth(o, c, a))), DIGITS),
-        travel=round(travel, DIGITS),
-        input_axis=_row(o),
-        output_towards=_row(c),
-        path=tuple(_row(one) for one in targets.T),
-        path_angles=tuple(np.degrees(theta).round(DIGITS).tolist()),
+    if wanted.linkage == "five-bar":
+        five = _five_bar(wanted, pins, theta, targets)
+        return [(k + 1, _design(wanted, five_bar=five.model_copy(update={"phase": k + 1}))) for k in phases]
+    if wanted.moves != "moving" or len(theta) == 1:
+        return [(k + 1, _design(wanted, four_bar=_four_bar(wanted, pins, theta, targets, k))) for k in phases]
+    first = _four_bar(wanted, pins, theta, targets, 0)
+    rows = tuple(
+        FourBarPhase(
+            crank_turn=_degrees(azimuth(pins.of(0).a0, pins.of(0).a, pins.of(k).a)),
+            follower_turn=_degrees(azimuth(pins.of(0).b0, pins.of(0).c, pins.of(k).c)),
+            **_course(wanted, pins, theta[k], targets[k], k),
+        )
+        for k in phases[1:]
     )
+    changes = {"setting_angle": first.start, "phases": rows}
+    return [
+        (k + 1, _design(wanted, four_bar=first.model_copy(update={**changes, "phase": k + 1})))
+        for k in phases
+    ]
+
+
+def _design(wanted: AdjustablePathRequirement, **table: FourBarTable | FiveBarTable) -> SphericalParams:
     return SphericalParams(
-        kind="four-bar",
+        kind=wanted.linkage,
         radius=wanted.radius,
         speed=wanted.speed,
         least_transmission=wanted.least_transmission,
-        four_bar=table,
+        **table,
     )
 
 
-def _five_bar(
+def _degrees(angle: Array) -> float:
+    return round(math.degrees(float(angle)), DIGITS)
+
+
+def _course(
+    wanted: AdjustablePathRequirement, pins: Pins, theta: Array, targets: Array, k: int
+) -> dict[str, Any]:
+    """Start, travel and path of a four-bar's phase, from 0, as its table has them."""
+    one = pins.of(k)
+    travel = math.copysign(360.0, theta[-1]) if wanted.full_turn else math.degrees(theta[-1])
+    return {
+        "start": _degrees(azimuth(one.a0, one.b0, one.a)),
+        "travel": round(travel, DIGITS),
+        "path": tuple(_row(one) for one in targets.T),
+        "path_angles": tuple(np.degrees(theta).round(DIGITS).tolist()),
+    }
+
+
+def _four_bar(
     wanted: AdjustablePathRequirement,
     pins: Pins,
     theta: list[Array],
     targets: tuple[Array, ...],
-    other: int,
-    shown: int,
-) -> SphericalParams:
-    one, two = pins.of(0), pins.of(other)
-    angles = [np.degrees(theta[k]).round(DIGITS - 2).tolist() for k in (0, other)]
-    table = FiveBarTable(
+    k: int,
+) -> FourBarTable:
+    one = pins.of(k)
+    o, a, c, b, p = one.a0, one.a, one.b0, one.c, one.p
+    m = cross(a, b) / norm(cross(a, b))
+    arcs = {"ground": (o, c), "input": (o, a), "coupler": (a, b), "output": (c, b)}
+    return FourBarTable(
+        **{name: _degrees(arc(*ends)) for name, ends in arcs.items()},
+        branch=1 if float(dot(c, cross(a, b))) > 0 else -1,
+        point_azimuth=round(math.degrees(math.atan2(float(dot(p, cross(m, a))), float(dot(p, a)))), DIGITS),
+        point_elevation=round(math.degrees(math.asin(max(-1.0, min(1.0, float(dot(p, m)))))), DIGITS),
+        input_axis=_row(o),
+        output_towards=_row(c),
+        **_course(wanted, pins, theta[k], targets[k], k),
+    )
+
+
+def _five_bar(
+    wanted: AdjustablePathRequirement, pins: Pins, theta: list[Array], targets: tuple[Array, ...]
+) -> FiveBarTable:
+    one, two = pins.of(0), pins.of(1)
+    angles = [np.degrees(each).round(DIGITS - 2).tolist() for each in theta]
+    paths = [tuple(_row(point) for point in each.T) for each in targets]
+    return FiveBarTable(
         a0=_row(one.a0),
         a1=_row(one.a),
         a1n=_row(two.a),
@@ -84,20 +126,22 @@ def _five_bar(
         c1n=_row(two.c),
         point=_row(one.p),
         ratio=wanted.ratio,
-        phase=2 if shown == 2 else 1,
         travel=angles[0][-1],
         travel_n=angles[1][-1],
-        path=tuple(_row(point) for point in targets[0].T),
+        path=paths[0],
         path_angles=tuple(angles[0]),
-        path_n=tuple(_row(point) for point in targets[other].T),
+        path_n=paths[1],
         path_angles_n=tuple(angles[1]),
-    )
-    return SphericalParams(
-        kind="five-bar",
-        radius=wanted.radius,
-        speed=wanted.speed,
-        least_transmission=wanted.least_transmission,
-        five_bar=table,
+        phases=tuple(
+            FiveBarPhase(
+                crank_turn=_degrees(azimuth(one.a0, one.a, pins.of(k).a)),
+                rocker_turn=_degrees(azimuth(one.b1, one.c, pins.of(k).c)),
+                travel=angles[k][-1],
+                path=paths[k],
+                path_angles=tuple(angles[k]),
+            )
+            for k in range(2, len(theta))
+        ),
     )
 
 

@@ -7,6 +7,7 @@ from mechwright_spherical.drive import Train
 from mechwright_spherical.frame import shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.seats import clamped
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.vectors import arc
 
@@ -42,14 +43,17 @@ def second_size(linkage: Linkage, shells: Shells) -> dict[str, float]:
 
 
 def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
-    """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad."""
+    """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad.
+
+    Studs that are clamped are not among them.
+    """
     linkage = linkage_of(params)
     arcs = link_arcs(linkage)
     if linkage.shown.number == 2:
         arcs |= second_size(linkage, shells_of(params))
-    found = {
-        "pin-a": ("a", "crank", arcs["crank"]),
-        "pin-c": ("c", "rocker", arcs["rocker"]),
+    pins = {"a": ("a", "crank", arcs["crank"]), "c": ("c", "rocker", arcs["rocker"])}
+    found = {f"pin-{name}": pin for name, pin in pins.items() if name not in clamped(params)}
+    found |= {
         "shaft-a0": ("a0", "crank", 0.0),
         "shaft-b0": ("b0", "arm" if "arm" in arcs else "rocker", 0.0),
     }

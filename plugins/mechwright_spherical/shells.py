@@ -48,17 +48,22 @@ class Shells:
         return self.links["ground"][1]
 
 
+RISE, FLANGE = 6.0, 6.0
+"""From the ground link to a motor's flange on it, mm: room for heads of screws; and its thickness."""
+
 SHAFT_END = 2.0
 """How far shafts stick out of the ground link, mm, where they carry nothing: room for a clip."""
 
 
-def one_side(params: SphericalParams) -> Shells:
-    """The shells with the ground link outside all others."""
+def one_side(params: SphericalParams, over: float = 0.0) -> Shells:
+    """The shells with the ground link outside all others.
+
+    ``over`` is what stands over crank and rocker, mm: the heads of studs.
+    """
     hardware = params.hardware
-    order = [("coupler",), ("crank", "rocker"), ("ground",)]
-    if params.kind == "five-bar":
-        order.insert(2, ("arm",))
-    links = _stacked(params, order, params.radius + hardware.standoff)
+    links = _stacked(params, [("coupler",), ("crank", "rocker")], params.radius + hardware.standoff)
+    outer = [("arm",), ("ground",)] if params.kind == "five-bar" else [("ground",)]
+    links |= _stacked(params, outer, links["crank"][1] + hardware.gap + over)
     ground, coupler, crank = links["ground"], links["coupler"], links["crank"]
     end = ground[1] + SHAFT_END
     if params.kind == "five-bar" and params.drive.gears:

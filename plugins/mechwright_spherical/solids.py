@@ -12,7 +12,7 @@ import numpy as np
 
 from mechwright import Array, GeometryError
 from mechwright_spherical.shells import Span
-from mechwright_spherical.vectors import arc, azimuth, cross, norm, perpendicular, rotate, vector
+from mechwright_spherical.vectors import arc, azimuth, cross, dot, norm, perpendicular, rotate, vector
 
 NO_SWEEP = 1e-6
 """rad. A slot shorter than this is a bore: a ten-thousandth of a millimetre."""
@@ -62,6 +62,29 @@ def wedge(axis: Array, start: Array, sweep: float, span: Span, width: float) -> 
     """
     across = vector(cross(cross(axis, start), start))
     return _revolved(_rectangle(start, across, span, width), axis if sweep > 0 else -axis, abs(sweep))
+
+
+def stroke(axis: Array, at: Array, span: Span, across: Span, width: float) -> cq.Solid:
+    """What cuts a line of a scale: radially over ``span``, away from the axis over ``across`` from ``at``.
+
+    ``width`` is that of the line along the circle about the axis, mm.
+    """
+    side = vector(at - axis * float(dot(axis, at)))
+    outwards = vector(side - at * float(dot(at, side)))
+    angle = width / (span[1] * float(norm(cross(axis, at))))
+    first = rotate(axis, -angle / 2, at)
+    away = rotate(axis, -angle / 2, outwards)
+    corners = [
+        radius * first + out * away
+        for radius, out in (
+            (span[0], across[0]),
+            (span[1], across[0]),
+            (span[1], across[1]),
+            (span[0], across[1]),
+        )
+    ]
+    wire = cq.Wire.makePolygon([_point(corner) for corner in corners], close=True)
+    return _revolved(wire, axis, angle)
 
 
 def cylinder(direction: Array, span: Span, diameter: float) -> cq.Solid:
@@ -143,6 +166,11 @@ def fused(
         They do not hang together.
     """
     whole: cq.Shape = bodies[0].fuse(*bodies[1:]) if len(bodies) > 1 else bodies[0]
+    if not whole.isValid():
+        # Arcs of one radius that cross at a small angle are too much at a time for the kernel.
+        whole = bodies[0]
+        for body in bodies[1:]:
+            whole = whole.fuse(body)
     if within is not None:
         whole = whole.intersect(within)
     if holes:

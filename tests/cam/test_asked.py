@@ -225,7 +225,7 @@ def example(name):
     return load(EXAMPLES / f"{name}.toml", host())
 
 
-@settings(deadline=None, max_examples=examples(2, 16), suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, max_examples=examples(1, 16), suppress_health_check=[HealthCheck.too_slow])
 @given(
     place=st.sampled_from(
         [

@@ -21,12 +21,13 @@ from mechwright.contracts.turned import Step as Length
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
+from mechwright.standards.bushes import bush_for
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.couplings import coupling_for
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_guide.balloons import APART, balloons
 from mechwright_cad.assembly_guide.exploded import Boxes, exploded, lifted
-from mechwright_cad.assembly_guide.fits import matches
+from mechwright_cad.assembly_guide.fits import matches, rounds_of
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.assembly_guide.tools import fitted, screwed
@@ -273,3 +274,45 @@ def test_what_comes_from_below_is_seen_from_below_where_it_would_be_hidden():
     wide = turned("disc", Turned((Length(110.0, 10.0),)), -10.0)
     ((_, picture),) = told((plate, wide))
     assert "seen from below" not in picture
+
+
+def test_screws_of_a_column_wait_until_it_stands():
+    """Plate, pillar and foot: the upper screw is put in first and drawn tight with the lower one."""
+    rim = Loop.polygon([(-20.0, -20.0), (20.0, -20.0), (20.0, 20.0), (-20.0, 20.0)])
+    pierced = Outline(rim, (Loop((circle((0.0, 0.0), 2.75, clockwise=True),)),))
+    threads = (EndThread("lower", 5.0, 0.8, 12.0), EndThread("upper", 5.0, 0.8, 12.0))
+    pillar = turned("pillar", Turned((Length(12.0, 40.0),), threads=threads), body="still")
+    top = Part("top", pierced, 6.0, "steel", (Instance("still", 40.0),))
+    above = Part("above", None, 0.0, "steel", (Instance("still", 46.0),), bought=screw(5, 16).bought)
+    foot = Part("foot", pierced, 8.0, "steel", (Instance("still", -8.0),))
+    below = Part("below", None, 0.0, "steel", (Instance("over", 8.0),), bought=screw(5, 20).bought)
+    names = ("still", "over")
+    over = Poses(np.zeros((2, 3)), np.tile(np.diag([1.0, -1.0, -1.0]), (2, 1, 1)))
+    still = Poses.planar(0.0, 0.0, np.zeros(2))
+    joints = {name: Joint("fixed", GROUND, name) for name in names}
+    motion = Motion("t", {"t": Channel(np.zeros(2), "rad")}, {"still": still, "over": over}, joints=joints)
+    bodies = tuple(bodies_of((pillar, top, above, foot, below), motion))
+    order = Order(bodies, motion, 0)
+    plan = Plan(bodies, order.steps, motion, 0, order)
+    words = Words(plan, {part.name: k for k, part in enumerate((pillar, top, above, foot, below), start=1)})
+    said = {plan.bodies[step.moved[0]].part.name: " ".join(words.sentences(step)) for step in plan.steps}
+    first, last = sorted(("above", "below"), key=list(said).index)
+    number = list(said).index(last) + 1
+    assert f"only until its head rests: step {number} draws it tight" in said[first]
+    assert "tighten to" not in said[first]
+    assert re.search(rf"draw {first} \(\d\) tight now, crosswise: .* tighten to 5.4 N m", said[last])
+    assert "only until" not in said[last]
+
+
+def test_both_bores_of_a_coupling_are_seen_and_a_bush_is_pressed_in():
+    clamped = Part("coupling", None, 0.0, "steel", (Instance("a"),), bought=coupling_for(6, 10, 0.1).bought)
+    bores = [one for one in rounds_of(bodies_of_one(clamped), 0) if one.inside]
+    assert sorted((one.diameter, one.low, one.high) for one in bores) == [(6, 0, 15), (10, 15, 30)]
+    bush = Part("bush", None, 0.0, "brass", (Instance("a"),), bought=bush_for(12, 8).bought)
+    (outside, inside) = sorted(rounds_of(bodies_of_one(bush), 0), key=lambda one: one.inside)
+    assert (outside.fit.text, inside.fit.name) == ("16 r6 (+0.023/+0.034)", "H7")
+
+
+def bodies_of_one(part):
+    (body,) = standing(part)
+    return body

@@ -276,6 +276,7 @@ CASES = [
     pytest.param("elliptic-pair-machine", marks=by_night),
     pytest.param("geneva-machine", marks=by_night),
     pytest.param("geneva-motor", marks=by_night),
+    pytest.param("spherical-machine", marks=by_night),
     pytest.param("five-bar-published", marks=by_night),
     pytest.param("five-bar-slots", marks=by_night),
     pytest.param("five-bar-three-phases", marks=by_night),
@@ -328,6 +329,22 @@ def test_a_machine_of_the_examples_goes_together_in_an_order_that_a_mechanic_fol
     assert moved.count(["motor-pillar"] * 4) == 1
     assert {"foot", "base-plate"} <= set(moved[last("base-plate")])
     assert len(moved) <= 30
+
+
+@by_night
+@pytest.mark.parametrize(("name", "root"), [("slider-crank-machine", "base"), ("four-bar-machine", "ground")])
+def test_a_machine_on_its_own_ground_plate_goes_together_from_that_plate(name, root):
+    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
+        plan = plan_of(build)
+    assert plan.bodies[plan.order.root].part.name == root
+    moved = [[plan.bodies[k].part.name for k in step.moved] for step in plan.steps]
+
+    def last(part):
+        return max(place for place, those in enumerate(moved) if part in those)
+
+    following = [last(part) for part in ("pillar", "shaft", "coupling", "motor-plate", "leg", "base-plate")]
+    assert sorted(following) == following
+    assert met(plan.steps, plan.bodies, plan.sample) == []
 
 
 def test_copies_of_a_part_are_one_step_and_come_to_hand_in_order():

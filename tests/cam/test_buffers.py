@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 import shapely
-from by_night import NIGHT
-from hypothesis import given
+from by_night import NIGHT, examples
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import job, lobes, part
 from planning_simulation import motions
@@ -60,6 +60,7 @@ def test_islands_in_openings_stay():
     assert [len(part.interiors) for part in shapely.get_parts(found)] == [1, 0]
 
 
+@settings(max_examples=examples(30, 100))
 @given(seed=st.integers(0, 10**6), distance=st.floats(0.2, 6))
 def test_random_openings(seed, distance):
     rng = np.random.default_rng(seed)
@@ -120,6 +121,7 @@ def test_short_edges_before_a_long_one_are_no_straight_line():
     assert buffered(shape, 8.0, 90).area == pytest.approx(true.area, abs=0.05)
 
 
+@settings(max_examples=examples(30, 100))
 @given(
     points=st.sampled_from([300, 900, 2500] if NIGHT else [300, 900]),
     count=st.integers(2, 8),

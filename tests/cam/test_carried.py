@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import BY_NAME, cut_away, interpret, prove, simulated
+from by_night import by_night
 from planning_parts import LIBRARY, bore, rounded_box
 
 from mechwright.contracts.details import Chamfer
@@ -81,7 +82,7 @@ def test_both_sides_are_proven_and_no_rapid_meets_stock():
         assert seen.complaints == []
 
 
-@pytest.mark.parametrize("flip", ["x", "y"])
+@pytest.mark.parametrize("flip", ["x", pytest.param("y", marks=by_night)])
 def test_what_is_handed_on_was_cut(flip):
     first, second = made(flip)
     cut = cut_away(first.text, first.job)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 from by_control import posted, prove
+from by_night import thinned
 from golden_compensation import WAYS
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
@@ -22,23 +23,22 @@ ROUND = Loop((circle((0.0, 0.0), 10.0),))
 SQUARE = rounded_box(16, 16, 3)
 
 
-@pytest.mark.parametrize(("mill", "leave"), [("mill-4", 0.05), ("mill-8", 0.2)])
-@pytest.mark.parametrize("way", WAYS)
+RECESSES = {
+    "notch": ROUND.moved(0.0, 10.5, 0.0),  # just through the edge
+    "most": ROUND.moved(0.0, 14.0, 0.0),
+    "half": ROUND.moved(0.0, 20.0, 0.0),  # half of it
+    "corner": ROUND.moved(26.0, 16.0, 0.0),  # over a corner
+    "square": SQUARE.moved(0.0, 16.0, 0.0),
+    "turned": SQUARE.moved(0.0, 16.0, math.pi / 5),
+}
+
+
 @pytest.mark.parametrize(
-    "loop",
-    [
-        ROUND.moved(0.0, 10.5, 0.0),  # just through the edge
-        ROUND.moved(0.0, 14.0, 0.0),
-        ROUND.moved(0.0, 20.0, 0.0),  # half of it
-        ROUND.moved(26.0, 16.0, 0.0),  # over a corner
-        SQUARE.moved(0.0, 16.0, 0.0),
-        SQUARE.moved(0.0, 16.0, math.pi / 5),
-    ],
-    ids=["notch", "most", "half", "corner", "square", "turned"],
+    ("name", "way", "mill"), thinned(3, [*RECESSES], WAYS, [("mill-4", 0.05), ("mill-8", 0.2)])
 )
-def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str, leave: float) -> None:
-    recess = Pocket("recess", loop, (), 0.0, 2.0)
-    one = job(plate(machined=(recess, OUTSIDE)), mill, compensation=way, stock_to_leave=leave)
+def test_an_open_recess_is_entered_from_the_air(name: str, way: str, mill: tuple[str, float]) -> None:
+    recess = Pocket("recess", RECESSES[name], (), 0.0, 2.0)
+    one = job(plate(machined=(recess, OUTSIDE)), mill[0], compensation=way, stock_to_leave=mill[1])
     program = plan(one)
     prove(posted(one, program), one).require()
     assert "recess: finish" in {o.name for section in program.sections for o in section.operations}

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from by_control import BY_NAME, interpret, prove
+from by_night import examples
 from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -189,6 +190,7 @@ def test_a_planned_program_holds_to_grbl_s_list_of_words() -> None:
     hold_to_grbl(machine(planned_job(control="grbl"), post_of("grbl")).text)
 
 
+@settings(max_examples=examples(35, 100))
 @given(st.text(max_size=60))
 def test_no_comment_reaches_grbl_s_realtime_commands(words: str) -> None:
     program = replace(every_operation(), notes=(words,))

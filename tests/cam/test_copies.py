@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
+from by_night import examples
 from engagement import engagements
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -64,7 +65,7 @@ def test_areas_are_the_same_up_to_their_chords():
     assert same(shapely.Polygon(), shapely.Polygon())
 
 
-@settings(max_examples=3, deadline=None)
+@settings(max_examples=examples(1, 3), deadline=None)
 @given(degrees=st.floats(-180, 180))
 def test_a_turned_plan_is_as_good_as_one_of_its_own(degrees):
     area = shapely.Polygon(rounded_box(22, 16, 5).flatten())

@@ -233,7 +233,7 @@ def test_a_wear_as_large_as_the_cutter_is_refused() -> None:
     st.booleans(),
     st.sampled_from(["linuxcnc", "fanuc"]),
 )
-@settings(max_examples=examples(4, 20))
+@settings(max_examples=examples(2, 20))
 def test_random_plates_are_proven_or_refused(loop, way, mill, wear, climb, control) -> None:
     """Corners of both kinds, sharp or round, narrower than the cutter or not."""
     try:

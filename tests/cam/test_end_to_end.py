@@ -264,7 +264,7 @@ WIDE_CLAMP = {
 }
 
 
-@settings(max_examples=examples(2, 25))
+@settings(max_examples=examples(1, 25))
 @known_design(**WEDGES)
 @known_design(**WIDE_CLAMP)
 @given(parameters=DESIGNS, cam=SETTINGS)

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 import shapely
+from by_night import by_night
 from height_map import Simulation, cutters, read
 from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate, rounded_box
 from planning_simulation import keep_at
@@ -40,7 +41,13 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=list(CASES))
+LIKE = {"toothed-steel", "slotted"}
+"""Other cases have teeth, and an opening as long."""
+
+
+@pytest.fixture(
+    scope="module", params=[pytest.param(name, marks=by_night if name in LIKE else ()) for name in CASES]
+)
 def cut(request):
     of, changes = CASES[request.param]
     settings = CamSettings.model_validate(changes)

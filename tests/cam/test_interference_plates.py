@@ -249,7 +249,7 @@ def movements(draw):
     return at
 
 
-@settings(max_examples=examples(15, 40))
+@settings(max_examples=examples(8, 40))
 @given(shapes(), shapes(), movements(), movements())
 def test_random_plates_agree_with_brute_force(one, two, first, second):
     parts = [
@@ -275,7 +275,7 @@ def test_random_plates_agree_with_brute_force(one, two, first, second):
         assert shapely.distance(a, b)[0] == pytest.approx(report.closest.distance, abs=0.01)
 
 
-@settings(max_examples=examples(15, 40))
+@settings(max_examples=examples(8, 40))
 @given(shapes(), shapes(), movements(), movements())
 def test_random_plates_that_collide_are_as_deep_as_brute_force_says(one, two, first, second):
     parts = [

@@ -12,11 +12,13 @@ import sys
 import threading
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mechwright.designs.design import load
 from mechwright.errors import OutputError
 from mechwright.plugins.host import host
+from mechwright_cad.live import answers
 from mechwright_cad.live.fields import fields_of
 from mechwright_cad.live.server import bound
 from mechwright_cad.live.session import Session
@@ -125,6 +127,24 @@ def test_a_change_moves_the_mechanism(page):
     assert {one["severity"] for one in made["findings"]} == {"note"}
 
 
+def test_what_is_drawn_while_one_drags_waits_for_no_frame():
+    design = load(ROOT / "examples" / "geneva-machine.toml", host())
+    found = answers.motion(design)["scene"]
+    assert "surroundings" not in vars(design), "a frame takes seconds"
+    assert {layer["body"] for layer in found["layers"]} == {"", "driver", "wheel"}
+    lines = [
+        curve for curve in design.family.solve(design.params, 41).curves.values() if len(curve.points) > 99
+    ]
+    assert lines, "curves whose points inside are left out"
+    left, bottom, width, height = found["window"]
+    motion = design.family.solve(design.params, 41)
+    for curve in lines:
+        low, high = np.array([left, bottom]), np.array([left + width, bottom + height])
+        moved = motion.poses[curve.body].transform(curve.points)[..., :2]
+        assert (moved > low).all()
+        assert (moved < high).all()
+
+
 def test_what_is_wrong_is_told_and_the_page_goes_on(page):
     assert "eccentricity" in page.ask("motion", change={"parameters.eccentricity": 2})["error"]
     assert "no_such" in page.ask("parts", change={"parameters.no_such": 2})["error"]
@@ -161,6 +181,7 @@ def test_fields_of_every_kind_of_family(example):
         if "reach" in field:
             low, high = field["reach"]
             assert low <= field["value"] <= high, field["key"]
+            assert [low, high] == [field["low"], field["high"]] or max(-low, high) >= 10
 
 
 def test_saving_keeps_comments_and_minds_what_others_wrote(tmp_path):

@@ -4,6 +4,7 @@ import math
 
 import pytest
 from by_control import BY_NAME, interpret
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import (
@@ -122,7 +123,7 @@ AXES = st.dictionaries(
 
 
 @given(st.integers(9, LINES.index("M30")), AXES)
-@settings(max_examples=150)
+@settings(max_examples=examples(50, 150))
 def test_wherever_it_stands_the_height_decides(at: int, axes: dict[str, float]) -> None:
     before = interpret("\n".join(LINES[:at]), upper_end=RETRACT)
     z = float(before.end[-1, 2]) if len(before) else math.nan

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from mujoco_witness import Witness, follow, mujoco, torques
 
 from mechwright import GROUND, Arc, Instance, Joint, Line, Loop, Motion, Outline, Part, Poses, host
@@ -45,14 +46,14 @@ def witness_of(family, params, samples=73, sample=0):
 @pytest.mark.parametrize(
     ("family", "params"),
     [
-        design("crank-rocker-three-poles"),
+        pytest.param(*design("crank-rocker-three-poles"), marks=by_night),
         with_params(
             "crank-rocker-three-poles", branch="crossed", direction="cw", ground_angle=33.0, pivot_x=7.0
         ),
         design("double-crank"),
-        design("slider-crank-quick-return"),
+        pytest.param(*design("slider-crank-quick-return"), marks=by_night),
         with_params("slider-crank-quick-return", clockwise=True, slide_direction=-20.0),
-        design("spherical-crank-rocker"),
+        pytest.param(*design("spherical-crank-rocker"), marks=by_night),
         design("spherical-double-crank"),
         design("spherical-five-bar-refined"),
     ],

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
-from by_night import examples
+from by_night import examples, thinned
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -42,8 +42,7 @@ def names(program):
     return [o.name for s in program.sections for o in s.operations if o.name.startswith("open")]
 
 
-@pytest.mark.parametrize("name", LIMITS)
-@pytest.mark.parametrize("path", [BENT, WAVE])
+@pytest.mark.parametrize(("name", "path"), thinned(2, [*LIMITS], [BENT, WAVE]))
 def test_open_profiles_are_cut(name, path):
     of = job(opened(*LIMITS[name], path=path), "mill-6", "mill-4")
     program, _, _ = proven(of)

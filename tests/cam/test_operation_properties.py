@@ -103,5 +103,5 @@ def test_any_accuracy_and_compensation_is_proven_or_refused(operation, seed, com
 
 def test_refusals_are_rare_and_cuts_are_many() -> None:
     """The properties above would hold for a planner that refuses everything."""
-    outcomes = [run("pocket", int(seed)) for seed in np.arange(8)]
-    assert sum(bool(o.made) for o in outcomes) >= 6
+    outcomes = [run("pocket", int(seed)) for seed in np.arange(examples(4, 8))]
+    assert sum(bool(o.made) for o in outcomes) >= 0.75 * len(outcomes)

@@ -3,10 +3,11 @@
 import re
 
 import pytest
+from by_night import examples
 from random_pockets import case
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(examples(16, 40)))
 def test_a_random_pocket_is_cut_to_the_last_corner_or_refused(seed):
     found = case(seed)
     if isinstance(found, str):

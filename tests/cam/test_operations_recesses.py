@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
-from by_night import examples
+from by_night import examples, thinned
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
@@ -80,8 +80,9 @@ def proven(of):
     return program, proof
 
 
-@pytest.mark.parametrize("name", RECESSES)
-@pytest.mark.parametrize("tools", [("mill-6", "mill-3"), ("mill-10", "mill-4")])
+@pytest.mark.parametrize(
+    ("name", "tools"), thinned(2, [*RECESSES], [("mill-6", "mill-3"), ("mill-10", "mill-4")])
+)
 def test_recesses_are_cut_to_the_last_corner(name, tools):
     proven(job(recessed(*RECESSES[name]), *tools))
 
@@ -114,8 +115,10 @@ def test_a_closed_groove_keeps_its_end_walls():
 FACE = Pocket("face", box(-60, -60, 60, 60), (), 0, 0.5)
 
 
-@pytest.mark.parametrize("margin", [None, 0, 20])
-@pytest.mark.parametrize("below", [(), (Pocket("recess", rounded_box(30, 20, 5), (), 0.5, 2),)])
+@pytest.mark.parametrize(
+    ("margin", "below"),
+    thinned(2, [None, 0, 20], [(), (Pocket("recess", rounded_box(30, 20, 5), (), 0.5, 2),)]),
+)
 def test_a_recess_over_the_whole_part_faces_it(margin, below):
     held = {"method": "bore", "clamp_diameter": 5} if margin == 0 else {}
     features = (FACE, *below, Bore("bore", (0.0, 0.0), 8.0, 0.0, 6.0))

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from by_control import BY_NAME, interpret
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -87,7 +88,7 @@ SAFE = "G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 X1 F200\n"
 arcs = st.sampled_from(["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0", "G3 X2 Y0 I1", "X0 Y0"])
 
 
-@settings(max_examples=200)
+@settings(max_examples=examples(70, 200))
 @given(
     st.sampled_from(["", SAFE]),
     st.lists(st.one_of(lines(), arcs), max_size=14),

@@ -1,4 +1,5 @@
 import pytest
+from by_night import by_night
 from planning_parts import LIBRARY, bore, job, keyed_bore, lobes, part, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover, motions
 
@@ -50,7 +51,7 @@ def heights(program, operation):
         job(plate(rounded_box(24, 14, 4, clockwise=True)), *TOOLS),
         job(plate(rounded_box(24, 14, 4, clockwise=True)), "mill-10", "mill-3", climb=False),
         job(plate(keyed_bore(14, 5, 16.3)), *TOOLS, "mill-2"),
-        job(part(GEARED, bore(8)), *TOOLS, "mill-2"),
+        pytest.param(job(part(GEARED, bore(8)), *TOOLS, "mill-2"), marks=by_night),
         job(part(GEARED, bore(8)), "mill-6", "mill-2", stock_to_leave=0, hold=SMALL),
         job(part(GEARED, bore(8)), "mill-3", hold=SMALL, stock={"margin": 1}),
         job(plate(bore(3, (10, 5)), bore(3, (-10, 5)), bore(20, (0, -4))), "drill-2.5", *TOOLS, "mill-2"),

@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
@@ -175,7 +176,7 @@ def spoilt(draw: st.DrawFn) -> str:
 
 
 @given(spoilt())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(20, 60), deadline=None)
 def test_a_spoilt_program_is_judged_and_never_crashes_the_proof(text: str) -> None:
     try:
         proof = prove(text, plate_job())

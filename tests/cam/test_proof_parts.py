@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import interpret
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import DRILL, MILL, TOOLS, plate_job
@@ -90,7 +91,7 @@ def cuts(draw: st.DrawFn) -> str:
 
 
 @given(text=cuts(), centre=st.tuples(coordinate, coordinate), size=st.floats(0.5, 8), top=height)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(50, 150), deadline=None)
 def test_gouges_agree_with_brute_force(
     text: str, centre: tuple[float, float], size: float, top: float
 ) -> None:

@@ -31,7 +31,7 @@ def test_kept_programs(control: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "control", [pytest.param(one, marks=by_night if one == "linuxcnc" else ()) for one in CONTROLS]
+    "control", [pytest.param(one, marks=() if one in {"fanuc", "grbl"} else by_night) for one in CONTROLS]
 )
 def test_every_operation(control: str) -> None:
     programs = [one.program for operation in CASES for one in made(operation, control)]

@@ -192,7 +192,7 @@ def test_tab_sites_without_room_for_slopes_are_refused():
 
 
 @settings(
-    max_examples=examples(2, 8),
+    max_examples=examples(1, 8),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],

@@ -5,6 +5,7 @@ import math
 import pytest
 import shapely
 from by_control import posted, prove
+from by_night import thinned
 from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Chamfer, Engraving
@@ -57,9 +58,11 @@ class TestFloorsWithFillets:
             plan(laid(bar, tools=("bull-6-r1", "mill-3")))
         proven(laid(bar, tools=("bull-6-r1",)))
 
-    @pytest.mark.parametrize("side", ["on", "left"])
-    @pytest.mark.parametrize(("width", "radius"), [(6.0, 1.0), (6.0, 3.0), (8.0, 1.0), (12.0, 3.0)])
-    def test_grooves_on_a_path_have_them_too(self, side, width, radius):
+    @pytest.mark.parametrize(
+        ("side", "size"), thinned(2, ["on", "left"], [(6.0, 1.0), (6.0, 3.0), (12.0, 3.0), (8.0, 1.0)])
+    )
+    def test_grooves_on_a_path_have_them_too(self, side, size):
+        width, radius = size
         path = (Line((-15.0, 0.0), (15.0, 0.0)),)
         strip = OpenProfile("strip", 0.0, 4.0, path=path, side=side, width=width, floor_radius=radius)
         program = proven(laid(strip))
@@ -96,8 +99,7 @@ class TestDetails:
 
 
 class TestOpenRecesses:
-    @pytest.mark.parametrize("turned", [0.0, 10.0, 28.0, 45.0, 70.0])
-    @pytest.mark.parametrize("edge", [0.0, 5.0, 9.0])
+    @pytest.mark.parametrize(("edge", "turned"), thinned(3, [0.0, 5.0, 9.0], [0.0, 10.0, 28.0, 45.0, 70.0]))
     def test_over_a_straight_edge_at_any_angle(self, edge, turned):
         """Of plate and recess a skin may stay across the mouth that is no wall, as thin as rounding."""
         rim = Loop.polygon([(-25, -edge), (25, -edge), (25, 30), (-25, 30)]).moved(0, 0, math.radians(turned))

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from by_control import interpret
+from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
@@ -127,7 +128,7 @@ def programs(draw: st.DrawFn) -> str:
 
 
 @given(text=programs(), inches=st.booleans())
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(20, 60), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_random_programs_are_read_alike(text: str, inches: bool) -> None:
     with tempfile.TemporaryDirectory() as folder:
         units = "G20\n" if inches else "G21\n"

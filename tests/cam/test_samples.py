@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from by_control import interpret
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
@@ -110,7 +111,7 @@ def contours(draw: st.DrawFn) -> str:
 
 
 @given(contours())
-@settings(max_examples=25)
+@settings(max_examples=examples(8, 25))
 def test_random_compensated_contours_are_read_alike(text: str) -> None:
     try:
         run = read(text)

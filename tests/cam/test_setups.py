@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import BY_NAME, interpret, prove, setup_html, steps
-from by_night import by_night, examples
+from by_night import by_night, examples, thinned
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
@@ -210,12 +210,10 @@ def test_a_part_without_a_bore_cannot_be_picked_up_by_it() -> None:
 STEP_BELOW = OpenProfile("step", 5.0, 3.0, path=(Line((-40.0, 12.0), (40.0, 12.0)),), side="left", width=12.0)
 
 
-@pytest.mark.parametrize("tabs", [2, 3, 4, 7])
-@pytest.mark.parametrize(
-    "feature",
-    [Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0), STEP_BELOW],
-    ids=["groove", "step"],
-)
+GROOVE_BELOW = Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0)
+
+
+@pytest.mark.parametrize(("feature", "tabs"), thinned(2, [GROOVE_BELOW, STEP_BELOW], [2, 3, 4, 7]))
 def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
     first, second = both(part(feature), hold={"tabs": tabs})
     assert len(first.job.tabs) == tabs
@@ -234,9 +232,9 @@ OVER_THE_RIM = {
 }
 
 
-@pytest.mark.parametrize("locate", ["dowels", "edges"])
-@pytest.mark.parametrize("feature", OVER_THE_RIM.values(), ids=OVER_THE_RIM)
-def test_a_recess_over_the_rim_is_open_into_the_frame(feature, locate) -> None:
+@pytest.mark.parametrize(("name", "locate"), thinned(2, [*OVER_THE_RIM], ["dowels", "edges"]))
+def test_a_recess_over_the_rim_is_open_into_the_frame(name, locate) -> None:
+    feature = OVER_THE_RIM[name]
     wanted = CamSettings.model_validate({"second_side": {"locate": locate, "flip": "y"}})
     jobs, found = lay_out_setups(part(feature), wanted, LIBRARY)
     # No corner of it is one: those drawn out in the frame are no walls, and no fine mill is taken for them.

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
-from by_night import NIGHT, by_night
+from by_night import NIGHT, by_night, thinned
 from height_map import read
 from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
 
@@ -34,8 +34,10 @@ BALL = like("ball-6", name="ball-4", number=154, diameter=4, flute_length=16)
 MORE = LIBRARY.extended((FINE,))
 
 
-@pytest.mark.parametrize("tools", [("bull-6-r1",), ("ball-6",), ("mill-16", "bull-6-r1")], ids="-".join)
-@pytest.mark.parametrize("depth", DEPTHS if NIGHT else DEPTHS[::3])
+@pytest.mark.parametrize(
+    ("depth", "tools"),
+    thinned(2, DEPTHS if NIGHT else DEPTHS[::3], [("bull-6-r1",), ("ball-6",), ("mill-16", "bull-6-r1")]),
+)
 def test_the_mouth_of_a_shallow_recess_is_to_size(depth: float, tools: tuple[str, ...]) -> None:
     """At the top of the wall the mill is √(c² - (c - t)²) wide beyond its flat, and so near it goes."""
     job = laid(Pocket("recess", SQUARE, (), 0.0, depth), OUTSIDE, tools=tools)

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from by_night import examples
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.tolerances import TOLERANCES
@@ -19,6 +20,7 @@ def wedge(half_angle: float) -> shapely.Polygon:
     return shapely.Polygon([(0, 0), (width, 60), (90, 60), (90, -9), (-90, -9), (-90, 60), (-width, 60)])
 
 
+@settings(max_examples=examples(40, 100))
 @given(half_angle=st.floats(math.radians(5), math.radians(50)), radius=st.floats(1, 5))
 def test_the_path_ends_as_near_as_a_straight_move_may(half_angle: float, radius: float) -> None:
     keep = wedge(half_angle)

@@ -4,6 +4,7 @@ import math
 
 import pytest
 import shapely
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -30,7 +31,7 @@ def names(part):
     return [detail.name for detail in part.details]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(15, 40))
 @given(
     length=st.floats(30, 120),
     one=st.floats(5, 12),

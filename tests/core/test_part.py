@@ -58,5 +58,7 @@ def test_names_that_can(name):
 def test_materials_are_looked_up_by_name():
     assert material("steel").density == 7.85
     assert all(name == item.name for name, item in MATERIALS.items())
-    with pytest.raises(DesignError, match="'wood' is not known; one of: aluminium, brass, pom, steel"):
+    with pytest.raises(
+        DesignError, match="'wood' is not known; one of: aluminium, brass, polycarbonate, pom, steel"
+    ):
         material("wood")

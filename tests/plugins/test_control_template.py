@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from by_night import by_night
 from templates import EXAMPLES, answer, copied, installed_into, passed, run
 
 ASK = """
@@ -51,6 +52,7 @@ def test_the_control_is_one_file_and_a_registration(copy):
     assert {path.name for path in (copy / "src").rglob("*.py")} == {"__init__.py", "control.py", "plugin.py"}
 
 
+@by_night
 def test_its_own_tests_pass(installed, copy):
     # The contract alone brings more than twenty tests; fewer would mean that it was not collected.
     assert passed(installed, copy) > 25

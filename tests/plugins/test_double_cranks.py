@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_night import by_night
+from by_night import by_night, examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from tolerance_models import assert_exact
@@ -127,7 +127,7 @@ def drag_links(draw):
     return dict(zip(("crank", "coupler", "follower", "ground"), bar.lengths, strict=True))
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(4, 10), deadline=None)
 @given(drag_links(), st.sampled_from(["open", "crossed"]))
 def test_any_drag_link_its_mirror_and_its_inverse_have_layers(lengths, branch):
     other = "crossed" if branch == "open" else "open"

@@ -2,10 +2,12 @@
 
 import subprocess
 import sys
+from functools import cache
 
 import numpy as np
 import pytest
 import shapely
+from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
@@ -168,9 +170,19 @@ def results(params):
     )
 
 
+@cache
+def start_of_a_pair():
+    return results(Params(**KEYED))
+
+
+@cache
+def start_of_a_train():
+    return results(Params(**TRAIN))
+
+
 @pytest.mark.parametrize("name", [*PERTURBED, "module"])
 def test_every_parameter_changes_a_result(name):
-    base = results(Params(**KEYED))
+    base = start_of_a_pair()
     other = KEYED | ({"module": 3.0} if name == "module" else {name: PERTURBED[name]})
     assert base != results(Params(**other))
     assert base == results(Params(**KEYED))
@@ -178,7 +190,7 @@ def test_every_parameter_changes_a_result(name):
 
 @pytest.mark.parametrize("name", TRAIN_PERTURBED)
 def test_every_parameter_of_a_train_changes_a_result(name):
-    base = results(Params(**TRAIN))
+    base = start_of_a_train()
     assert base != results(Params(**TRAIN | {name: TRAIN_PERTURBED[name]}))
     with pytest.raises(ValidationError, match=f"{name} belongs to a train"):
         Params(**{name: TRAIN_PERTURBED[name]})
@@ -255,7 +267,9 @@ designs = st.fixed_dictionaries(
 
 
 @settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much]
+    max_examples=examples(20, 60),
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
 )
 @given(designs)
 def test_random_designs_are_built_or_refused(table):

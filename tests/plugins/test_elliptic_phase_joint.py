@@ -209,7 +209,8 @@ def test_a_collision_at_another_phase_is_an_error_that_says_which():
                 for part in super().parts(params)
             ]
 
-    first, *found = errors(found_of(VARIABLE, Lifted()))
+    few = VARIABLE.model_copy(update={"phases": (45.0, 90.0, 135.0)})
+    first, *found = errors(found_of(few, Lifted()))
     assert str(first) == "error [gear.made-up] phase: set to phase = 45 deg: gear 3 is gone; none"
     assert found
     assert {one.code for one in found} == {"interference.collision"}

@@ -175,7 +175,10 @@ def uncut(diameter):
     """Deepest remainder of an end mill in the fillets."""
     target = outline_of(REFERENCE).polygon(1e-5)
     left = target.buffer(diameter / 2, quad_segs=64).buffer(-diameter / 2, quad_segs=64).difference(target)
-    return float(shapely.distance(target, shapely.points(shapely.get_coordinates(left))).max())
+    edge = shapely.get_coordinates(target.exterior)
+    edges = shapely.STRtree(shapely.linestrings(np.stack((edge[:-1], edge[1:]), axis=1)))
+    _, away = edges.query_nearest(shapely.points(shapely.get_coordinates(left)), return_distance=True)
+    return float(away.max())
 
 
 CASES = {

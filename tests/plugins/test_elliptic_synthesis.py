@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from by_night import by_night
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
@@ -49,7 +50,7 @@ def test_the_longest_window_beats_the_published_one_and_can_be_built():
     assert done[-1] == 1
 
 
-@pytest.mark.parametrize("seed", [2, 3])
+@pytest.mark.parametrize("seed", [2, pytest.param(3, marks=by_night)])
 def test_other_seeds_find_it_too(seed):
     result, _ = synthesis("longest-window", designs=1, seed=seed)
     assert point_window(result.candidates[0].params).length >= 3.169

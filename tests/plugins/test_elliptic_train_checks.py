@@ -121,7 +121,7 @@ def test_a_band_without_a_width_is_refused_with_what_works(band):
 
 @pytest.mark.parametrize("name", TRAIN_ONLY)
 def test_fields_of_trains_are_refused_in_a_pair(name):
-    value = {"phase_joint": "pins", "phases": (20.0,), "clamp_screws": 4}.get(name, 10.0)
+    value = {"phase_joint": "pins", "phases": (20.0,), "clamp_screws": 4, "bushes": True}.get(name, 10.0)
     with pytest.raises(ValidationError, match=f"{name} belongs to a train"):
         Params(**{name: value})
 

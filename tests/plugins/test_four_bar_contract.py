@@ -5,13 +5,18 @@ from typing import ClassVar
 
 import pytest
 from by_night import examples
+from day_contract import DayContract
 
-from mechwright.testing import FamilyContract
 from mechwright_four_bar.family import FourBars
 
 
-class TestFourBars(FamilyContract):
+class TestFourBars(DayContract):
     family = FourBars
+    night: ClassVar = {
+        # A lever or an accelerating crank moves the plates of a crank-rocker, and the last has all its plates.
+        "test_programs_are_proven": {0, 2, 3, 4},
+        "test_no_interference": {0, 3, 4},
+    }
     max_frames = examples(2, 50)
     examples = (
         {},

@@ -3,9 +3,11 @@
 import csv
 import io
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
+import shapely
 from by_night import by_night
 from typer.testing import CliRunner
 
@@ -13,6 +15,7 @@ from mechwright import host
 from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import design_of
+from mechwright.machine.frame.guard import heights
 from mechwright.machine.frame.sweep import space_of
 from mechwright.remedies import tried
 from mechwright.testing import commands
@@ -90,9 +93,14 @@ def test_a_design_without_a_frame_is_as_its_family_gives_it():
     [
         ("crank-rocker-three-poles", {}, "frame.own-ground", "no bearing plates go around it"),
         ("double-crank", {}, "frame.mounting", "the links stand between two ground plates"),
-        ("slider-crank-quick-return", {}, "frame.mounting", "the family slider-crank does not say where"),
-        ("spherical-crank-rocker", {}, "frame.mounting", "the family spherical"),
-        ("figure-eight-train", {}, "frame.mounting", "a train stands on its own base plate"),
+        ("slider-crank-quick-return", {}, "frame.mounting", "the base has no holes for the screws of legs"),
+        ("spherical-crank-rocker", {}, "frame.mounting", "the ground link has no flange for a motor"),
+        (
+            "figure-eight-train",
+            {},
+            "frame.mounting",
+            "the base plate of a train is fixed by screws under its gears",
+        ),
         ("elliptic-pair", {"bore": 0}, "frame.mounting", "gears without a bore have no shafts"),
         ("geneva-prototype", {}, "frame.in-the-way", "passes the axis of spindle wheel at 8.81 mm"),
     ],
@@ -111,6 +119,7 @@ def test_what_has_no_frame_is_refused_by_name(name, parameters, code, words):
     [
         ("elliptic-pair", {"bore": 4}, {}, {"parameters.bore": 5}),
         ("elliptic-pair", {"bore": 5}, {"frame": "base", "motor": "auto"}, {"parameters.bore": 8}),
+        ("elliptic-pair", {}, {"frame": "plate"}, {"machine.frame": "plates"}),
         ("elliptic-pair", {"bore": 5}, {"bearing": "618"}, {"machine.bearing": "auto"}),
         ("geneva-prototype", {}, {}, {"parameters.axial_gap": 1.1}),
     ],
@@ -123,3 +132,45 @@ def test_what_a_refusal_advises_has_been_tried(name, parameters, machine, fix):
     for one in fixes:
         assert one == fix
         assert errors(found.changed(one).check()) == []
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_guard_leaves_no_way_for_a_finger_and_is_clear_of_all_that_moves(name):
+    found = design(name, {"frame": "plates", "guard": True})
+    assert errors(found.check()) == []
+    (around,) = found.surroundings
+    motion, parts = found.solve(121), {part.name: part for part in around.parts}
+    rings = [part for part in around.parts if part.name.startswith("guard-")]
+    assert {part.material for part in rings} == {"polycarbonate"}
+    lower, upper = (
+        next(part.instances[0] for part in around.parts if part.name == f"{which}-plate")
+        for which in ("lower", "upper")
+    )
+    floor, top = lower.z + parts["lower-plate"].thickness, -upper.z - parts["upper-plate"].thickness
+    stack = sorted((at.z, at.z + part.thickness) for part in rings for at in part.instances)
+    assert stack[0][0] == pytest.approx(floor)
+    assert all(one[1] == pytest.approx(two[0]) for one, two in pairwise(stack))
+    assert 0.2 <= top - stack[-1][1] <= 4.0
+    moving = space_of(found.family.parts(found.params), motion).region
+    pillars = space_of([parts["pillar"], parts["plain-pillar"]], motion).pieces
+    for part in rings:
+        rim = shapely.Polygon(part.outline.outer.flatten())
+        holes = [shapely.Polygon(loop.flatten()) for loop in part.outline.inner]
+        *small, window = sorted(holes, key=lambda hole: hole.area)
+        assert len(small) == 4
+        assert window.contains(moving)
+        assert window.exterior.distance(moving) > 2.9
+        assert min(one.distance(window) for one in small) >= 3.9
+        for piece in pillars:
+            assert any(one.contains(piece.region) for one in small)
+        plate = shapely.Polygon(parts["lower-plate"].outline.outer.flatten())
+        assert rim.symmetric_difference(plate).area < 1e-6
+
+
+@pytest.mark.parametrize("height", [6.2, 7.9, 13, 20.4, 31, 47.3, 90])
+def test_rings_of_a_guard_fill_a_height_up_to_a_slot(height):
+    found = heights(height)
+    assert 0.2 <= height - sum(found) <= 2.3
+    assert all(6 <= one <= 12 for one in found)
+    assert max(found) - min(found) <= 2
+    assert len(found) == -(-sum(found) // 12)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from as_made_builds import example, facts
+from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright_geneva.as_made import Made, as_made
@@ -74,7 +75,7 @@ def test_walls_that_keep_stock_take_just_that_from_the_play():
         assert behind == pytest.approx(expected, rel=2e-3)
 
 
-@pytest.mark.parametrize("name", ["geneva-straight", "geneva-cycloidal"])
+@pytest.mark.parametrize("name", [pytest.param("geneva-straight", marks=by_night), "geneva-cycloidal"])
 def test_the_examples_run_as_made(name):
     _, said, params = example(name)
     assert not said.findings

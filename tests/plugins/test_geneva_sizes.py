@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from by_night import examples, thinned
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -34,8 +35,7 @@ def check(**table):
     return GENEVA.check(GenevaParams(**table))
 
 
-@pytest.mark.parametrize("law", [*LAWS, "straight"])
-@pytest.mark.parametrize("slots", SLOTS)
+@pytest.mark.parametrize(("slots", "law"), thinned(2, [*SLOTS], [*LAWS, "straight"]))
 def test_slots_and_law_are_enough(slots, law):
     """Parts without an error, slots for a roller that is sold, a driver with a shaft."""
     params = GenevaParams(slots=slots, law=law)
@@ -113,7 +113,7 @@ def test_a_wheel_of_any_size_is_kept_inside_the_published_bounds(slots, law, rad
 
 
 @given(st.integers(3, 12), st.sampled_from([*LAWS]), st.floats(45, 600))
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(8, 25))
 def test_a_centre_distance_is_kept(slots, law, axes):
     params = GenevaParams(slots=slots, law=law, centre_distance=axes, load_inertia=0)
     assert errors(GENEVA.check(params), Stage.PARTS) == []
@@ -134,7 +134,7 @@ def test_a_centre_distance_is_kept(slots, law, axes):
         },
     ),
 )
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(15, 40))
 def test_what_is_given_is_kept_or_refused_by_its_name_with_what_works(slots, law, table):
     params = GenevaParams(slots=slots, law=law, **table)
     if not set(table) - {"crank_half_angle"} or "roller_radius" not in table:

@@ -130,7 +130,7 @@ def clean_designs(draw):
     return slots, law, half, offset, radius
 
 
-@settings(deadline=None, max_examples=examples(15, 120))
+@settings(deadline=None, max_examples=examples(8, 120))
 @given(clean_designs())
 def test_no_wall_comes_nearer_to_the_way_than_the_roller(design):
     """The distance of every wall point from the whole centre line is r."""

@@ -22,18 +22,20 @@ from mechwright.machine.frame.sweep import space_of
 from mechwright.remedies import tried
 from mechwright.testing import commands
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "four-bar-machine.toml"
+EXAMPLES = Path(__file__).parents[2] / "examples"
+FOUR, FIVE, EIGHT = "four-bar-machine", "five-bar-machine", "figure-eight-machine"
 
 
-def content(machine=None, **parameters):
-    found = tomllib.loads(EXAMPLE.read_text())
+def content(machine=None, example=FOUR, **parameters):
+    found = tomllib.loads((EXAMPLES / f"{example}.toml").read_text())
     found["parameters"] |= parameters
     found["machine"] |= machine or {}
+    found["parameters"] = {key: value for key, value in found["parameters"].items() if value is not None}
     return found
 
 
-def design(machine=None, **parameters):
-    return design_of(content(machine, **parameters), Path("ground.toml"), "", host())
+def design(machine=None, example=FOUR, **parameters):
+    return design_of(content(machine, example, **parameters), Path("ground.toml"), "", host())
 
 
 def heights(found):
@@ -50,8 +52,9 @@ def heights(found):
     }
 
 
-def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next():
-    found = design()
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next(example):
+    found = design(example=example)
     assert errors(found.check()) == []
     at, ground = heights(found), found.family.mounting(found.params)
     tower = [
@@ -65,7 +68,7 @@ def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next():
     assert at["motor-plate"][1] - at["motor-plate"][0] == PLATE
     # The shaft ends in the middle of its coupling, and below the motor there is room for its cable.
     assert sum(at["coupling"]) / 2 == pytest.approx(ground.end)
-    assert at["coupling"][1] < ground.low
+    assert at["coupling"][1] < ground.bare <= ground.low
     assert at["motor"][0] - at["base-plate"][1] == pytest.approx(UNDER)
 
 
@@ -97,36 +100,97 @@ def test_columns_stand_under_the_holes_wherever_the_ground_plate_lies(turn):
         assert piece.region.distance(heads) > 4.25 + 2.9
 
 
-def test_no_plate_meets_another(tmp_path):
-    assert commands.collisions(content(), tmp_path, solids=False) == []
+@pytest.mark.parametrize("example", [FIVE, EIGHT])
+def test_one_plate_has_the_motor_behind_it_and_nothing_below(example):
+    found = design({"frame": "plate"}, example=example)
+    assert errors(found.check()) == []
+    at, ground = heights(found), found.family.mounting(found.params)
+    assert not {"leg", "base-plate", "foot"} & set(at)
+    assert at["pillar"] == pytest.approx((at["motor-plate"][1], ground.low))
+    (pillar,) = [part for part in found.surroundings[0].parts if part.name == "pillar"]
+    space = at["pillar"][1] - at["pillar"][0]
+    assert sum(thread.depth for thread in pillar.turned.threads) < space
+    screws = [part for part in found.surroundings[0].parts if part.name.startswith("screw-m5")]
+    assert sum(len(part.instances) for part in screws) == 8
+
+
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+def test_no_plate_meets_another(example, tmp_path):
+    assert commands.collisions(content(example=example), tmp_path, solids=False) == []
+
+
+def test_a_key_reaches_the_screws_of_the_gears_clamp_through_the_motors_plate():
+    found = design(example=FIVE)
+    ground, motion = found.family.mounting(found.params), found.solve(121)
+    ((at, radius),) = ground.access
+    (plate,) = [part for part in found.surroundings[0].parts if part.name == "motor-plate"]
+    holes = [shapely.Polygon(loop.flatten()) for loop in plate.outline.inner]
+    (way,) = [hole for hole in holes if hole.contains(shapely.Point(at))]
+    assert way.area == pytest.approx(math.pi * radius**2, rel=1e-3)
+    upright = [part for part in found.surroundings[0].parts if not part.name.startswith("screw")]
+    space = space_of([*found.family.parts(found.params), *upright], motion)
+    screws = [piece for piece in space.pieces if piece.part == "hub-screw"]
+    assert len(screws) == 2
+    for piece in screws:
+        assert way.contains(piece.region)
+        assert not [
+            other.part
+            for other in space.between(-1e9, piece.low)
+            if other.region.intersects(way) and other.part not in {"motor-plate", "base-plate"}
+        ]
+
+
+def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate():
+    found = design(example=FIVE)
+    motion = found.solve(121)
+    pieces = space_of(found.family.parts(found.params), motion).pieces
+    gears = [piece for piece in pieces if piece.high <= found.family.mounting(found.params).low]
+    pillars = [part for part in found.surroundings[0].parts if part.name == "pillar"]
+    assert {"pinion", "idler", "wheel", "hub-screw"} <= {piece.part for piece in gears}
+    for one in space_of(pillars, motion).pieces:
+        assert all(piece.region.distance(one.region) > 2.9 for piece in gears)
+    top = heights(found)["motor-plate"][1]
+    assert all(piece.low >= top + 2.0 for piece in gears if piece.body != "crank")
 
 
 @pytest.mark.parametrize(
     ("machine", "parameters", "code", "fix"),
     [
-        ({}, {"screw_offset": None}, "frame.ground-offset", {"parameters.screw_offset": 83}),
+        ({}, {"example": FIVE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
+        ({}, {"example": FIVE, "post_offset": 0}, "frame.ground-offset", {"parameters.post_offset": 29}),
+        ({}, {"example": EIGHT, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
+        ({}, {"example": EIGHT, "screw_offset": 75}, "frame.ground-offset", {"parameters.screw_offset": 82}),
+        ({}, {"example": EIGHT, "stub_length": 10}, "frame.coupling", {"parameters.stub_length": 16}),
+        ({}, {"example": EIGHT, "stub_diameter": None}, "frame.coupling", {"parameters.stub_diameter": 10}),
+        (
+            {"load": 0.4},
+            {"pin_diameter": 5, "screw_hole": 6},
+            "frame.coupling",
+            {"parameters.pin_diameter": 6},
+        ),
+        ({}, {"screw_offset": None}, "frame.ground-offset", {"parameters.screw_offset": 42}),
         ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
         ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
+        ({"frame": "plate", "motor": "none"}, {}, "frame.one-plate", {"machine.motor": "auto"}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
+        ({"guard": True}, {}, "frame.own-ground", {"machine.guard": False}),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),
         ({"plate_thickness": 12.0}, {}, "frame.own-ground", {"machine.plate_thickness": None}),
     ],
 )
 def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, parameters, code, fix):
-    table = content(machine, **parameters)
-    table["parameters"] = {key: value for key, value in table["parameters"].items() if value is not None}
-    found = design_of(table, Path("ground.toml"), "", host())
+    found = design(machine, **parameters)
     (one,) = [told for told in tried(found, found.check()) if told.severity is Severity.ERROR]
     assert (one.code, one.fix) == (code, fix)
     assert errors(found.changed(fix).check()) == []
 
 
 def test_the_offset_that_is_advised_is_the_least_that_works():
-    assert errors(design(screw_offset=83).check()) == []
-    (fault,) = errors(design(screw_offset=82).check())
-    assert fault.proposed == ({"parameters.screw_offset": 83},)
+    assert errors(design(screw_offset=42).check()) == []
+    (fault,) = errors(design(screw_offset=41).check())
+    assert fault.proposed == ({"parameters.screw_offset": 42},)
 
 
 @by_night
@@ -135,8 +199,9 @@ def test_heads_are_clear_in_the_other_phases_too():
     asked = {}
     for phases in (0, 1):
         for phase in range(1, 2 + phases):
-            table = content({"motor": "none", "axial_gap": 4}, coupler_point_x=40, coupler_point_y=70)
-            del table["parameters"]["screw_offset"]
+            table = content(
+                {"motor": "none", "axial_gap": 4}, coupler_point_x=40, coupler_point_y=70, screw_offset=None
+            )
             if phases:
                 table["parameters"] |= {"setting_angle": 70, "phases": [{"crank_turn": -40}], "phase": phase}
             found = design_of(table, Path("phases.toml"), "", host())
@@ -145,15 +210,26 @@ def test_heads_are_clear_in_the_other_phases_too():
     assert asked[1, 1] == asked[1, 2] > asked[0, 1]
 
 
+@pytest.mark.parametrize(("example", "bodies"), [(FOUR, 50), (FIVE, 67), (EIGHT, 61)])
 @by_night
-def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(tmp_path):
+def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, bodies, tmp_path):
     import cadquery as cq
 
     folder = tmp_path / "out"
-    done = CliRunner().invoke(make_app(), ["build", str(EXAMPLE), "-o", str(folder)])
+    file = str(EXAMPLES / f"{example}.toml")
+    done = CliRunner().invoke(make_app(), ["build", file, "-o", str(folder)])
     assert done.exit_code == 0, done.output
     rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
     count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
-    assert len(solids) == count == 50
-    assert all((folder / f"{plate}.nc").exists() for plate in ("ground", "motor-plate", "base-plate"))
+    assert len(solids) == count == bodies
+    assert all((folder / f"{plate}.nc").exists() for plate in ("motor-plate", "base-plate"))
+
+
+def test_a_key_of_a_length_that_nobody_sells_keeps_no_train_from_its_frame():
+    found = design({"motor": "none"}, example=EIGHT, thickness=13, bushes=None)
+    (key,) = [part for part in found.family.parts(found.params) if part.name == "key"]
+    assert key.bought is None
+    (piece,) = space_of([key], found.solve(121)).pieces
+    assert piece.high - piece.low == pytest.approx(13)
+    assert errors(found.check()) == []

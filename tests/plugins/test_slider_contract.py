@@ -3,13 +3,19 @@
 from typing import ClassVar
 
 from by_night import examples
+from day_contract import DayContract
 
-from mechwright.testing import FamilyContract
 from mechwright_slider_crank.family import SliderCrankFamily
 
 
-class TestSliderCrank(FamilyContract):
+class TestSliderCrank(DayContract):
     family = SliderCrankFamily
+    night: ClassVar = {
+        # The plates of the defaults are machined from an example.
+        "test_programs_are_proven": {0, 2, 3},
+        # An accelerating crank goes the way of a steady one.
+        "test_no_interference": {3},
+    }
     max_frames = examples(2, 50)
     examples = (
         {},
@@ -24,6 +30,7 @@ class TestSliderCrank(FamilyContract):
         },
         {"swing_from": 10, "swing_to": 100},
         {"acceleration_ratio": 0.1, "speed": 30},
+        {"screw_hole": 6, "screw_offset": 60, "shaft": 8},
     )
     refused = (
         ({"rod": 40.01}, "rod"),

@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from by_night import thinned
 
 from mechwright.testing.commands import run
 from mechwright_slider_crank.__main__ import main
@@ -84,7 +85,9 @@ def test_lengths_without_a_locus_are_one_line(arguments, words, capsys):
 EXAMPLES = sorted((ROOT / "examples").glob("slider-crank-*.toml"))
 
 
-@pytest.mark.parametrize("path", [p for p in EXAMPLES if "requirement" not in p.name], ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path", thinned(2, [p for p in EXAMPLES if "requirement" not in p.name]), ids=lambda p: p.stem
+)
 def test_examples_are_machined_without_a_warning(path, tmp_path):
     done = run("cam", path, "-o", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")

@@ -78,8 +78,20 @@ CASES = [
     ("spherical.centre", {**four(ground=20, input=60, coupler=50, output=70), "radius": 25}, "radius"),
     (
         "spherical.slot",
-        {"five_bar": {"a1n": [0.766, 0.643], "c1n": [0.891, -0.039], "travel_n": -1}},
+        {"five_bar": {"a1n": [0.766, 0.643], "c1n": [0.8, 0.8], "travel_n": -1}},
         "five_bar.c1n",
+    ),
+    (
+        "spherical.slot",
+        {**four(ground=20, input=60, coupler=50, output=70, setting_angle=50, phases=[{"crank_turn": 5}])},
+        "four_bar.phases",
+    ),
+    ("spherical.clamp", {"hardware": {"pin_diameter": 4}}, "hardware.pin_diameter"),
+    ("spherical.clamp", {"hardware": {"standoff": 3}}, "hardware.standoff"),
+    (
+        "spherical.setting",
+        four(ground=60, input=80, coupler=30, output=40, setting_angle=180, phases=[{"crank_turn": 5}]),
+        "four_bar.setting_angle",
     ),
     ("spherical.drive", {"drive": {"idler": 1, "share": 0.5}}, "drive.idler"),
     ("spherical.drive", {"drive": {"share": 0.2, "idler": 10}}, "drive.share"),
@@ -115,14 +127,15 @@ def test_finding(code, table, parameter):
     assert parameter in {one.parameter for one in grave}
     for one in grave:
         assert one.value is not None
-        assert one.limit is not None
+        assert one.limit is not None or code == "spherical.setting"
         assert one.remedy
 
 
 def test_every_error_and_warning_is_caused_above():
     folder = Path(findings.__wrapped__.__code__.co_filename).parent
     text = "".join(
-        (folder / f"{name}.py").read_text(encoding="utf-8") for name in ("checks", "hardware_checks")
+        (folder / f"{name}.py").read_text(encoding="utf-8")
+        for name in ("checks", "hardware_checks", "setting_checks")
     )
     notes = {"spherical.mobility", "spherical.arcs"}
     assert set(re.findall(r'"(spherical\.[a-z-]+)"', text)) - notes == {case[0] for case in CASES}
@@ -347,19 +360,23 @@ def test_the_tables_above_have_every_key():
     for table, keys in NESTED.items():
         fields = set(SphericalParams.model_fields[table].annotation.model_fields)
         # The frame is that of a four-bar.
-        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n", "frame"}
+        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n", "phases", "frame"}
     assert set(FOUR_BAR_KEYS) == set(SphericalParams.model_fields["four_bar"].annotation.model_fields)
 
 
 FOUR_BAR_KEYS = {
     "ground": 78, "input": 28, "coupler": 72, "output": 62, "branch": -1, "point_azimuth": 30, "point_elevation": 10,
     "start": 10, "travel": 180, "input_axis": [0, 1, 1], "output_towards": [1, 1, 0],
-    "path": [[0.7, -0.4, 0.5]], "path_angles": [20],
+    "path": [[0.7, -0.4, 0.5]], "path_angles": [20], "setting_angle": 70, "phases": [{"follower_turn": 4}], "phase": 2,
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("key", FOUR_BAR_KEYS)
 def test_every_key_of_a_four_bar_changes_a_result(key):
-    start = {"path": [[0.78, -0.4, 0.45]], "path_angles": [0]} if key.startswith("path") else {}
+    start: dict[str, object] = {}
+    if key.startswith("path"):
+        start = {"path": [[0.78, -0.4, 0.45]], "path_angles": [0]}
+    if key in {"setting_angle", "phases", "phase"}:
+        start = {"setting_angle": 50, "phases": [{"crank_turn": 8}]}
     one, two = params(**four(**start)), params(**four(**{**start, key: FOUR_BAR_KEYS[key]}))
     assert differ(one, two)

@@ -1,8 +1,8 @@
 from typing import ClassVar
 
 from by_night import examples
+from day_contract import DayContract
 
-from mechwright.testing import FamilyContract
 from mechwright_spherical.family import Spherical
 
 PATH = {
@@ -12,14 +12,20 @@ PATH = {
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 
-class TestSpherical(FamilyContract):
+class TestSpherical(DayContract):
     family = Spherical
+    night: ClassVar = {
+        # The first has all bodies of a five-bar, in both phases; the last those of any four-bar.
+        "test_programs_are_proven": {2},
+        "test_no_interference": {1, 2},
+    }
     max_frames = examples(2, 50)
     examples: ClassVar = (
         PATH,
         {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}, "flat": {"make": False}},
         FOUR_BAR,
         {**FOUR_BAR, "four_bar": {"ground": 20, "input": 60, "coupler": 50, "output": 70}},
+        {**FOUR_BAR, "stand": {"arc": 80, "motor_flange": 56, "screw": 5.5}},
     )
     refused: ClassVar = (
         ({"radius": 40}, "radius"),

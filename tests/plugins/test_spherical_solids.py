@@ -19,6 +19,7 @@ from mechwright_spherical.frame import shells_of
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
+from mechwright_spherical.seats import clamp_of
 from mechwright_spherical.vectors import arc, dot, rotate, vector
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -75,8 +76,7 @@ def test_links_meet_in_their_pins(name, phase):
             "rocker": float(linkage.five_bar.rocker_arcs[1]),
         }
     frame = pins_of_phase(linkage, 1)
-    seats = links.coupler_slots(linkage, frame)
-    ends = [(seat.start if phase == 1 else seat.end) for seat in seats]
+    ends = [seat.places[now.number - 1] for seat in links.coupler_seats(linkage, frame)]
     where = {
         "a": [("crank", links.direction(arcs["crank"])), ("coupler", ends[0])],
         "c": [("rocker", links.direction(arcs["rocker"])), ("coupler", ends[1])],
@@ -182,18 +182,19 @@ def test_arcs_of_a_design_have_their_closed_forms():
 
 @pytest.mark.parametrize("name", NAMES[:2])
 def test_slots_let_their_pins_through(name):
-    """Pins in between the two seats do not touch the coupler; pins beside the slot do."""
+    """Screws in between the two seats do not touch the coupler; thicker ones do, and studs bear on it."""
     params = example(name)
     linkage = linkage_of(params)
     coupler = links.solid(params, "coupler")
     span = shells_of(params).links["coupler"]
-    for seat in links.coupler_slots(linkage, pins_of_phase(linkage, 1)):
+    thread = clamp_of(params).size.size
+    for seat in links.coupler_seats(linkage, pins_of_phase(linkage, 1)):
         for share in (0.0, 0.3, 0.5, 0.8, 1.0):
-            at = rotate(seat.axis, share * seat.sweep, seat.start)
+            at = rotate(seat.axis, share * seat.sweep, seat.ends[0])
             if name == NAMES[1]:
-                pin = solids.cylinder(at, span, params.hardware.pin_diameter)
-                assert pin.intersect(coupler).Volume() < 1e-6
-            thick = solids.cylinder(at, span, params.hardware.pin_diameter + 2)
+                screw = solids.cylinder(at, span, thread)
+                assert screw.intersect(coupler).Volume() < 1e-6
+            thick = solids.cylinder(at, span, params.hardware.pin_diameter)
             assert thick.intersect(coupler).Volume() > 1
 
 

@@ -4,6 +4,7 @@ const along = data.channels[data.over]; // over which plots are drawn: it goes o
 const last = input.values.length - 1;
 const degrees = (unit) => unit === "rad" ? ["°", 180 / Math.PI]
   : [unit.replace("^2", "²").replace("^3", "³").replace("*", "·"), 1];
+const told = (name) => data.channels[name].label;
 const round = (value) => value === null || Number.isNaN(value) ? "" : String(Number(value.toPrecision(5)));
 
 // A column of one number stands for all samples; between two samples it goes straight.

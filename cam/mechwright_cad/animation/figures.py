@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.motion import Poses
+from mechwright.contracts.motion import NOTHING, Poses
 from mechwright_cad.interference.path import STILL, space_path
 
 MICRON = 3
@@ -37,9 +37,20 @@ def _plain(value: Any) -> Any:
     return int(value) if float(value).is_integer() else value
 
 
+ROUNDED = 1e-9
+"""Part of a channel's greatest value below which a value of it is the rounding of sums."""
+
+
 def significant(values: Array) -> list[float | int | None]:
-    """Numbers to ``DIGITS`` significant digits; what is not finite is None, and a gap in the plot."""
-    return [_plain(float(f"{value:.{DIGITS}g}")) if np.isfinite(value) else None for value in values.tolist()]
+    """Numbers to ``DIGITS`` significant digits; what is not finite is None, and a gap in the plot.
+
+    >>> significant(np.array([1 / 3, 4.9e-15, np.inf]))
+    [0.333333, 0, None]
+    """
+    finite = np.where(np.isfinite(values), values, 0.0)
+    least = max(NOTHING, ROUNDED * float(np.abs(finite).max(initial=0.0)))
+    shown = np.where(np.abs(values) < least, 0.0, values)
+    return [_plain(float(f"{value:.{DIGITS}g}")) if np.isfinite(value) else None for value in shown.tolist()]
 
 
 def poses_of(poses: Poses, *, plane: bool) -> dict[str, Any]:

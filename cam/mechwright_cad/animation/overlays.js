@@ -1,4 +1,7 @@
 // Over the bodies of a plane picture, hidden at first: poles and circles, velocities, lines fixed to bodies.
+const LEAP = 3; // sizes of the picture: who goes farther between two samples came round through infinity
+const STRAIGHT = 200; // sizes: a circle so wide rises by 1/800 of the picture, a pixel, and is none to be seen
+const ARROW = 1 / 5, HEAD = 0.18; // of the picture: the longest arrow; of an arrow: its head
 function overlays(turned, size) {
   const moves = [], add = (name, colour, ...drawn) => {
     shown.set(name, { colour, off: true, parts: [(on) => drawn.forEach((one) => { one.style.display = on ? "" : "none"; })] });
@@ -8,7 +11,7 @@ function overlays(turned, size) {
     xs.forEach((x, k) => {
       if (x === null || ys[k] === null) { pen = "M"; return; }
       // What comes back from infinity on the other side is no line across the picture.
-      if (k && xs[k - 1] !== null && Math.hypot(x - xs[k - 1], ys[k] - ys[k - 1]) > 3 * size) pen = "M";
+      if (k && xs[k - 1] !== null && Math.hypot(x - xs[k - 1], ys[k] - ys[k - 1]) > LEAP * size) pen = "M";
       path += `${pen}${x} ${ys[k]}`;
       pen = "L";
     });
@@ -37,7 +40,7 @@ function overlays(turned, size) {
       put(moving, own, time);
       const p = move(centre, one.centre, time), j = [at(one.opposite[0], time), at(one.opposite[1], time)];
       move(pole, one.pole, time);
-      const there = p && j.every(Number.isFinite) && Math.hypot(j[0] - p[0], j[1] - p[1]) < 200 * size;
+      const there = p && j.every(Number.isFinite) && Math.hypot(j[0] - p[0], j[1] - p[1]) < STRAIGHT * size;
       circle.setAttribute("cx", there ? (p[0] + j[0]) / 2 : 0);
       circle.setAttribute("cy", there ? (p[1] + j[1]) / 2 : 0);
       circle.setAttribute("r", there ? Math.hypot(j[0] - p[0], j[1] - p[1]) / 2 : 0);
@@ -51,8 +54,8 @@ function overlays(turned, size) {
     const drawn = element("path", { class: "arrow " + kind }, turned);
     moves.push((time) => {
       const x = at(path.map((point) => point[0]), time), y = at(path.map((point) => point[1]), time);
-      const u = at(xs, time) * size / 5, v = at(ys, time) * size / 5, head = 0.18;
-      const wing = (side) => `${x + u - head * (u - side * v * 0.6)} ${y + v - head * (v + side * u * 0.6)}`;
+      const u = at(xs, time) * size * ARROW, v = at(ys, time) * size * ARROW;
+      const wing = (side) => `${x + u - HEAD * (u - side * v * 0.6)} ${y + v - HEAD * (v + side * u * 0.6)}`;
       drawn.setAttribute("d", `M${x} ${y}L${x + u} ${y + v}M${wing(1)}L${x + u} ${y + v}L${wing(-1)}`);
     });
     add(`${word} of ${name}`, word === "velocity" ? "#1f6fb4" : "#c0392b", drawn);

@@ -8,12 +8,13 @@ let time = Math.min(1, kept.at || 0) * last, forwards = 1, before = null;
 
 let viewed = () => kept.view; // of a picture in space
 const place = document.getElementById("picture");
-const draw = Object.keys(data.poses).length ? (data.layers ? planePicture : spacePicture)(place) : () => {};
-if (!Object.keys(data.poses).length) place.remove();
+const pictured = Object.keys(data.poses).length || data.targets;
+const draw = pictured ? (data.layers ? planePicture : spacePicture)(place) : () => {};
+if (!pictured) place.remove();
 
 function show() {
   const value = (at(input.values, time) * factorOfInput).toFixed(unitOfInput === "°" ? 1 : 3);
-  const words = `${data.input} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
+  const words = `${told(data.input)} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
   said.textContent = words;
   slider.value = time;
   slider.setAttribute("aria-valuetext", words);
@@ -45,7 +46,7 @@ function play(on) {
 }
 document.getElementById("way").textContent = data.over !== data.input ? "there and back" : data.round ? "once round" : "one way";
 slider.max = last;
-slider.setAttribute("aria-label", `Input ${data.input}`);
+slider.setAttribute("aria-label", `Input: ${told(data.input)}`);
 slider.addEventListener("input", () => seek(Number(slider.value)));
 slider.addEventListener("keydown", (event) => {
   // A step of the slider is a sample, a page a tenth of the motion.
@@ -63,7 +64,8 @@ document.addEventListener("keydown", (event) => {
 const legend = document.getElementById("legend");
 for (const [name, show_] of shown) {
   const label = element("label", {}, legend), box = element("input", { type: "checkbox" }, label);
-  box.checked = kept.off ? !kept.off.includes(name) : !show_.off;
+  // What was not there before is as it is at first.
+  box.checked = kept.off && (!kept.seen || kept.seen.includes(name)) ? !kept.off.includes(name) : !show_.off;
   const obey = () => show_.parts.forEach((part) => part(box.checked));
   box.addEventListener("change", obey);
   if (!box.checked) obey();
@@ -79,7 +81,7 @@ if (data.bare && !data.ghost || data.missing.length) {
   else
   note.textContent = `Not drawn, because they are no plates: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }
-if (kept.ticked) names.filter((name) => kept.ticked.includes(name)).forEach((name) => ticked.add(name));
+if (kept.ticked && (!kept.plotted || kept.plotted.some((name) => names.includes(name)))) names.filter((name) => kept.ticked.includes(name)).forEach((name) => ticked.add(name));
 else firstChoice();
 table(seek, show);
 plots(seek);
@@ -98,5 +100,5 @@ if (kept.pace) pace.value = kept.pace;
 // What another player goes on from.
 return () => ({
   at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
-  off: hiddenNow(),
+  off: hiddenNow(), seen: [...shown.keys()], plotted: names,
 });

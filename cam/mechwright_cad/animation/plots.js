@@ -44,7 +44,7 @@ function plot(unit, chosen, place, seek) {
   const figure = element("figure", { class: "plot" }, place);
   const caption = element("figcaption", {}, figure);
   const svg = element("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img",
-    "aria-label": `${chosen.join(", ")} over ${data.over}, in ${label || "no unit"}` }, figure);
+    "aria-label": `${chosen.map(told).join(", ")} over ${told(data.over)}, in ${label || "no unit"}` }, figure);
   element("rect", { class: "frame", x: LEFT, y: TOP, width: WIDE - LEFT - RIGHT, height: TALL - TOP - BOTTOM }, svg);
   for (const value of ticks(low, high, 4)) {
     element("line", { class: "grid", x1: LEFT, x2: WIDE - RIGHT, y1: y(value), y2: y(value) }, svg);
@@ -63,10 +63,10 @@ function plot(unit, chosen, place, seek) {
       pen = "L";
     });
     element("path", { class: "curve " + colour, d: path }, svg);
-    element("span", { class: "key " + colour, text: name }, caption);
+    element("span", { class: "key " + colour, text: told(name) }, caption);
     return values;
   });
-  element("span", { class: "unit", text: `${label ? label + " " : ""}over ${data.over}${across ? ", " + across : ""}` }, caption);
+  element("span", { class: "unit", text: `${label ? label + " " : ""}over ${told(data.over)}${across ? ", " + across : ""}` }, caption);
   const cursor = element("line", { class: "cursor", y1: TOP, y2: TALL - BOTTOM }, svg);
   const dots = marks.map((_, place_) => element("circle", { class: "c" + place_ % COLOURS, r: 3.2, fill: "currentColor" }, svg));
   const point = (event) => {
@@ -111,16 +111,12 @@ function table(seek, again) {
         again();
       });
     }
-    label.append(name === data.input ? name + " (input)" : name);
+    label.append(told(name), " ");
+    element("code", { text: name === data.input ? name + ", input" : name }, label);
     const now = element("td", { class: "n" }, row);
     element("td", { text: unit }, row);
     element("td", { class: "n", text: round(least(name) * factor) }, row);
     element("td", { class: "n", text: round(most(name) * factor) }, row);
-    // What is far below the channel's own size is rounding.
-    const nothing = 1e-9 * Math.max(Math.abs(least(name)), Math.abs(most(name)));
-    cells.set(name, (time) => {
-      const value = at(data.channels[name].values, time);
-      now.textContent = round((Math.abs(value) < nothing ? 0 : value) * factor);
-    });
+    cells.set(name, (time) => { now.textContent = round(at(data.channels[name].values, time) * factor); });
   }
 }

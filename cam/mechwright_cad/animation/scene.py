@@ -35,13 +35,14 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     used = {body.instance.body for body in bodies} or (
         set(motion.poses) if bare else {trace.body for trace in motion.traces.values()}
     )
+    labels = motion.labels
     unmade = [] if solids else [label_of(body) for body in bodies if not body.is_plate]
     found: dict[str, Any] = {
         "input": motion.input_name,
         "over": motion.over,
         "round": _goes_round(motion),
         "channels": {
-            name: {"unit": channel.unit, "values": significant(channel.values)}
+            name: {"unit": channel.unit, "label": labels[name], "values": significant(channel.values)}
             for name, channel in motion.channels.items()
         },
         "poses": {name: poses_of(poses, plane=plane) for name, poses in motion.poses.items() if name in used},

@@ -10,6 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
@@ -28,6 +29,9 @@ the mechanism's size."""
 
 ARC = 24
 """Pieces of an arc about the centre of a sphere."""
+
+FEW = 16
+"""Points of a line of which all are taken; to find the outermost of more costs less than to move them."""
 
 CENTRED = 1e-6
 """Part of the mechanism's size by which an axis may miss a body's origin and still go through it."""
@@ -67,8 +71,9 @@ def links_of(motion: Motion) -> tuple[list[Link], float]:
             links[leader[body]].add(point[0], axis[0], CENTRED * size)
     for curve in motion.curves.values():
         own = leader[curve.body]
-        turn, shift = poses[curve.body].transform(curve.points)[0], poses[own].position[0]
-        links[own].strokes.append((turn - shift) @ poses[own].rotation[0])
+        at, of = poses[curve.body], poses[own]
+        placed = curve.points @ at.rotation[0].T + at.position[0]
+        links[own].strokes.append((placed - of.position[0]) @ of.rotation[0])
     for trace in motion.traces.values():
         here = Joint("fixed", trace.body, "-", trace.point)
         links[leader[trace.body]].add(
@@ -208,11 +213,20 @@ def reach_of(motion: Motion) -> list[Array]:
     still = Poses(np.zeros((1, 3)), np.eye(3)[None])
     found = [motion.path(name) for name in motion.traces]
     for link in links:
-        points = [*lines_of(link, size), *(joint[None] for joint in link.joints)]
+        points = [*map(_outermost, lines_of(link, size)), *(joint[None] for joint in link.joints)]
         if points:
             poses = motion.poses.get(link.body, still)
             found.append(poses.transform(np.concatenate(points)).reshape(-1, 3))
     return found
+
+
+def _outermost(line: Array) -> Array:
+    """Points (k, 3) of a line within whose convex hull all of it lies; a flat curve has thousands inside."""
+    if np.ptp(line[:, 2]) > 0 or len(line) <= FEW:
+        return line
+    hull = shapely.convex_hull(shapely.multipoints(line[:, :2])).simplify(10.0**-DRAWN)
+    corners = shapely.get_coordinates(hull)
+    return np.column_stack((corners, np.full(len(corners), line[0, 2])))
 
 
 def _coloured(links: list[Link]) -> list[tuple[Link, str]]:

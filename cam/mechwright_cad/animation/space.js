@@ -89,7 +89,16 @@ function spacePicture(place) {
     shown.set(mesh.name, show);
     return thing;
   });
-  const reach = data.ball.radius;
+  // Another design below this one: its edges alone, in the time of this one.
+  const ghost = data.ghost && data.ghost.meshes ? data.ghost : null;
+  const stretch = ghost ? (Math.max(...Object.values(ghost.poses).map((pose) => pose.columns[0].length)) - 1) / last : 1;
+  const soft = rgb("#8a929a"), below = !ghost ? [] : ghost.meshes.map((mesh) => {
+    const edges = shaded(mesh)[1];
+    for (let k = 0; mesh.lines && k < mesh.lines.length; k += 3) edges.push(...mesh.lines.slice(k, k + 3), 0, 0, 0);
+    return { edges: stored(edges), pose: ghost.poses[mesh.body] };
+  });
+  const apart = (one, two) => Math.hypot(...one.centre.map((part, k) => part - two.centre[k])) + two.radius;
+  const reach = ghost ? Math.max(data.ball.radius, apart(data.ball, ghost.ball)) : data.ball.radius;
   const paths = Object.entries(data.traces).map(([name, path]) => {
     const thing = { line: stored(path.flatMap((point) => [...point, 0, 0, 0])), columns: [0, 1, 2].map((k) => path.map((point) => point[k])), on: true };
     shown.set("path of " + name, { parts: [(on) => { thing.on = on; paint(now); }] });
@@ -108,6 +117,14 @@ function spacePicture(place) {
   const second = unitOf(times(up, side)), frame = [times(second, up), second, up];
   const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
+  function stand(pose, time) {
+    const [x, y, z, ...q] = pose.columns.map((column) => at(column, time));
+    const size = Math.hypot(...q), [w, i, j, k] = q.map((part) => part / size);
+    gl.uniformMatrix3fv(turn, false, [1 - 2 * (j * j + k * k), 2 * (i * j + k * w), 2 * (i * k - j * w),
+      2 * (i * j - k * w), 1 - 2 * (i * i + k * k), 2 * (j * k + i * w),
+      2 * (i * k + j * w), 2 * (j * k - i * w), 1 - 2 * (i * i + j * j)]);
+    gl.uniform3f(shift, x, y, z);
+  }
   function paint(time) {
     now = time;
     const dense = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
@@ -124,14 +141,17 @@ function spacePicture(place) {
     gl.uniform3fv(centre, data.ball.centre);
     const unit = zoom * Math.min(wide, tall) / reach;
     gl.uniform2f(scale, unit / wide, unit / tall);
+    gl.uniform1f(lit, 0);
+    gl.uniform1f(nearer, 0);
+    gl.uniform2f(nudge, 0, 0);
+    gl.uniform3fv(colour, soft);
+    for (const { edges, pose } of below) {
+      stand(pose, Math.min(time * stretch, Math.max(1, pose.columns[0].length) - 1));
+      draw(gl.LINES, edges);
+    }
     for (const thing of things) {
       if (!thing.on) continue;
-      const [x, y, z, ...q] = thing.pose.columns.map((column) => at(column, time));
-      const size = Math.hypot(...q), [w, i, j, k] = q.map((part) => part / size);
-      gl.uniformMatrix3fv(turn, false, [1 - 2 * (j * j + k * k), 2 * (i * j + k * w), 2 * (i * k - j * w),
-        2 * (i * j - k * w), 1 - 2 * (i * i + k * k), 2 * (j * k + i * w),
-        2 * (i * k + j * w), 2 * (j * k - i * w), 1 - 2 * (i * i + j * j)]);
-      gl.uniform3f(shift, x, y, z);
+      stand(thing.pose, time);
       gl.uniform3fv(colour, thing.colour);
       gl.uniform1f(lit, 1);
       gl.uniform1f(nearer, 0);
@@ -161,6 +181,24 @@ function spacePicture(place) {
     }
     gl.uniform2f(nudge, 0, 0);
     gl.enable(gl.DEPTH_TEST);
+    if (data.seen) data.seen(seenAs(rows, zoom * Math.min(box.width, box.height) / reach / 2, box));
+  }
+  // Where a place is on the canvas, with its height towards the eye; and the place of the sphere under a point there.
+  function seenAs(rows, unit, box) {
+    const turned = (p) => rows.map((row) => row.reduce((sum, part, k) => sum + part * (p[k] - data.ball.centre[k]), 0));
+    const middle = turned([0, 0, 0]);
+    return {
+      to: (p) => { const [u, v, w] = turned(p); return [box.width / 2 + u * unit, box.height / 2 - v * unit, w - middle[2]]; },
+      back: (x, y, old) => {
+        const radius = Math.hypot(...old), front = turned(old)[2] >= middle[2] ? 1 : -1;
+        let u = (x - box.width / 2) / unit - middle[0], v = (box.height / 2 - y) / unit - middle[1];
+        const far = Math.max(1, Math.hypot(u, v) / radius); // outside of the sphere: its rim
+        u /= far;
+        v /= far;
+        const w = front * Math.sqrt(Math.max(0, radius * radius - u * u - v * v));
+        return [0, 1, 2].map((k) => rows[0][k] * u + rows[1][k] * v + rows[2][k] * w);
+      },
+    };
   }
   const look = (right, up, size) => {
     azimuth -= right;

@@ -1,5 +1,6 @@
 """Which round faces a step brings into each other, and how tightly they go."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.details import Thread
-from mechwright.contracts.fits import Fit, shaft_fit
+from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
 from mechwright.contracts.part import Bore, Part
 from mechwright.contracts.shape import Revolve, Shape
 from mechwright_cad.assembly_order.layers import PARALLEL
@@ -18,6 +19,9 @@ NEAR = 0.05
 
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
+
+_BUSHES = "ISO 2795"
+"""Pressed into H7 with r6, which leaves their bores H7."""
 
 _DOWELS = ("ISO 8734", "ISO 2338")
 
@@ -121,12 +125,27 @@ def _own(part: Part) -> Iterator[_Own]:
     for piece in shape.pieces:
         if isinstance(piece, Revolve):
             radii, heights = zip(*piece.profile, strict=True)
-            outer, inner = 2 * max(radii), 2 * min(radii)
-            dowel = bought is not None and bought.standard in _DOWELS
-            fit = shaft_fit(outer, "m6") if dowel else None
+            outer = 2 * max(radii)
+            standard = bought.standard if bought is not None else ""
+            fit = shaft_fit(outer, "m6") if standard in _DOWELS else None
+            inner = None
+            if standard == _BUSHES:
+                fit, inner = shaft_fit(outer, "r6"), hole_fit(2 * min(radii), "H7")
             yield piece.axis, min(heights), max(heights), outer, False, fit, False
-            if inner > 0:
-                yield piece.axis, min(heights), max(heights), inner, True, None, False
+            for diameter, low, high in _bores(piece):
+                yield piece.axis, low, high, diameter, True, inner, False
+
+
+def _bores(piece: Revolve) -> Iterator[tuple[float, float, float]]:
+    """Diameters and heights of the bores of a ring whose bore has steps; none of a full one."""
+    corners = piece.profile
+    if min(r for r, _ in corners) <= 0:
+        return
+    edges = list(zip(corners, (*corners[1:], corners[0]), strict=True))
+    turn = math.copysign(1.0, sum(r0 * z1 - r1 * z0 for (r0, z0), (r1, z1) in edges))
+    for (r0, z0), (r1, z1) in edges:
+        if r0 == r1 and (z1 - z0) * turn < 0:
+            yield 2 * r0, min(z0, z1), max(z0, z1)
 
 
 def matches(bodies: Sequence[Body], sample: int, moved: Sequence[int], onto: Sequence[int]) -> list[Match]:

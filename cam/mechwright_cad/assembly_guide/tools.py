@@ -10,8 +10,11 @@ from mechwright.standards.screws import screw_size
 _SCREW = re.compile(r"ISO (4762|10642|4026) - M([\d.]+) x [\d.]+ - (\S+)")
 
 
-def screwed(part: Part) -> str:
-    """Tool and torque of a screw; empty for what is none that is known."""
+def screwed(part: Part, later: int | None = None) -> str:
+    """Tool and torque of a screw; empty for what is none that is known.
+
+    ``later``: the number of the step in which it is drawn tight, where that is not its own.
+    """
     found = _SCREW.fullmatch(part.bought.designation) if part.bought is not None else None
     if found is None:
         return ""
@@ -27,6 +30,8 @@ def screwed(part: Part) -> str:
         return f"Tool: hexagon key {key:g} mm."
     force = preload(stress_area(size, of.pitch), PROOF[grade])
     torque = tightening_torque(force, size, of.pitch, head, of.clearance())
+    if later is not None:
+        return f"Tool: hexagon key {key:g} mm; only until its head rests: step {later} draws it tight."
     return f"Tool: hexagon key {key:g} mm; tighten to {torque:.2g} N m ({grade}, oiled; half of it in POM)."
 
 
@@ -44,6 +49,8 @@ def fitted(part: Part) -> str:
         case "DIN 471" | "DIN 472":
             kind = "outer" if standard == "DIN 471" else "inner"
             return f"Tool: pliers for {kind} circlips. Turn the ring in its groove to see that it sits."
+        case "ISO 2795":
+            return "Press it in on a mandrel as thick as the shaft; never ream it, which closes its pores."
         case "ISO 15":
             return "Press on the ring that sits tight, never through the balls."
         case "ISO 8734" | "ISO 2338":

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.fits import Match, matches, rounds_of
 from mechwright_cad.assembly_guide.tools import fitted, is_coupling, screwed
 from mechwright_cad.assembly_order.groups import is_bearing, rigid
@@ -42,6 +43,7 @@ class Words:
         self._last = {k: step for step in plan.steps for k in step.moved}
         self._first = {k: step for step in reversed(plan.steps) for k in step.moved}
         self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}
+        self._columns = Columns(plan)
         self._said: set[frozenset[str]] = set()
 
     def name(self, k: int) -> str:
@@ -82,7 +84,10 @@ class Words:
         press = PRESS if bench else IN_PLACE
         said += dict.fromkeys(self._tight(match, press) for match in found if self._fast(match))
         new = [k for k in step.moved if self._first[k] is step]
-        said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in new)))
+        said += dict.fromkeys(
+            filter(None, (screwed(plan.bodies[k].part, self._columns.later(k)) for k in new))
+        )
+        said += self._drawn_tight(step)
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
             mark.note
@@ -92,6 +97,17 @@ class Words:
         )
         said += dict.fromkeys(self._tries(step, found))
         return said
+
+    def _drawn_tight(self, step: Step) -> Iterator[str]:
+        """The screws of a column that stands now."""
+        waiting = self._columns.waiting(self.plan.steps.index(step) + 1)
+        for part in dict.fromkeys(self.plan.bodies[k].part.name for k in waiting):
+            those = [k for k in waiting if self.plan.bodies[k].part.name == part]
+            how = screwed(self.plan.bodies[those[0]].part).removeprefix("Tool: ")
+            yield (
+                f"Stand it on a flat plate, turn the shafts by hand, and draw {self.names(those)} tight now, "
+                f"crosswise: {how}"
+            )
 
     def _moves(self, step: Step, found: Sequence[Match]) -> str:
         group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1

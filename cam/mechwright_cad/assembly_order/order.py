@@ -134,15 +134,17 @@ class Order:
 
     @cached_property
     def _base(self) -> int:
-        """What all goes onto: of the plates that stand still the one in the middle; -1 if nothing does.
+        """What all goes onto: of plates and solids at rest the one in the middle; -1 if nothing does.
 
-        In the middle is the one from which the others are fewest contacts away: of a machine on legs it is
-        the plate that carries the shafts, not the one on the floor. Without plates it is the largest body.
+        In the middle is the one that is fewest contacts away from what the input turns, then from all that
+        moves, then from the rest: of a machine on legs it is the plate that carries the shafts, not the one
+        on the floor nor that of the motor. Without such it is the largest body.
         """
-        still = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] == GROUND]
-        plates = [k for k in still if self.bodies[k].is_plate]
-        most = max((self._sizes[k] for k in plates), default=0.0)
-        large = [k for k in plates if self._sizes[k] >= SHARE * most]
+        heads = [self.heads[body.instance.body] for body in self.bodies]
+        still = [k for k, head in enumerate(heads) if head == GROUND]
+        made = [k for k in still if self.bodies[k].part.kind in {"plate", "solid"}]
+        most = max((self._sizes[k] for k in made), default=0.0)
+        large = [k for k in made if self._sizes[k] >= SHARE * most]
         if len(large) < 2:
             return max(large or still, key=lambda k: (self._sizes[k], -k), default=-1)
         count = len(self.bodies)
@@ -151,7 +153,13 @@ class Order:
             touching[one, two] = self.standing.touch(one, two)
         away = dijkstra(touching, directed=False, unweighted=True, indices=large)
         away[np.isinf(away)] = count
-        return min(zip(away.sum(axis=1), -self._sizes[large], large, strict=True))[2]
+        driven = {self.heads[j.two] for j in self.motion.joints.values() if j.drives}
+        turned = away[:, [k for k, head in enumerate(heads) if head in driven]]
+        moving = away[:, [k for k, head in enumerate(heads) if head != GROUND]]
+        near = turned.min(axis=1, initial=count)
+        return min(zip(near, moving.sum(axis=1), away.sum(axis=1), -self._sizes[large], large, strict=True))[
+            -1
+        ]
 
     @cached_property
     def _below(self) -> frozenset[int]:

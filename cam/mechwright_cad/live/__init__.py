@@ -8,6 +8,9 @@ change
     What the page says in place of the file (:data:`mechwright.contracts.finding.Change`).
 answer
     What the page is given for a change: the motion, what the family finds, or remedies.
+target
+    A place that a requirement asks for, which a page lets one drag
+    (:class:`~mechwright.contracts.target.Target`).
 token
     A secret in the address; whoever does not know it gets nothing.
 """

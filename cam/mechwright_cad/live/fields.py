@@ -1,15 +1,21 @@
 """The fields of a page: every key of a design's tables, with its bounds, unit, choices and value."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel
 
 from mechwright.contracts.parameters import first_fields
+from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
+from mechwright.designs.requirement import Requirement
 
 REACH = 4.0
 """A slider goes up to so many times its value, where its bound is farther."""
+
+WHOLE = 10.0
+"""Bounds no farther than this are a slider's own whatever the value: it has some 400 steps, so that a ratio
+or a fit can be set to a few hundredths all the way."""
 
 
 def fields_of(design: Design) -> list[dict[str, Any]]:
@@ -21,12 +27,25 @@ def fields_of(design: Design) -> list[dict[str, Any]]:
     ``open`` and the ``reach`` of a slider.
     """
     found = list(_of_model(type(design.params), design.params, "parameters", design.content, first=True))
-    for reader in sorted(design.readers, key=lambda one: one.name):
+    return found + _of_tables(design.readers, design.tables, design.content)
+
+
+def fields_of_requirement(asked: Requirement, content: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """As :func:`fields_of`, of a requirement whose file holds ``content``."""
+    found = list(_of_model(type(asked.table), asked.table, "requirement", content, first=True))
+    return found + _of_tables([reader for reader, _ in asked.tables], asked.given, content)
+
+
+def _of_tables(
+    readers: Sequence[Table[Any]], tables: Mapping[str, Any], content: Mapping[str, Any]
+) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = []
+    for reader in sorted(readers, key=lambda one: one.name):
         model = reader.settings
         if model is not None:
-            value = design.tables[reader.name]
+            value = tables[reader.name]
             known = value if isinstance(value, model) else None
-            found += _of_model(model, known, reader.name, design.content, first=False)
+            found += _of_model(model, known, reader.name, content, first=False)
     return found
 
 
@@ -90,11 +109,11 @@ def _bounds(facts: Mapping[str, Any], value: object) -> dict[str, Any]:
         "open": [low is None and over is not None, high is None and under is not None],
     }
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        far = REACH * (abs(value) or abs(found["high"] or found["low"] or 0.0) or 1.0)
         least, most = found["low"], found["high"]
+        far = max(REACH * abs(value or most or least or 0.0), WHOLE)
         found["reach"] = [
             -far if least is None else max(least, -far),
-            far if most is None else min(most, max(far, 10.0)),
+            far if most is None else min(most, far),
         ]
     return found
 

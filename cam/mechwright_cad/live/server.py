@@ -16,13 +16,14 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
+from mechwright.designs.files import read_toml
 from mechwright.errors import DesignError, MechwrightError, OutputError
 from mechwright.output.templates import templates
 from mechwright.plugins.host import Host
-from mechwright_cad.live import answers
-from mechwright_cad.live.building import Building
+from mechwright_cad.live.following import Answering, Following
 from mechwright_cad.live.guard import Guard
-from mechwright_cad.live.session import Session, change_of, text_of
+from mechwright_cad.live.session import Session
+from mechwright_cad.live.wishing import Wishing
 
 HOST = "127.0.0.1"
 LOOK = 0.4
@@ -33,52 +34,27 @@ WAIT = 20.0
 _SITE = Path(__file__).parent / "site"
 _ANIMATION = Path(__file__).parents[1] / "animation"
 
-Answering = Callable[[Mapping[str, Any]], Any]
-
 
 class Server:
-    """The pages and answers of a session; see :func:`serve`."""
+    """The pages and answers of a file; see :func:`serve`."""
 
     def __init__(self, path: Path, host: Host, port: int, token: str) -> None:
-        self.session, self.building = Session(path, host), Building(path)
-        asks: dict[str, Answering] = {
-            "described": lambda body: self.session.described(change_of(body)),
-            "motion": lambda body: answers.motion(self.session.changed(change_of(body))),
-            "parts": lambda body: answers.parts(self.session.changed(change_of(body))),
-            "remedies": lambda body: {"findings": self.session.remedies(change_of(body))},
-            "save": lambda body: {"said": self.session.save(change_of(body), text_of(body, "digest"))},
-            "save-as": lambda body: {"said": self.session.save_as(change_of(body), text_of(body, "name"))},
-            "build": self._build,
-            "stop": self._stop,
-        }
+        self.shown = shown(path, host)
         routes = [
             Route("/", _file("text/html; charset=utf-8", _page)),
             Route("/live.js", _file("text/javascript; charset=utf-8", _script)),
             Route("/live.css", _file("text/css; charset=utf-8", _style)),
             Route("/news", self._news),
-            Route("/building", self._state),
-            *(Route(f"/{name}", _answer(ask), methods=["POST"]) for name, ask in asks.items()),
+            *(Route(f"/{name}", _state(state)) for name, state in self.shown.states.items()),
+            *(Route(f"/{name}", _answer(ask), methods=["POST"]) for name, ask in self.shown.asks.items()),
         ]
         self.app = Guard(Starlette(routes=routes, lifespan=None), token, port)
-
-    def _build(self, body: Mapping[str, Any]) -> Mapping[str, Any]:
-        if change_of(body):
-            raise DesignError("a build is made of the file: save first")
-        self.building.start()
-        return self.building.state()
-
-    def _stop(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
-        self.building.stop()
-        return self.building.state()
-
-    async def _state(self, _: Request) -> Response:
-        return JSONResponse(dict(self.building.state()))
 
     async def _news(self, request: Request) -> Response:
         """The digest of the file as soon as it is another than the one the page knows."""
         known, digest = request.query_params.get("known", ""), ""
         for _ in range(round(WAIT / LOOK)):
-            digest = await run_in_threadpool(self.session.digest)
+            digest = await run_in_threadpool(self.shown.digest)
             if digest != known or await request.is_disconnected():
                 break
             await asyncio.sleep(LOOK)
@@ -86,8 +62,19 @@ class Server:
 
     def close(self) -> None:
         """End what was begun for the page."""
-        self.building.stop()
-        self.session.close()
+        self.shown.close()
+
+
+def shown(path: Path, host: Host) -> Following:
+    """A design file or a requirement file, by what is in it; raises OutputError where it cannot be read."""
+    return Wishing(path, host) if "requirement" in read_toml(path)[0] else Session(path, host)
+
+
+def _state(state: Callable[[], Mapping[str, Any]]) -> Callable[[Request], Awaitable[Response]]:
+    async def respond(_: Request) -> Response:
+        return JSONResponse(dict(state()))
+
+    return respond
 
 
 def _answer(ask: Answering) -> Callable[[Request], Awaitable[Response]]:
@@ -157,7 +144,6 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
     MechwrightError
         The design file cannot be read.
     """
-    Session(path, host).design()  # what is wrong with the file is told before anything is served
     with contextlib.closing(bound(port)) as taken:
         number, token = taken.getsockname()[1], secrets.token_urlsafe(32)
         server = Server(path, host, number, token)
@@ -165,6 +151,7 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
             server.app, log_level="error", access_log=False, server_header=False, lifespan="off", ws="none"
         )
         try:
+            server.shown.described({})  # what is wrong with the file is told before anything is served
             ready(f"http://{HOST}:{number}/{token}/")
             with contextlib.suppress(KeyboardInterrupt):
                 uvicorn.Server(settings).run(sockets=[taken])

@@ -10,7 +10,7 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Bore, Feature
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.choice import ROOMY, usable_mills
+from mechwright_cam.operations.choice import ROOMY, MisfitError, usable_mills
 from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
@@ -116,10 +116,12 @@ def cutters_of(job: Job, bore: Bore) -> tuple[Tool | None, Tool | None]:
             f"{job.part.name}, for an entry longer than D may be; the smallest is {able[-1].name}: list a "
             'smaller one, or use "wear" or "computer"'
         )
-    raise ToolError(
+    message = (
         f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
         f"up to {TIGHTEST * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
     )
+    least = min((tool.diameter for tool in able), default=None)
+    raise ToolError(message) if least is None else MisfitError(message, bore.diameter, least / TIGHTEST)
 
 
 def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:

@@ -32,6 +32,20 @@ INSCRIBED = 0.01
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
+DEEP = "cam.too-deep"
+"""Code of the finding that no mill is long enough."""
+
+
+class MisfitError(ToolError):
+    """No cutter fits a length of the part: ``limit``, mm, in place of what is ``measured`` would do.
+
+    ``code`` is that of the finding, where it has one of its own: what cures one is no cure of the other.
+    """
+
+    def __init__(self, message: str, measured: float, limit: float, code: str = "") -> None:
+        super().__init__(message)
+        self.measured, self.limit, self.code = measured, limit, code
+
 
 def long_enough(tool: Tool, depth: float) -> bool:
     """Whether the flutes reach the bottom of a cut of this depth, mm."""
@@ -56,9 +70,12 @@ def usable_mills(
     mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]
     if not mills:
         longest = max(knows, key=lambda tool: tool.flute_length)
-        raise ToolError(
+        raise MisfitError(
             f"cam.tools: no end mill for part {job.part.name} cuts {depth:g} mm deep; the longest, "
-            f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one"
+            f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one",
+            depth,
+            longest.flute_length,
+            DEEP,
         )
     plain = [tool for tool in mills if tool.nose < tool.radius or makes_floor(tool, floor_radius)]
     return plain if any(map(enters, plain)) else mills

@@ -11,7 +11,7 @@ from mechwright.contracts.part import Feature, Part
 from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.bending import MOST, SLENDER, deflection, pass_depth, says_step_down
-from mechwright_cam.operations.choice import long_enough
+from mechwright_cam.operations.choice import MisfitError, long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
 from mechwright_cam.operations.rates import rates, runs_too_fast
@@ -86,6 +86,9 @@ def refusal(error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Seq
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
     proposed = ({"cam.tools": None},) if parameter == "cam.tools" and listed else ()
+    if isinstance(error, MisfitError):
+        code = error.code or code
+        return Finding.error(code, parameter, message, error.measured, error.limit, "mm", proposed=proposed)
     return Finding.error(code, parameter, message, proposed=proposed)
 
 

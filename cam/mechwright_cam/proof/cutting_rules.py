@@ -5,7 +5,6 @@ they know nothing. Programs of others cut otherwise than ours, so only what is f
 """
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
@@ -77,10 +76,13 @@ def chips(scene: Scene) -> Check:
         fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
         fast = np.flatnonzero(run.feed[steps] > fastest)
         teeth = run.feed[steps[fast]] / rpm[steps[fast]] / tool.flutes
-        thick_at = _where_thick(tool, BEYOND * data.chip_load / teeth)
-        for index, tooth, (lift, radius) in zip(fast.tolist(), teeth.tolist(), thick_at, strict=True):
+        lift, radius = _where_thick(tool, BEYOND * data.chip_load / teeth)
+        suspect = np.isin(steps[fast], scene.stock.suspects(steps[fast], lift=lift, radius=radius))
+        for one in np.flatnonzero(suspect).tolist():
+            index, tooth = int(fast[one]), float(teeth[one])
             step = int(steps[index])
-            if not scene.stock.meets(step, lift=lift, radius=radius):
+            reach = None if np.isnan(radius[one]) else float(radius[one])
+            if not scene.stock.meets(step, lift=float(lift[one]), radius=reach):
                 continue
             feed, turns = float(run.feed[step]), float(rpm[step])
             message = (
@@ -106,17 +108,19 @@ def _full_chips(scene: Scene) -> Ints:
     return found
 
 
-def _where_thick(tool: Tool, thin: Array) -> Iterable[tuple[float, float | None]]:
+def _where_thick(tool: Tool, thin: Array) -> tuple[Array, Array]:
     """Where chips are thicker than shares (n,) of the feed per tooth: height above the tip and radius, mm.
+
+    The radius of what is no mill is NaN: all of it counts.
 
     They are f_z sin θ with the engagement θ of a mill, which reaches in by r (1 - cos θ); where a rounded
     corner cuts, less by the sine of the angle of its edge.
     """
     if tool.kind not in MILLS:
-        return [(0.0, None)] * thin.size
+        return np.zeros(thin.size), np.full(thin.size, np.nan)
     on_nose = tool.radius - tool.nose * (1 - np.maximum(thin, MIDDLE))
     radius = np.minimum(tool.radius * np.sqrt(1 - thin**2) - SHAVES, on_nose)
-    return zip(cutter(tool).height_at(radius).tolist(), radius.tolist(), strict=True)
+    return cutter(tool).height_at(radius), radius
 
 
 def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:

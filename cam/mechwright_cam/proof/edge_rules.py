@@ -37,17 +37,19 @@ def edges(scene: Scene) -> Check:
         mine = cuts[run.tool[cuts] == tool.number]
         name = f"T{tool.number} ({tool.name})"
         if tool.kind in POINTS:
-            for step in mine[sideways[mine]].tolist():
+            for step in stock.suspects(mine[sideways[mine]]).tolist():
                 if stock.meets(step):
                     return scene.bad(step, f"{name} is fed sideways into material, and cuts downwards only")
         if tool.hollow == 0:
             continue
         lift = float(cutter(tool).height_at(tool.hollow))
-        for step in mine.tolist():
-            if stock.meets(step, lift=lift, radius=tool.hollow):
+        inner = np.isin(mine, stock.suspects(mine, lift=lift, radius=tool.hollow))
+        down = (tool.kind is ToolKind.THREAD_MILL) & ~sideways[mine] & (way[mine, 2] < 0)
+        for index in np.flatnonzero(inner | down).tolist():
+            step = int(mine[index])
+            if inner[index] and stock.meets(step, lift=lift, radius=tool.hollow):
                 return scene.bad(step, f"{name} {_hollow(tool)}", 2 * tool.hollow, 0.0, "mm")
-            down = tool.kind is ToolKind.THREAD_MILL and not sideways[step] and way[step, 2] < 0
-            if down and stock.meets(step, radius=tool.radius - SHAVES):
+            if down[index] and stock.meets(step, radius=tool.radius - SHAVES):
                 message = f"{name} is fed down into material, and cuts sideways only; make its hole first"
                 return scene.bad(step, message)
     return Check(True, "tools meet material with nothing but their cutting edges")
@@ -113,6 +115,7 @@ def _too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
         lift = max(float(cutter(tool).height_at(radius)), SKIM)
         fast = np.flatnonzero(down[mine] > most + 1.0)
         fast = fast[~bored(scene.paths, scene.stock.cuts, mine[fast], lift=lift, radius=radius)]
+        fast = fast[np.isin(mine[fast], scene.stock.suspects(mine[fast], lift=lift, radius=radius))]
         for index in fast.tolist():
             step, limit = int(mine[index]), float(most[index])
             if _sliver(scene, tool, step):

@@ -40,7 +40,7 @@ def entries(scene: Scene) -> Check:
     # A thread mill goes down a finished hole, as steeply as its pitch asks.
     threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
-    for index in np.flatnonzero(suspect).tolist():
+    for index in np.flatnonzero(np.isin(steps, scene.stock.suspects(steps[suspect]))).tolist():
         step = int(steps[index])
         if not scene.stock.meets(step):
             continue
@@ -144,4 +144,5 @@ def _onto_stock(scene: Scene) -> Ints:
     rapid = paths.rapids
     z = paths.end[rapid, 2]
     onto: Ints = rapid[(z < ABOVE - NEAR) & (z >= -NEAR) & (z < paths.start[rapid, 2])]
-    return onto[~scene.stock.in_own_hole(onto, np.full(onto.size, -TOUCH))]
+    onto = onto[~scene.stock.in_own_hole(onto, np.full(onto.size, -TOUCH))]
+    return scene.stock.suspects(onto, lift=-paths.end[onto, 2] - TOUCH, radius=paths.radius[onto])

@@ -34,21 +34,56 @@ its place is in, and what is left between two places."""
 BRIDGE = 2 * UNSURE * CELL + math.sqrt(2) * CELL
 """A bridge so wide is found on the usual grid, mm, whichever way it lies."""
 
+CHUNK = 20_000
+"""So many moves are laid on the grid at a time: memory does not go with the program."""
+
 Steps = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Footprint:
-    """Cells (ny, nx) of the plate; rows from the lower edge."""
+class Grid:
+    """Cells (ny, nx) of a plate; rows from the lower edge."""
 
     x: float
     y: float
-    """The plate's lower left corner, mm."""
+    """The lower left corner, mm."""
     cell: float
     """Width of a cell, mm."""
     cut: Steps
-    """(ny, nx) the step that cuts a cell through, :data:`NEVER` where none does."""
+    """(ny, nx) the step that cuts a cell, :data:`NEVER` where none does."""
+
+    def cells(self, places: Array, border: int = 0) -> tuple[Ints, Ints, Mask]:
+        """Row and column (k,) of places (k, 2), mm, and which of them are on the grid with a border."""
+        ny, nx = self.cut.shape
+        column = np.floor((places[:, 0] - self.x) / self.cell).astype(np.int64) + border
+        row = np.floor((places[:, 1] - self.y) / self.cell).astype(np.int64) + border
+        inside = (column >= 0) & (column < nx + 2 * border) & (row >= 0) & (row < ny + 2 * border)
+        return row, column, inside
+
+    def lower(self, paths: Paths, steps: Ints, radius: float, level: float, wider: float) -> None:
+        """Cut with one radius, mm: the first step that comes within it of a cell cuts that.
+
+        What counts is the part of each step at ``level`` or below; the radius counts ``wider`` cells wider.
+        """
+        reach = radius / self.cell + wider
+        if reach < 0:
+            return
+        h, (ny, nx) = int(reach), self.cut.shape
+        centres = np.full((ny + 2 * h, nx + 2 * h), NEVER, dtype=np.int32)
+        for first in range(0, steps.size, CHUNK):
+            # Two places are so near that between them a quarter of a cell is left at most.
+            places, z, owner = paths.samples(steps[first : first + CHUNK], math.sqrt(2 * radius * self.cell))
+            row, column, inside = self.cells(places, h)
+            inside &= z <= level + NEAR
+            np.minimum.at(centres, (row[inside], column[inside]), owner[inside].astype(np.int32))
+        np.minimum(self.cut, earliest(centres, reach), out=self.cut)
+
+
+@dataclass(frozen=True)
+class Footprint(Grid):
+    """A grid by which step each cell of the plate is cut through."""
+
     body: Steps
     """(ny, nx) above 0 where a cell is near enough to a cut to count as cut, and lies in the finished part or
     in a planned tab: it counts as never cut, and those of one number hang together. 0 elsewhere."""
@@ -79,14 +114,6 @@ class Footprint:
         seeds = np.where(np.pad(mask, 2 * h), 0, NEVER).astype(np.int32)
         return earliest(seeds, distance / self.cell) < NEVER
 
-    def cells(self, places: Array, border: int = 0) -> tuple[Ints, Ints, Mask]:
-        """Row and column (k,) of places (k, 2), mm, and which of them are on the grid with a border."""
-        ny, nx = self.cut.shape
-        column = np.floor((places[:, 0] - self.x) / self.cell).astype(np.int64) + border
-        row = np.floor((places[:, 1] - self.y) / self.cell).astype(np.int64) + border
-        inside = (column >= 0) & (column < nx + 2 * border) & (row >= 0) & (row < ny + 2 * border)
-        return row, column, inside
-
 
 def footprint(paths: Paths, job: Job) -> Footprint:
     """Cut the plate through, move by move; time goes with the length of path and the size of the plate."""
@@ -100,30 +127,12 @@ def footprint(paths: Paths, job: Job) -> Footprint:
     pieces = paths.below(level, steps=paths.cuts)
     radii = np.round(paths.radius_at(pieces, level), 3)
     for radius in np.unique(radii[radii > NEAR]).tolist():
-        _cut(found, paths, pieces.step[radii == radius], radius, level)
+        found.lower(paths, pieces.step[radii == radius], radius, level, UNSURE)
     kept = shapely.union_all([job.target, *(shapely.buffer(tab.shape, cell) for tab in job.tabs)])
     for number, body in enumerate(shapely.get_parts(kept), start=1):
         mine = found.inside(body, cut < NEVER)
         cut[mine], found.body[mine] = NEVER, number
     return found
-
-
-CHUNK = 20_000
-"""So many moves are laid on the grid at a time: memory does not go with the program."""
-
-
-def _cut(found: Footprint, paths: Paths, steps: Ints, radius: float, level: float) -> None:
-    """Cut with one radius: the first step that comes within it of a cell cuts that."""
-    reach = radius / found.cell + UNSURE
-    h, (ny, nx) = int(reach), found.cut.shape
-    centres = np.full((ny + 2 * h, nx + 2 * h), NEVER, dtype=np.int32)
-    for first in range(0, steps.size, CHUNK):
-        # Two places are so near that between them a quarter of a cell is left at most.
-        places, z, owner = paths.samples(steps[first : first + CHUNK], math.sqrt(2 * radius * found.cell))
-        row, column, inside = found.cells(places, h)
-        inside &= z <= level + NEAR
-        np.minimum.at(centres, (row[inside], column[inside]), owner[inside].astype(np.int32))
-    np.minimum(found.cut, earliest(centres, reach), out=found.cut)
 
 
 def earliest(centres: Steps, reach: float) -> Steps:

@@ -41,6 +41,7 @@ def holder(scene: Scene) -> Check:
     for body in bodies(scene):
         low = paths.low + body.lift
         steps = paths.steps[(run.tool[paths.steps] == body.tool.number) & (low[paths.steps] < -NEAR)]
+        steps = scene.stock.suspects(steps, lift=body.lift, radius=body.radius)
         # The deepest first: if they pass where material may still be, the others nearly always do.
         for step in steps[np.argsort(low[steps], kind="stable")].tolist():
             if scene.stock.meets(step, lift=body.lift, radius=body.radius):

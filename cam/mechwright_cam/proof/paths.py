@@ -137,12 +137,17 @@ class Paths:
         """All of some steps."""
         return self.below(np.inf, steps=steps)
 
-    def below(self, height: float, *, steps: Ints | None = None) -> Pieces:
-        """The pieces that run at or below ``height``."""
+    def below(self, height: float | Array, *, steps: Ints | None = None) -> Pieces:
+        """The pieces that run at or below ``height``, one for all or one (m,) for each of the steps."""
         steps = self.steps if steps is None else steps
         z0, z1 = self.start[steps, 2], self.end[steps, 2]
         reach = np.minimum(z0, z1) <= height
-        steps, z0, z1 = steps[reach], z0[reach], z1[reach]
+        steps, z0, z1, height = (
+            steps[reach],
+            z0[reach],
+            z1[reach],
+            np.broadcast_to(height, reach.shape)[reach],
+        )
         drop = np.where(z0 == z1, 1.0, z0 - z1)
         crossing = np.clip((z0 - height) / drop, 0.0, 1.0)
         first = np.where(z0 > height, crossing, 0.0)

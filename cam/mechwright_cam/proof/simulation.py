@@ -191,8 +191,12 @@ def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: floa
     x0, y0, _, _ = job.stock
     x = x0 + (np.arange(grid[1]) + 0.5) * cell
     y = y0 + (np.arange(grid[0]) + 0.5) * cell
-    shape = prepared(shape)
-    inside: NDArray[np.bool_] = shapely.contains_xy(shape, *np.meshgrid(x, y))
+    inside = np.zeros(grid, dtype=bool)
+    if not shape.is_empty:
+        west, south, east, north = shape.bounds
+        i, k = np.searchsorted(y, south), np.searchsorted(y, north, side="right")
+        j, n = np.searchsorted(x, west), np.searchsorted(x, east, side="right")
+        inside[i:k, j:n] = shapely.contains_xy(prepared(shape), *np.meshgrid(x[j:n], y[i:k]))
     return inside
 
 

@@ -15,6 +15,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints, SpindleChange
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
+from mechwright_cam.proof.cleared import left
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
@@ -58,6 +59,8 @@ class Stock:
         self._work = self._asked = 0
         self._free: dict[tuple[Any, ...], int] = {}
         """Ways that have met nothing, and when: material does not come back."""
+        self._where: dict[tuple[int, float, float], Shape] = {}
+        """By step, lift and radius, the lines along which alone material may be met."""
         self._cleared: dict[tuple[int, float], tuple[int, Shape]] = {}
         """By tool and height, where a question has found nothing of the plate above that height, and when."""
         self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
@@ -113,7 +116,7 @@ class Stock:
         paths, rapid = self.paths, self.paths.rapids
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
-        low = low[~self.in_own_hole(low, paths.low[low])]
+        low = self.suspects(low[~self.in_own_hole(low, paths.low[low])])
         return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
 
     def in_own_hole(self, rapids: Ints, z: Array) -> NDArray[np.bool_]:
@@ -141,8 +144,32 @@ class Stock:
         low = rapid[(paths.low[rapid] < -NEAR) & (paths.end[rapid, 2] <= paths.start[rapid, 2])]
         low = low[~self.in_own_hole(low, paths.low[low])]
         sides = shapely.boundary(shapely.convex_hull(self.rough))
-        low = low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])]
+        low = self.suspects(low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])])
         return next((step for step in low.tolist() if self.meets(step, rough=True)), None)
+
+    def suspects(
+        self, steps: Ints, *, lift: Array | float = 0.0, radius: Array | float | None = None
+    ) -> Ints:
+        """Those of the steps of which :meth:`meets` has to be asked: of the others it would say no.
+
+        ``lift`` and ``radius`` are one each or of every step (n,); a radius of NaN stands for None.
+        """
+        paths = self.paths
+        lifts = np.broadcast_to(lift, steps.shape)
+        widest = paths.cutters(steps).radius_at(-paths.low[steps])
+        reach = np.broadcast_to(np.nan if radius is None else radius, steps.shape)
+        reach = np.where(np.isnan(reach), widest, reach)
+        low = (paths.low[steps] + lifts < -NEAR) & (reach > 0)
+        steps, lifts, reach = steps[low], lifts[low], reach[low]
+        suspect, where = left(paths, self.cuts, self._around, steps, lifts, reach)
+        for index, lines in where.items():
+            self._where[int(steps[index]), float(lifts[index]), float(reach[index])] = lines
+        return steps[suspect]
+
+    @cached_property
+    def _around(self) -> Array:
+        """Least and greatest x and y of the plate and its margin."""
+        return np.array(shapely.bounds(self.rough)).reshape(2, 2)
 
     def meets(
         self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False
@@ -164,7 +191,8 @@ class Stock:
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))
         reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
         plate = self.rough if rough else self.plate
-        body = shapely.intersection(grow(paths.room(pieces)[0], reach, ACCURACY), plate)
+        room = self._where.get((step, lift, reach)) or paths.room(pieces)[0]
+        body = shapely.intersection(grow(room, reach, ACCURACY), plate)
         if self._meets(step, z, body):
             return True
         self._free[key] = step
@@ -210,14 +238,14 @@ class Stock:
         cleared = shapely.union(cleared, shapely.difference(body, rest))
         if shapely.get_num_coordinates(cleared) < MOST_CORNERS:
             self._cleared[key] = step, cleared
-        return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
+        return not _is_nothing(rest)
 
     def _left(self, step: int, z: float, body: Shape) -> Shape:
         """What earlier steps have left of a shape, not having cut it down to z; the last cuts come first."""
         paths, last = self.paths, step
         reach = float(np.nanmax(paths.radius)) if self.cuts.size else 0.0
         first = int(np.searchsorted(self.cuts, step))
-        while first > 0 and not body.is_empty:
+        while first > 0 and not _is_nothing(body):
             first = max(first - LAST, 0) if last == step else 0
             since = int(self.cuts[first])
             pieces = paths.below(z + NEAR, steps=self._cuts_near(body, reach, last, since)[::-1])
@@ -232,13 +260,25 @@ class Stock:
         own = paths.run.tool[pieces.step] == paths.run.tool[step]
         radius = np.where(own, paths.radius[pieces.step], paths.radius_at(pieces, z))
         pieces, radius = pieces.only(radius > 0), radius[radius > 0]
-        lines, first, count = paths.lines(pieces, ACCURACY), 0, FEW
-        while first < len(pieces) and not body.is_empty:
-            some = slice(first, first + count)
-            self._count(step, GROWN * lines[some].size + int(shapely.get_num_coordinates(lines[some]).sum()))
-            body = shapely.difference(body, shapely.union_all(_discs(lines[some], radius[some])))
-            first, count = first + count, 2 * count
+        lines, count = paths.lines(pieces, ACCURACY), FEW
+        while lines.size and not _is_nothing(body):
+            # Those that reach furthest beyond a place in what is left, and some of all: cuts come in crowds.
+            away = shapely.distance(lines, shapely.point_on_surface(body)) - radius
+            now = np.zeros(lines.size, dtype=np.bool_)
+            now[np.argsort(away, kind="stable")[:count]] = True
+            now[:: -(-lines.size // count)] = True
+            self._count(step, int(GROWN * now.sum() + shapely.get_num_coordinates(lines[now]).sum()))
+            body = shapely.difference(body, shapely.union_all(_discs(lines[now], radius[now])))
+            lines, radius, count = lines[~now], radius[~now], 2 * count
+            if lines.size > count:
+                near = shapely.dwithin(prepared(body), lines, float(radius.max()))
+                lines, radius = lines[near], radius[near]
         return body
+
+
+def _is_nothing(body: Shape) -> bool:
+    """Whether a shape is nowhere as wide as what is met."""
+    return body.is_empty or bool(shapely.is_empty(shapely.buffer(body, -TOUCH / 2, quad_segs=2)))
 
 
 def _discs(lines: Geometries, radius: Array) -> Geometries:

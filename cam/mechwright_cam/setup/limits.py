@@ -1,5 +1,6 @@
 """What the machine is too small for, before any program is planned."""
 
+import math
 from collections.abc import Iterator
 
 from mechwright.contracts.finding import Finding
@@ -7,6 +8,9 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+
+_ROUND = 10
+"""mm: to this a travel that would do is rounded up."""
 
 HOLDER = 30.0
 """Least length of shank and holder above a tool's flutes, mm: that of a small collet chuck."""
@@ -31,7 +35,10 @@ def check_travel(job: Job) -> Iterator[Finding]:
         if wanted > travel:
             where = f"cam.machine.travel_{axis}"
             message = f"part {job.part.name} asks for {wanted:.1f} mm of travel in {axis.upper()}"
-            yield Finding.error("cam.travel", where, message, wanted, travel, "mm", remedy)
+            larger = {where: math.ceil(wanted / _ROUND) * _ROUND}
+            yield Finding.error(
+                "cam.travel", where, message, wanted, travel, "mm", remedy, proposed=(larger,)
+            )
 
 
 def check_machine(job: Job) -> Iterator[Finding]:

@@ -55,6 +55,9 @@ class Wanted:
 class Build:
     """A design on its way from parameters to files.
 
+    Rooms that make more of a design than the core knows of keep their results here as well, see :meth:`made`.
+    A build is closed when it is done with, so that what runs beside it ends.
+
     Parameters
     ----------
     design
@@ -63,9 +66,6 @@ class Build:
         What is installed.
     wanted
         What is asked for besides.
-
-    Rooms that make more of a design than the core knows of keep their results here as well, see :meth:`made`.
-    A build is closed when it is done with, so that what runs beside it ends.
     """
 
     def __init__(self, design: "Design | Path", host: "Host", wanted: Wanted = Wanted()) -> None:

@@ -75,6 +75,11 @@ def requirement_files(incomplete: str) -> list[str]:
     return _files(incomplete, requirement=True)
 
 
+def any_files(incomplete: str) -> list[str]:
+    """Design files and requirement files."""
+    return sorted(_files(incomplete, requirement=False) + _files(incomplete, requirement=True))
+
+
 def part_names(ctx: typer.Context, incomplete: str) -> list[str]:
     """The parts of the design on the line."""
     design = ctx.params.get("design")

@@ -56,7 +56,7 @@ def fraction() -> "Iterator[Progress]":
     It is shown on standard error, if that is a terminal, and gone when the work is done.
     """
     if os.environ.get(IN_LINES):
-        yield _in_line
+        yield in_line
         return
     if not sys.stderr.isatty():
         yield lambda done, what: None  # noqa: ARG005 - nothing is shown
@@ -72,7 +72,8 @@ def fraction() -> "Iterator[Progress]":
         yield lambda done, what: bar.update(task, completed=done, description=what)
 
 
-def _in_line(done: float, what: str) -> None:
+def in_line(done: float, what: str) -> None:
+    """Progress as a line of standard error, which :func:`line_of` reads."""
     sys.stderr.write(f"{_MARK}{json.dumps({'done': done, 'doing': what})}\n")
     sys.stderr.flush()
 

@@ -15,9 +15,10 @@ if TYPE_CHECKING:
     from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
-    from mechwright.contracts.mounting import GroundPlate, Mounting
+    from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright.contracts.target import Target
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import ToleranceModel
 
@@ -93,7 +94,7 @@ class Family(Plugin, Generic[P]):
             The parameters describe no part; ``check`` says why.
         """
 
-    def mounting(self, params: P) -> "Mounting | GroundPlate | None":  # noqa: ARG002 - used by some
+    def mounting(self, params: P) -> "Mounting | GroundPlate | Flange | None":  # noqa: ARG002 - used by some
         """Where its shafts stand, or its own ground plate, so that a frame can be built around it.
 
         It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,
@@ -256,3 +257,13 @@ class Family(Plugin, Generic[P]):
         from mechwright.contracts.evaluation import one_by_one
 
         return one_by_one(self, batch, columns, stage)
+
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
+        """The places that a requirement asks for, which ``mechwright live`` lets one drag.
+
+        It is asked with every move of the pointer, of any requirement that its model takes, met or not. The
+        default gives every list of points [x, y] in mm.
+        """
+        from mechwright.contracts.target import point_targets
+
+        return point_targets(requirement)

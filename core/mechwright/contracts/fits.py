@@ -13,8 +13,9 @@ from mechwright.errors import DesignError, GeometryError
 HoleClass = Literal["F7", "H7", "N7", "P7"]
 """F7 runs on an h6 pin, H7 locates, N7 holds with light blows, P7 is pressed."""
 
-ShaftClass = Literal["f7", "g6", "h6", "j6", "k6", "m6"]
-"""In H7 f7 and g6 run, h6 slides, j6 and k6 carry a bearing's inner ring or a hub, m6 is a dowel's."""
+ShaftClass = Literal["f7", "g6", "h6", "j6", "k6", "m6", "r6"]
+"""In H7 f7 and g6 run, h6 slides, j6 and k6 carry a bearing's inner ring or a hub, m6 is a dowel's, r6
+a bush's."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 The letter of a class says where a tolerance zone begins, the number how wide it is. Holes have capitals, E
 to H above the basic size or at it, J, K, M, N, P about it or below; shafts have small letters, e to h below
-the basic size or at it, j, k, m, n, p about it or above. Other modules make fits of these, and none has
+the basic size or at it, j, k, m, n, p, r about it or above. Other modules make fits of these, and none has
 numbers of its own. Micrometres.
 """
 
@@ -42,13 +42,17 @@ _INTO = {
 }
 """By how much a shaft's lower limit is above the basic size, grades 4 to 7; of holes see :func:`limits`."""
 
+_R_STEPS = (3, 6, 10, 18, 30, 50, 65, 80, 100, 120, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400)
+_R_SHAFT = (10, 15, 19, 23, 28, 34, 41, 43, 51, 54, 63, 65, 68, 77, 80, 84, 94, 98, 108, 114)
+"""By how much the lower limit of r4 to r7 is above the basic size, which has finer ranges beyond 50 mm."""
+
 _J_SHAFT = (2, 2, 2, 3, 4, 5, 7, 9, 11, 13, 16, 18)
 """By how much the lower limit of j5 and j6 is below the basic size."""
 
 _J7_HOLE = (4, 6, 8, 10, 12, 14, 18, 22, 26, 30, 36, 39)
 """By how much the upper limit of J7 is above the basic size."""
 
-SHAFT_CLASS = r"[efgh][5-9]|j[56]|[kmnp][4-7]"
+SHAFT_CLASS = r"[efgh][5-9]|j[56]|[kmnpr][4-7]"
 HOLE_CLASS = r"[EFGH][5-9]|J7|[KMNP][5-7]"
 """Classes that the table holds, as regular expressions."""
 
@@ -81,7 +85,7 @@ def limits(size: float, name: str) -> tuple[int, int]:
     if not _CLASS.fullmatch(name):
         raise DesignError(
             f"{name!r} is no tolerance class that is known; shafts: e to h 5 to 9, j5, j6, "
-            "k, m, n, p 4 to 7; holes: E to H 5 to 9, J7, K, M, N, P 5 to 7"
+            "k, m, n, p, r 4 to 7; holes: E to H 5 to 9, J7, K, M, N, P 5 to 7"
         )
     row, letter, number = _row(size), name[0], int(name[1])
     width = _GRADES[number][row]
@@ -89,6 +93,9 @@ def limits(size: float, name: str) -> tuple[int, int]:
         return -_AWAY[letter][row] - width, -_AWAY[letter][row]
     if letter in _INTO:
         return _INTO[letter][row], _INTO[letter][row] + width
+    if letter == "r":
+        lower = _R_SHAFT[next(i for i, most in enumerate(_R_STEPS) if size <= most)]
+        return lower, lower + width
     if letter == "j":
         return -_J_SHAFT[row], width - _J_SHAFT[row]
     if letter == "J":

@@ -9,7 +9,8 @@ those of carbide. The specific cutting force is Kienzle's, k_c = k_c1.1 h^-m wit
 * aluminium: N1 of the tool makers' tables, Sandvik and Walter, 600 to 700 and 0.25;
 * brass: CuZn37 in Tschätsch, Praxis der Zerspantechnik (free-cutting CuZn39Pb3 takes 550, with 0.25);
 * steel: S235JR in the same book (C45 takes 2220, with 0.14);
-* acetal: no source agrees with another; 100 to 200 are named, so this is an upper bound.
+* acetal: no source agrees with another; 100 to 200 are named, so this is an upper bound;
+* polycarbonate: cut as acetal, with a sharp edge and air.
 
 What a cutter's maker says of it counts more than any of this.
 """
@@ -84,6 +85,9 @@ MATERIALS = {
         Material("brass", 8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, long_chips=False),
         Material("steel", 7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, long_chips=True),
         Material("pom", 1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, long_chips=True),
+        Material(
+            "polycarbonate", 1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, long_chips=True
+        ),
     )
 }
 

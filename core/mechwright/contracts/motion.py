@@ -22,6 +22,10 @@ TIME = "time"
 """Name of the channel of time, s, of a motion whose input goes there and back."""
 
 
+NOTHING = 1e-12
+"""A single figure below this is the rounding of sums, in whatever unit: people are told 0."""
+
+
 def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
     """Input angles (samples,), rad, from ``start`` over ``travel``, both ends included.
 
@@ -37,10 +41,14 @@ def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A sampled quantity: ``values`` (n,) float in ``unit`` (SI with millimetres: mm, rad, rad/s, mm/s^2)."""
+    """A sampled quantity: ``values`` (n,) float in ``unit`` (SI with millimetres: mm, rad, rad/s, mm/s^2).
+
+    ``label`` says to people what it is, in a few words: ``"angle of the crank"``.
+    """
 
     values: Array
     unit: str
+    label: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +59,7 @@ class Scalar:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.value:.6g} {self.unit}".rstrip()
+        return f"{0.0 if abs(self.value) < NOTHING else self.value:.6g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +245,11 @@ class Motion:
             f"{name} [{channel.unit}]" if channel.unit else name: channel.values
             for name, channel in self.channels.items()
         }
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """What each channel is, in words; of one that does not say it, its name without underscores."""
+        return {name: channel.label or name.replace("_", " ") for name, channel in self.channels.items()}
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """The channels as a table of pandas, a row for each sample, columns as :attr:`arrays` names them.

@@ -15,8 +15,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.errors import GeometryError
+from mechwright.contracts.finding import Change
+from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
+
+
+class MountingError(DesignError):
+    """A design cannot be held as it is: a key, what is wrong, and what to do, with changes to try."""
+
+    def __init__(self, message: str, proposed: tuple[Change, ...] = ()) -> None:
+        super().__init__(message)
+        self.proposed = proposed
 
 
 @dataclass(frozen=True)
@@ -141,8 +150,7 @@ class GroundPlate:
     low, high
         Heights of the plate's faces, mm.
     holes
-        Where screws go through: corners of a rectangle, as far above y = 0 as below, counter-clockwise from
-        (least x, least y), mm.
+        Where screws go through: corners of a rectangle, counter-clockwise from (least x, least y), mm.
     hole
         Their diameter, mm.
     shaft
@@ -150,11 +158,21 @@ class GroundPlate:
     axis
         Where it stands, mm.
     diameter, end
-        Of the shaft, and the height of its lower end, mm.
+        Of the shaft's end, and the height at which it ends, mm.
     offset_key
-        The design-file key of the distance of all four holes from y = 0.
+        The design-file key that moves all four holes outwards.
     hole_key, diameter_key, thickness_key
         Those of ``hole`` and ``diameter``, and of the plate's thickness.
+    neck
+        How far down the shaft is thicker than its end, or carries something, mm below the plate.
+    offset
+        What that key says, mm; left out, the distance of the holes from y = 0.
+    outwards
+        By how much a millimetre of the offset moves a hole along x and y, mm.
+    length_key
+        The design-file key of how far the shaft stands out; empty where it grows with the diameter.
+    access
+        Where a key has to reach screws below the plate from underneath: places and radii, mm.
 
     Raises
     ------
@@ -175,10 +193,106 @@ class GroundPlate:
     hole_key: str
     diameter_key: str
     thickness_key: str
+    neck: float = 0.0
+    offset: float | None = None
+    outwards: Point = (0.0, 1.0)
+    length_key: str = ""
+    access: tuple[tuple[Point, float], ...] = ()
 
     def __post_init__(self) -> None:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
-        if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 == -y1 < 0):
-            raise GeometryError("the holes of a ground plate are the corners of no rectangle about y = 0")
-        if not self.end < self.low < self.high:
+        if self.holes != ((x0, y0), (x1, y0), (x1, y1), (x0, y1)) or not (x0 < x1 and y0 < y1):
+            raise GeometryError("the holes of a ground plate are the corners of no rectangle")
+        if not self.end < self.low - self.neck <= self.low < self.high:
             raise GeometryError("the shaft of a ground plate does not stand out below it")
+
+    @property
+    def bare(self) -> float:
+        """Height below which the shaft is as thick as its end and carries nothing, mm."""
+        return self.low - self.neck
+
+    @property
+    def out(self) -> float:
+        """The offset of the holes, mm."""
+        return self.holes[2][1] if self.offset is None else self.offset
+
+    def moved(self, offset: float) -> tuple[Point, Point, Point, Point]:
+        """The holes with another offset, mm."""
+        more = offset - self.out
+        dx, dy = more * self.outwards[0], more * self.outwards[1]
+        (x0, y0), (x1, y1) = self.holes[0], self.holes[2]
+        return (x0 - dx, y0 - dy), (x1 + dx, y0 - dy), (x1 + dx, y1 + dy), (x0 - dx, y1 + dy)
+
+
+@dataclass(frozen=True)
+class Foot:
+    """A plate on which a mechanism stands, with threads for what it carries and for a base below.
+
+    Parameters
+    ----------
+    body
+        Of the motion, which does not move. The plate lies between z = 0 and its thickness, z pointing down.
+    thickness
+        mm.
+    holes, inner
+        Where its threads are for screws from below, and for those from above that hold what it carries, mm.
+    screw
+        Their diameter, mm.
+    grip
+        Thickness of what the inner ones hold, mm.
+    key
+        The design-file key of the holes' diameter.
+    """
+
+    body: str
+    thickness: float
+    holes: tuple[Point, ...]
+    inner: tuple[Point, ...]
+    screw: float
+    grip: float
+    key: str
+
+
+@dataclass(frozen=True)
+class Flange:
+    """What a family says of a flange about its input's axis, which a motor is to stand on, askew to its foot.
+
+    Parameters
+    ----------
+    body
+        Of the motion, which has the flange and does not move. Its x axis is that of the input, outwards; so
+        is that of ``shaft``, whose origin is the same.
+    inner, outer
+        From the origin to the flange's faces, mm; screws go through from the inner one.
+    half
+        Half the side of the square of its holes, whose sides lie along y and z, mm.
+    shaft
+        The body that turns with the input.
+    diameter, end
+        Of the shaft's end, and from the origin to it, mm.
+    reach
+        Radius about the origin in which all the rest is, mm.
+    foot
+        The plate that carries all.
+    size_key, tilt_key
+        The design-file keys of the square's side, and of the angle, in degrees, between axis and foot's z.
+    bond
+        Length of what is bonded to the shaft there, mm, and the key of the shaft's diameter.
+    """
+
+    body: str
+    inner: float
+    outer: float
+    half: float
+    shaft: str
+    diameter: float
+    end: float
+    reach: float
+    foot: Foot
+    size_key: str
+    tilt_key: str
+    bond: tuple[float, str]
+
+    def __post_init__(self) -> None:
+        if not 0 < self.inner < self.outer < self.end:
+            raise GeometryError("the shaft of a flange does not stand out of it")

@@ -189,7 +189,8 @@ class Part:
     thickness
         mm; 0 for a part built as a solid.
     material
-        A name of the material table (``"aluminium"``, ``"steel"``, ``"brass"``, ``"pom"``).
+        A name of the material table: ``"aluminium"``, ``"steel"``, ``"brass"``, ``"pom"``,
+        ``"polycarbonate"``.
     instances
         Where copies stand in the mechanism.
     colour

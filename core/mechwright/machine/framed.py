@@ -2,16 +2,18 @@
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.mounting import GroundPlate
+from mechwright.contracts.mounting import Flange, GroundPlate, MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.drive import SAMPLES, drive_of
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around, refusal
+from mechwright.machine.frame.flanged import on_flange
 from mechwright.machine.frame.grounded import base_under
 from mechwright.machine.frame.sweep import LOOKS, Space, space_of
 from mechwright.machine.motors import motor_of
@@ -47,6 +49,8 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         drive.speed * 60 / math.tau,
     )
     motion = family.solve(params, LOOKS)
+    if isinstance(mounting, Flange):
+        return on_flange(settings, mounting, motion, wanted)
     if isinstance(mounting, GroundPlate):
         try:
             space = _set_space(family, params)
@@ -69,4 +73,7 @@ def _set_space(family: Family[Any], params: Parameters) -> Space:
 def _refused(code: str, error: DesignError) -> Surroundings:
     """By an error that begins with a key."""
     key, _, rest = str(error).partition(": ")
-    return Surroundings(findings=(refusal(code, key, rest),))
+    found = refusal(code, key, rest)
+    if isinstance(error, MountingError):
+        found = replace(found, proposed=error.proposed)
+    return Surroundings(findings=(found,))

@@ -58,6 +58,8 @@ class Bench:
         When the search ends.
     progress
         Told how near that is.
+    share
+        Of the limits, what may be used up for now: a search of several ways leaves something for the next.
     """
 
     design: Design
@@ -67,6 +69,7 @@ class Bench:
     tell: Judge | None = None
     progress: Progress = unheard
     tries: int = 0
+    share: float = 1.0
     keys: dict[str, Key] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -77,7 +80,8 @@ class Bench:
     @property
     def spent(self) -> bool:
         """Whether the search has to end."""
-        return self.tries >= self.limits.tries or self._used >= self.limits.seconds
+        limits = self.limits
+        return self.tries >= self.share * limits.tries or self._used >= self.share * limits.seconds
 
     def now(self, key: Key, change: Change | None = None) -> Any:
         """The value of a key, with a change that has been decided on."""

@@ -17,6 +17,8 @@ MOST_CHANGES = 10
 """Keys that a remedy changes at most: more is another design."""
 _ENOUGH = 3
 """Keys of a remedy found step by step with which the other way is not looked at."""
+_FIRST_WAY = 0.5
+"""Share of the tries that the steps may use up: the other way needs its own where they end nowhere."""
 _AGAIN = 3
 """Times that the same finding is met before the steps are given up."""
 _FIRST = 5
@@ -37,7 +39,9 @@ def nearest(bench: Bench) -> Change | None:
 
 def candidates(bench: Bench, enough: int = 0) -> list[Change]:
     """Changes with which the design builds, the smallest first; one of at most ``enough`` keys is alone."""
+    bench.share = _FIRST_WAY
     by_steps = _by_steps(bench)
+    bench.share = 1.0
     found = [] if by_steps is None else [by_steps]
     if by_steps is None or len(by_steps) > enough:
         found += _from_known(bench)

@@ -10,7 +10,7 @@ from mechwright.remedies.advice import advised
 from mechwright.remedies.bench import Bench, Limits, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
-from mechwright.remedies.search import Worth, best_step, path_of, refined, related, worth, written
+from mechwright.remedies.search import Worth, best_step, path_of, refined, related, unnamed, worth, written
 from mechwright.remedies.words import said
 
 NOT_ENOUGH = "that was tried, and is not enough by itself"
@@ -97,13 +97,13 @@ def with_proposed(bench: Bench, finding: Finding) -> Finding:
     message, _, words = ("", "", finding.remedy) if finding.remedy else finding.message.rpartition("; ")
     own = bench.keys.get(path_of(bench, finding.parameter))
     said_so = list(advised(words, own, bench.keys))
-    before = errors([finding])
-    proposed = [written(bench, one, {}) for one in (*finding.proposed, *said_so)]
+    measured, before = unnamed(bench, finding, {}), errors([finding])
+    proposed = [written(bench, one, {}) for one in (*finding.proposed, *measured, *said_so)]
     change = next((one for one in proposed if worth(bench, finding, before, one) <= Worth.HELPS), None)
     if change is not None:
         fixed = replace(finding, fix=change, remedy=said(bench, change))
         return replace(fixed, message=message) if message else fixed
-    if said_so and not bench.spent:
+    if (measured or said_so) and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
 

@@ -1,13 +1,16 @@
 """Changes that remove a finding: what was proposed, then values along the keys that it speaks of."""
 
-from collections.abc import Callable, Iterable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from itertools import zip_longest
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.remedies.bench import KEY, Bench, identity
 from mechwright.remedies.keys import Key, meant, named
+from mechwright.remedies.measured import measured
 from mechwright.remedies.values import closest, ladder, round_to, typed
 
 _PAST = (0.0, 1e-3, 1e-2)
@@ -15,6 +18,9 @@ _PAST = (0.0, 1e-3, 1e-2)
 
 _NEAR = KEY + 0.3
 """A change that helps and costs no more than this ends the search: a number a third larger."""
+
+_PART = re.compile(r"\bpart [\w-]+")
+"""The name of a part, which is none of a key: a four-bar has a part and a length that are called ground."""
 
 
 class Worth(IntEnum):
@@ -54,7 +60,7 @@ def worth(bench: Bench, finding: Finding, before: Iterable[Finding], change: Cha
 
 def related(bench: Bench, finding: Finding) -> list[Key]:
     """The keys to search along: the finding's own, then those that its remedy and its message speak of."""
-    words = f"{finding.parameter} {finding.remedy} {finding.message}"
+    words = _PART.sub("part", f"{finding.parameter} {finding.remedy} {finding.message}")
     own = bench.keys.get(path_of(bench, finding.parameter))
     found = [*([own] if own else []), *named(words, bench.keys)]
     return list(dict.fromkeys(found or meant(words, bench.keys)))
@@ -74,9 +80,10 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
     ``decided`` holds besides. What was proposed comes first, and the first proposal that helps is taken.
     """
     told = bench.told(finding, decided)
+    alike = [bench.told(one, decided) for one in before if identity(one) == identity(finding)]
     proposed = [
         step
-        for proposal in told.proposed
+        for proposal in _proposals(bench, alike or [told], decided)
         if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
     ]
     best = min(proposed, key=lambda step: step.worth, default=None)
@@ -89,6 +96,19 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
         if best is not None and best.worth <= Worth.HELPS and best.size - bench.size(decided) < _NEAR:
             break
     return best
+
+
+def _proposals(bench: Bench, findings: Sequence[Finding], decided: Change) -> list[Change]:
+    """What findings that say the same of several parts propose: what is enough for all is the farthest."""
+    each = [[*one.proposed, *unnamed(bench, one, decided)] for one in findings]
+    ranks = ([one for one in rank if one is not None] for rank in zip_longest(*each))
+    return [one for rank in ranks for one in sorted(rank, key=bench.size, reverse=True)]
+
+
+def unnamed(bench: Bench, finding: Finding, decided: Change) -> list[Change]:
+    """Changes of a length that the finding measures, where its own parameter is no number to be changed."""
+    own = bench.keys.get(path_of(bench, finding.parameter))
+    return [] if own is not None and own.numeric else list(measured(bench, finding, decided))
 
 
 def written(bench: Bench, change: Change, decided: Change) -> Change:

@@ -11,6 +11,14 @@ BORES = (5.0, 6.0, 6.35, 8.0, 10.0)
 """In which hubs are sold, mm."""
 
 
+class OverloadError(DesignError):
+    """No coupling carries so much; ``most``: what the largest with these bores carries, N m."""
+
+    def __init__(self, most: float, message: str) -> None:
+        super().__init__(message)
+        self.most = most
+
+
 @dataclass(frozen=True)
 class CouplingSize:
     """Outside and length, least and greatest bore, mm, and rated torque, N m."""
@@ -50,7 +58,8 @@ def couplings() -> tuple[CouplingSize, ...]:
 def coupling_for(lower: float, upper: float, torque: float) -> Coupling:
     """The smallest coupling between two shafts, mm, that carries a torque, N m.
 
-    Raises DesignError for a bore in which no hub is sold, or a torque above what these bores carry.
+    Raises DesignError for a bore in which no hub is sold, OverloadError for a torque above what these bores
+    carry.
 
     >>> coupling_for(5, 8, 0.3).of.outside
     19
@@ -63,7 +72,8 @@ def coupling_for(lower: float, upper: float, torque: float) -> Coupling:
         if one.torque >= torque:
             return Coupling(one, lower, upper)
     most = fitting[-1].torque
-    raise DesignError(
+    raise OverloadError(
+        most,
         f"couplings for {lower:g} and {upper:g} mm carry {most:g} N m; {torque:g} N m are asked for: "
-        "gear down behind the coupling, or fix a hub on the shaft"
+        "gear down behind the coupling, or fix a hub on the shaft",
     )

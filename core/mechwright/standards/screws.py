@@ -22,7 +22,7 @@ GRADE = "8.8"
 SET_GRADE = "45H"
 """Hardness class of set screws."""
 
-ENGAGEMENT = {"steel": 1.0, "brass": 1.2, "aluminium": 1.5, "pom": 2.5}
+ENGAGEMENT = {"steel": 1.0, "brass": 1.2, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
 """Least length of thread in a material, in diameters; handbook, unchecked. In POM an insert is better."""
 
 

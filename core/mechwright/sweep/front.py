@@ -98,7 +98,19 @@ def around(front: Front, number: int, places: Sequence[int]) -> dict[str, NDArra
     for column, axis in enumerate(study.axes):
         now = np.repeat(front.columns[axis.name][list(places)], AROUND)
         found[axis.name] = _moved(axis, now, change[:, column])
-    return found
+    kept = _new(front, found)
+    return {name: values[kept] for name, values in found.items()}
+
+
+def _new(front: Front, found: Mapping[str, NDArray[Any]]) -> list[int]:
+    """Places of designs that neither the front has nor another one before them."""
+    seen = set(zip(*(front.columns[name].tolist() for name in found), strict=True))
+    kept = []
+    for place, design in enumerate(zip(*(values.tolist() for values in found.values()), strict=True)):
+        if design not in seen:
+            seen.add(design)
+            kept.append(place)
+    return kept
 
 
 def _moved(axis: Axis, now: NDArray[Any], share: Array) -> NDArray[Any]:

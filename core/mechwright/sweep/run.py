@@ -119,7 +119,7 @@ def _around(study: Study, front: Front, number: int, first: int) -> list[Task]:
     if not places:
         return []
     values = around(front, number, sorted(places))
-    size = len(next(iter(values.values())))
+    size = len(next(iter(values.values())))  # none, where all is known
     return [
         Task(
             f"refine-{number:02d}-{start // study.batch:04d}",

@@ -38,7 +38,8 @@ from mechwright.testing.compare import assert_derivative, assert_rotations
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
-from mechwright.testing.results import difference
+from mechwright.testing.results import Results
+from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
@@ -47,7 +48,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests, FrameTests):
+class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
@@ -237,7 +238,8 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests):
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
-        assert difference(self.family(), self.params(design), self.family(), self.params(design)) == ""
+        one, two = (Results(self.family(), self.params(design)) for _ in range(2))
+        assert one.difference(two) == ""
 
     # Synthesis
 
@@ -270,25 +272,23 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests):
 
     def test_every_parameter_counts(self) -> None:
         """Every field of the parameters changes some result of some example."""
-        idle = {
-            name: field for name, field in self.family.Params.model_fields.items() if not self._counts(name)
-        }
+        starts = [Results(self.family(), self.params(table)) for table in self.examples]
+        idle = [name for name in self.family.Params.model_fields if not self._counts(name, starts)]
         assert not idle, (
             f"no result depends on {', '.join(idle)}; where a step from the examples is too small to show, "
             "add an example or an entry of the attribute variations"
         )
 
-    def _counts(self, name: str) -> bool:
-        family = self.family()
-        for table in self.examples:
-            start = self.params(table)
-            for value in (*self.variations.get(name, ()), *variations(start, name)):
+    def _counts(self, name: str, starts: Sequence[Results]) -> bool:
+        for start in starts:
+            given = start.params.model_dump(mode="json", exclude_none=True)
+            for value in (*self.variations.get(name, ()), *variations(start.params, name)):
                 try:
-                    changed = self.params({**start.model_dump(mode="json", exclude_none=True), name: value})
+                    changed = self.params({**given, name: value})
                 except ValidationError:
                     continue
                 # Validation may complete one field from another: the rest has to be as it was.
-                if changed != start and difference(family, start, family, changed):
+                if changed != start.params and start.difference(Results(self.family(), changed)):
                     return True
         return False
 

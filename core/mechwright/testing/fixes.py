@@ -17,7 +17,7 @@ from mechwright.designs.design import Design
 from mechwright.designs.text import toml
 from mechwright.remedies import Limits, tried
 
-LIMITS = Limits(tries=60, seconds=3.0)
+LIMITS = Limits(tries=24, seconds=3.0)
 """For each design: a contract asks whether what is found is true, not whether everything is found."""
 
 EXAMPLES = 6

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.mounting import GroundPlate, Mounting
+from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
@@ -25,9 +25,9 @@ from mechwright.tolerances import TOLERANCES
 _SAMPLES = 25
 """Of the motion that a mounting is compared with."""
 
-_REFUSAL = re.compile(r"(parameters|machine)\.\w+: .+; .+")
+_REFUSAL = re.compile(r"(parameters|machine)\.[\w.]+: .+; .+")
 
-_FRAMES = ("plates", "base")
+_FRAMES = ("plate", "plates", "base")
 
 
 class FrameTests:
@@ -52,6 +52,8 @@ class FrameTests:
         parts, motion = self.family().parts(params), self.family().solve(params, _SAMPLES)
         if isinstance(mounting, GroundPlate):
             found = [*ground_faults(mounting, parts, motion)]
+        elif isinstance(mounting, Flange):
+            found = [*flange_faults(mounting, motion)]
         else:
             found = [*mounting_faults(mounting, parts, motion)]
         assert not found, "; ".join(found)
@@ -132,6 +134,25 @@ def ground_faults(ground: GroundPlate, parts: Sequence[Part], motion: Motion) ->
     ends = [at.z for part in parts for at in part.instances if at.body == ground.shaft and part.turned]
     if not any(abs(z - ground.end) < TOLERANCES.closure for z in ends):
         yield f"no shaft of body {ground.shaft!r} ends at {ground.end:g} mm"
+
+
+def flange_faults(flange: Flange, motion: Motion) -> Iterator[str]:
+    """Bodies that are not there, or move, or a shaft that does not turn about the flange's axis."""
+    for name in (flange.body, flange.shaft, flange.foot.body):
+        if name not in motion.poses:
+            yield f"the motion has no body {name!r}"
+            return
+    for name in (flange.body, flange.foot.body):
+        poses = motion.poses[name]
+        if (
+            max(np.ptp(poses.position, axis=0).max(), np.ptp(poses.rotation, axis=0).max())
+            > TOLERANCES.closure
+        ):
+            yield f"body {name!r} moves"
+    one, two = motion.poses[flange.body], motion.poses[flange.shaft]
+    apart = np.abs(one.position - two.position).max(), np.abs((one.rotation - two.rotation)[..., 0]).max()
+    if max(apart) > TOLERANCES.closure:
+        yield f"body {flange.shaft!r} does not turn about the x axis of body {flange.body!r}"
 
 
 def frame_faults(family: Family[Any], params: Parameters, kind: str) -> Iterator[str]:

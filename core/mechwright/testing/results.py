@@ -14,17 +14,23 @@ _SAMPLES = 13
 """Samples of the motions that are compared: a whole turn in steps of 30 degrees shows any change."""
 
 
-def difference(one: Family[Any], a: Parameters, other: Family[Any], b: Parameters) -> str:
-    """Name the first result that differs, cheap ones first: motion, parts, findings; empty if none does."""
-    results: dict[str, Callable[[Family[Any], Parameters], object]] = {
-        "motion": _motion,
-        "parts": _parts,
-        "findings": lambda family, params: [finding.as_dict() for finding in family.check(params)],
-    }
-    for name, give in results.items():
-        if _ask(give, one, a) != _ask(give, other, b):
-            return name
-    return ""
+class Results:
+    """Results of one design, each computed when it is first asked for, or the words that refuse it."""
+
+    def __init__(self, family: Family[Any], params: Parameters) -> None:
+        self.params = params
+        self._family = family
+        self._found: dict[str, object] = {}
+
+    def get(self, name: str) -> object:
+        """One of ``motion``, ``parts`` and ``findings``."""
+        if name not in self._found:
+            self._found[name] = _ask(_GIVEN[name], self._family, self.params)
+        return self._found[name]
+
+    def difference(self, other: "Results") -> str:
+        """Name the first result that differs, cheap ones first: motion, parts, findings; empty if none."""
+        return next((name for name in _GIVEN if self.get(name) != other.get(name)), "")
 
 
 def _ask(
@@ -67,3 +73,11 @@ def _part(part: Part) -> object:
     # Two functions that build the same solid are not equal, but their solids measure the same.
     solid = part.build()
     return *plain, solid.Volume(), solid.Area(), solid.Center().toTuple()
+
+
+_GIVEN: dict[str, Callable[[Family[Any], Parameters], object]] = {
+    "motion": _motion,
+    "parts": _parts,
+    "findings": lambda family, params: [finding.as_dict() for finding in family.check(params)],
+}
+"""Result to what gives it."""

@@ -2,14 +2,14 @@
 const button_ = (id) => document.getElementById(id);
 let known = null, change = {}, past = [], future = [], settled = {}, ghost = null, kept = () => ({}), end = new AbortController(), picture = null;
 
-function draw(scene) {
+function draw(scene, more) {
   const before = kept();
   end.abort();
   end = new AbortController();
   picture = scene;
   const main = document.getElementById("main");
   main.replaceChildren(document.getElementById("stage-of").content.cloneNode(true));
-  kept = player({ ...scene, live: true, ghost: ghost && scene.layers ? ghost : scene.ghost }, before, end.signal) || (() => ({}));
+  kept = player({ ...scene, ...more, live: true, ghost: ghost || scene.ghost }, before, end.signal) || (() => ({}));
 }
 const parts = newest("parts", (found, asked) => {
   if (found.scene) draw(found.scene);
@@ -52,8 +52,10 @@ function take(next, done) {
     settled = change;
   }
   shows();
-  motion({ change });
+  look();
 }
+// What is shown of the change: a design moves, a requirement is met anew.
+const look = () => known && known.seeks ? wishes({ change }) : motion({ change });
 function set(key, one, done) {
   const next = { ...change };
   if (one === undefined || same(one, fields.get(key).field.value)) delete next[key];
@@ -66,7 +68,7 @@ function step(from, to) {
   to.push(settled);
   change = settled = from.pop();
   shows();
-  motion({ change });
+  look();
 }
 button_("undo").addEventListener("click", () => step(past, future));
 button_("redo").addEventListener("click", () => step(future, past));
@@ -76,10 +78,9 @@ document.addEventListener("keydown", (event) => {
   event.shiftKey ? step(future, past) : step(past, future);
 });
 button_("compare").addEventListener("click", () => {
-  ghost = ghost ? null : picture && picture.layers ? { ...picture, ghost: null } : null;
+  ghost = ghost || !picture ? null : { ...picture, ghost: null };
   button_("compare").setAttribute("aria-pressed", String(Boolean(ghost)));
-  if (picture) draw(picture);
-  if (!ghost && picture && !picture.layers) say("Two designs over each other are shown in the plane alone.");
+  if (picture) known.seeks ? drawWished(picture) : draw(picture);
 });
 async function open(words) {
   try {
@@ -93,9 +94,10 @@ async function open(words) {
   lay(known.fields, set);
   for (const key of Object.keys(change)) if (!fields.has(key) || same(change[key], fields.get(key).field.value)) delete change[key];
   settled = change;
+  for (const one of document.querySelectorAll("[data-of]")) one.hidden = one.dataset.of !== (known.seeks ? "requirement" : "design");
   shows();
   say(words);
-  motion({ change });
+  look();
   return true;
 }
 async function news() {
@@ -114,46 +116,3 @@ async function news() {
     }
   }
 }
-button_("save").addEventListener("click", async () => {
-  try {
-    const { said } = await ask("save", { change, digest: known.digest });
-    change = {};
-    past = []; future = []; settled = {};
-    await open(said);
-  } catch (error) { say(error.message, true); }
-});
-const naming = button_("naming");
-button_("save-as").addEventListener("click", () => { naming.hidden = false; button_("new-name").value = `${known ? known.name : "design"}-2`; button_("new-name").focus(); });
-button_("not-named").addEventListener("click", () => { naming.hidden = true; });
-naming.addEventListener("submit", async (event) => {
-  event.preventDefault();
-  try {
-    const { said } = await ask("save-as", { change, name: button_("new-name").value });
-    naming.hidden = true;
-    say(said);
-  } catch (error) { say(error.message, true); }
-});
-function progress(state) {
-  button_("building").hidden = state.state === "none";
-  const at = state.at || {}, runs = state.state === "runs";
-  button_("done").hidden = button_("stop").hidden = !runs;
-  if (at.done !== undefined) button_("done").value = at.done; else button_("done").removeAttribute("value");
-  button_("doing").textContent = runs ? `${at.doing || "starting"} …` : state.state === "done"
-    ? `Built: ${state.printed}` : state.state === "failed" ? "Nothing was built:" : "";
-  button_("said").replaceChildren(...(state.said || []).map((line) => made("li", {}, null, line)));
-}
-async function watch() {
-  for (;;) {
-    let state;
-    try { state = await (await fetch("building")).json(); } catch { return; }
-    progress(state);
-    if (state.state !== "runs") return;
-    await new Promise((done) => setTimeout(done, 300));
-  }
-}
-button_("build").addEventListener("click", async () => {
-  try { progress(await ask("build", { change })); watch(); } catch (error) { say(error.message, true); }
-});
-button_("stop").addEventListener("click", async () => { try { progress(await ask("stop", {})); } catch (error) { say(error.message, true); } });
-window.addEventListener("beforeunload", (event) => { if (Object.keys(change).length) event.preventDefault(); });
-open("").then(() => { news(); watch(); });

@@ -84,13 +84,13 @@ function lay(list, set) {
   for (const place of [first, more, tables]) place.replaceChildren();
   const others = new Map();
   for (const field of list) {
-    const table = field.key.split(".")[0];
-    if (table !== "parameters" && !others.has(table)) {
+    const table = field.key.split(".")[0], own = ["parameters", "requirement"].includes(table);
+    if (!own && !others.has(table)) {
       const folded = made("details", {}, tables);
       made("summary", {}, folded, `[${table}]`);
       others.set(table, made("div", {}, folded));
     }
-    row(field, table !== "parameters" ? others.get(table) : field.first || field.given ? first : more, set);
+    row(field, !own ? others.get(table) : field.first || field.given ? first : more, set);
   }
   document.getElementById("more").hidden = !more.children.length;
 }

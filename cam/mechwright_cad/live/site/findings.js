@@ -1,6 +1,6 @@
 // What the family finds, the gravest first; a remedy that was tried is one press away.
 function find(key) {
-  const whole = fields.has(key) ? key : `parameters.${key}`, found = fields.get(whole);
+  const whole = [key, `parameters.${key}`, `requirement.${key}`].find((one) => fields.has(one)), found = fields.get(whole);
   if (!found) return;
   for (let place = found.own.parentElement; place; place = place.parentElement) if (place.tagName === "DETAILS") place.open = true;
   found.own.hidden = false;

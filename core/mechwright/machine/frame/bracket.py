@@ -31,6 +31,7 @@ from mechwright.machine.frame.pillars import EDGE, PILLAR, PITCH, SCREW, SPARE, 
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Disc, Standing
 from mechwright.standards.couplings import BORES, Coupling, coupling_for
+from mechwright.standards.motors import MotorFace
 from mechwright.standards.screws import screw, screw_size
 
 WIDER = 40
@@ -81,6 +82,12 @@ def stub_for(bearing_bore: float, motor_shaft: float, torque: float) -> tuple[fl
     )
 
 
+def least_half(face: MotorFace, coupling: Coupling) -> float:
+    """Half the side of the square of pillars, mm, between which motor's screws and coupling have room."""
+    beside = (PILLAR + screw_size(SCREW).head) / 2 + BESIDE
+    return max(face.spread / 2, coupling.of.outside / 2) + beside
+
+
 def bracket_for(
     motor: Motor,
     seat: tuple[Point, float, float],
@@ -113,7 +120,7 @@ def bracket_for(
     long, size = coupling.of.length, screw_size(SCREW)
     low = under - GAP - long
     stub = (diameter, (inner - width) - (low + long / 2))
-    least = max(face.spread / 2, coupling.of.outside / 2) + (PILLAR + size.head) / 2 + BESIDE
+    least = least_half(face, coupling)
     head = size.counterbore / 2 + BESIDE
     for wider in range(WIDER):
         for angle in TURNS:
@@ -149,8 +156,13 @@ def pillar_holes(bracket: Bracket, thickness: float) -> list[Hole]:
     ]
 
 
-def add_bracket(kit: Kit, bracket: Bracket, body: str, levels: tuple[float, float], material: str) -> None:
-    """Motor, coupling, plate, pillars and screws; ``body`` of the motion turns with the input."""
+def add_bracket(
+    kit: Kit, bracket: Bracket, body: str, levels: tuple[float, float], material: str, *, sunk: bool = True
+) -> None:
+    """Motor, coupling, plate, pillars and screws; ``body`` of the motion turns with the input.
+
+    ``sunk``: the heads of the screws are sunk into the upper one of the ``levels``, mm, else they lie on it.
+    """
     add_motor(kit, bracket, body)
     kit.places["motor-carrier"] = Place((*bracket.axis, 0.0), turned(bracket.angle))
     half, size = bracket.half, screw_size(SCREW)
@@ -162,14 +174,13 @@ def add_bracket(kit: Kit, bracket: Bracket, body: str, levels: tuple[float, floa
     holes = [pilot, *pillars, *screws]
     standing = Standing(-half, -half, half, half)
     add_plate(kit, "motor-plate", standing, EDGE, PLATE, material, holes, "motor-carrier", bracket.face)
-    _add_pillars(kit, bracket, levels)
+    inner, under = levels
+    _add_pillars(kit, bracket, inner - screw_size(SCREW).counterbore_depth if sunk else inner, under)
     fasten_motor(kit, bracket)
 
 
-def _add_pillars(kit: Kit, bracket: Bracket, levels: tuple[float, float]) -> None:
-    """Between both plates, with a screw from either side."""
-    inner, under = levels
-    seat = inner - screw_size(SCREW).counterbore_depth
+def _add_pillars(kit: Kit, bracket: Bracket, seat: float, under: float) -> None:
+    """Between both plates, with a screw from either side; the heads of the upper ones lie on ``seat``, mm."""
     above, below = screw(SCREW, seat - under + SCREW), screw(SCREW, PLATE + SCREW)
     threads = (
         EndThread("lower", SCREW, PITCH, below.length - PLATE + SPARE),

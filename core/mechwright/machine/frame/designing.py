@@ -14,8 +14,10 @@ from mechwright.machine.frame.bracket import NoCouplingError, add_bracket, brack
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.findings import strength
 from mechwright.machine.frame.free import in_the_way
+from mechwright.machine.frame.guard import add_guard, widened
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import (
     EDGE,
     PILLAR,
@@ -42,7 +44,7 @@ from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
-from mechwright.standards.couplings import BORES
+from mechwright.standards.couplings import BORES, OverloadError
 
 STUB = 2.0
 """Length of the shaft for a drive of one's own below the frame, in its diameters."""
@@ -75,6 +77,8 @@ def decided(
     keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
 ) -> Frame | list[Finding]:
     """All sizes, or what is in the way; raises DesignError for what there is no room for."""
+    if keys.frame == "plate":
+        return [_one_plate()]
     chosen, faults = seats(mounting, keys)
     if faults:
         return faults
@@ -108,10 +112,27 @@ def decided(
             )
         except NoCouplingError as error:
             return [_no_coupling(driver, keys, str(error))]
+        except OverloadError as error:
+            return [overloaded(error, wanted)]
         region = region.union(bracket.region)
         held += [Disc(corner, EDGE) for corner in bracket.corners]
     standing = stand(region, held, PILLAR / 2, EDGE)
+    if keys.guard:
+        standing = widened(standing, space.region.bounds)
     return Frame(tuple(chosen), levels, thickness, standing, bracket)
+
+
+def _one_plate() -> Finding:
+    """Gears and wheels on shafts of their own are straddled: a plate on one side alone does not hold them."""
+    return Finding.error(
+        "frame.one-plate",
+        "machine.frame",
+        "one plate is for mechanisms that have their bearings in a ground plate of their own, and here "
+        "shafts stand in bearings on both sides",
+        remedy='set frame = "plates"',
+        stage=Stage.PARTS,
+        proposed=({"machine.frame": "plates"},),
+    )
 
 
 def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
@@ -181,6 +202,8 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     add_plate(kit, "lower-plate", standing, EDGE, thickness, material, lower, "lower-carrier", frame.under)
     top = -levels.upper - thickness
     add_plate(kit, "upper-plate", standing, EDGE, thickness, material, upper, "upper-carrier", top, over=True)
+    if keys.guard:
+        add_guard(kit, standing, levels)
     for seat in frame.seats:
         add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
     _add_columns(kit, frame, keys, posts)

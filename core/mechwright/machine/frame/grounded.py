@@ -1,4 +1,4 @@
-"""A base under a mechanism with a ground plate of its own.
+"""A base under a mechanism with a ground plate of its own, or the motor alone behind that plate.
 
 From above: the ground plate, pillars under its four holes, the plate with the motor, legs, and the base plate
 on its feet. Without a motor the legs go up to the ground plate. All of it stands in the ground plate's frame.
@@ -25,12 +25,22 @@ from mechwright.machine.frame.coupled import (
     outline,
 )
 from mechwright.machine.frame.decided import Wanted
-from mechwright.machine.frame.ground_refusals import coupling_on, foot_of, key_faults, refusal
+from mechwright.machine.frame.ground_refusals import (
+    GroundError,
+    coupling_on,
+    foot_of,
+    key_faults,
+    longer,
+    lowest_of,
+    motor_wanted,
+    refusal,
+)
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import (
     EDGE,
     PITCH,
+    SCREW,
     SPARE,
     Column,
     cap_screw,
@@ -63,7 +73,10 @@ def base_under(
             low = ground.end - coupling.of.length / 2
             face = face_below(wanted.motor.face, low, coupling.of.length)
             coupled = Coupled(wanted.motor, coupling, ground.axis, angle, low, face)
-        kit = built(ground, coupled, keys.plate_material)
+        if keys.frame == "plate":
+            kit = behind(ground, coupled, keys.plate_material)
+        else:
+            kit = built(ground, coupled, keys.plate_material, lowest_of(ground, space.pieces))
     except DesignError as error:
         return Surroundings(findings=(refusal(error),))
     places = {
@@ -73,26 +86,52 @@ def base_under(
     return Surroundings(tuple(kit.parts.values()), places)
 
 
-def built(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
-    """All parts, in the ground plate's frame; raises DesignError where no screw is long enough."""
+def built(ground: GroundPlate, coupled: Coupled | None, material: str, lowest: float) -> Kit:
+    """All parts, in the ground plate's frame, under a mechanism whose lowest height is given, mm.
+
+    Raises DesignError where no screw is long enough.
+    """
     kit = Kit()
-    (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
-    standing = Standing(x0, y0, x1, y1)
-    posts = columns(standing.corners)
-    fixing = cap_screw(ground.high - ground.low)
-    depth = fixing.length - (ground.high - ground.low)
-    for post in posts:
-        post.place(kit)
-        put_screw(kit, fixing, post.name, ground.high)
-    under, lowest = ground.low, ground.end
+    (standing, posts), depth = _columns(kit, ground)
+    under = ground.low
     if coupled is not None:
-        depth = _add_motor(kit, ground, coupled, (standing, posts), depth, material)
+        joint = stud(PLATE, depth + SPARE)
+        below = (joint.length - PLATE) / 2
+        _add_motor(kit, ground, coupled, (standing, posts), depth, material, below)
+        for post in posts:
+            put_screw(kit, joint, post.name, coupled.top + below)
+        depth = below
         under, lowest = coupled.face, coupled.low
     thickness = thickness_for(standing)
     foot = leg_screw(thickness).length - thickness
     top = min(lowest - UNDER, under - _least(foot, depth))
-    add_base(kit, standing, posts, under, top, depth, material)
+    add_base(kit, standing, list(posts), under, top, depth, material)
     return kit
+
+
+def behind(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
+    """The motor on four pillars behind the ground plate, which hangs where it is wanted."""
+    if coupled is None:
+        raise GroundError(motor_wanted())
+    kit = Kit()
+    where, depth = _columns(kit, ground)
+    fixing = cap_screw(PLATE)
+    _add_motor(kit, ground, coupled, where, depth, material, fixing.length - PLATE)
+    for post in where[1]:
+        put_screw(kit, fixing, f"{post.name}-below", -coupled.face)
+    return kit
+
+
+def _columns(kit: Kit, ground: GroundPlate) -> tuple[tuple[Standing, Sequence[Column]], float]:
+    """Places of the pillars, their screws through the ground plate, and how deep those go into them, mm."""
+    (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
+    standing = Standing(x0, y0, x1, y1)
+    posts = columns(standing.corners)
+    fixing = cap_screw(ground.high - ground.low)
+    for post in posts:
+        post.place(kit)
+        put_screw(kit, fixing, post.name, ground.high)
+    return (standing, posts), fixing.length - (ground.high - ground.low)
 
 
 def _least(one: float, two: float) -> float:
@@ -107,17 +146,14 @@ def _add_motor(
     where: tuple[Standing, Sequence[Column]],
     depth: float,
     material: str,
-) -> float:
-    """Pillars and the motor's plate with the motor; gives the depth of the studs in pillars and legs, mm."""
+    below: float,
+) -> None:
+    """Pillars, screws ``depth`` mm deep in them from above and ``below`` mm from below, the motor's plate."""
     standing, posts = where
-    joint = stud(PLATE, depth + SPARE)
-    below = (joint.length - PLATE) / 2
-    height = ground.low - coupled.top
-    if height < _least(below, depth):
-        raise DesignError(
-            f"{ground.diameter_key}: pillars of {height:.1f} mm have no room for threads in both ends; take "
-            "a thicker shaft, which is longer"
-        )
+    height, need = ground.low - coupled.top, _least(below, depth)
+    if height < need:
+        said = f"pillars of {height:.1f} mm beside it have no room for threads in both ends"
+        raise GroundError(longer(ground, said, need - height))
     add_motor(kit, coupled, ground.shaft)
     x0, y0, x1, y1 = outline(coupled.motor.face, coupled.axis, coupled.angle).bounds
     wide = Standing(
@@ -126,15 +162,17 @@ def _add_motor(
         max(standing.right, math.ceil(x1) - EDGE),
         max(standing.above, math.ceil(y1) - EDGE),
     )
-    clear = screw_size(joint.of.size).clearance()
+    clear = screw_size(SCREW).clearance()
     holes = [replace(hole, point=coupled.at(hole.point)) for hole in motor_holes(coupled.motor.face)]
     holes += [Hole.through(post.name, post.point, clear, PLATE) for post in posts]
+    holes += [
+        Hole.through(f"access-{k}", at, 2 * radius, PLATE)
+        for k, (at, radius) in enumerate(ground.access, start=1)
+    ]
     carrier = "motor-carrier"
     kit.places[carrier] = Place()
     add_plate(kit, "motor-plate", wide, EDGE, PLATE, material, holes, carrier, coupled.face)
     for post in posts:
         form = pillar(height, below, depth, spigot=False)
         kit.turned("pillar", form, post.name, coupled.top)
-        put_screw(kit, joint, post.name, coupled.top + below)
     fasten_motor(kit, coupled)
-    return below

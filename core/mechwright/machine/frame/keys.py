@@ -8,7 +8,7 @@ from mechwright.contracts.materials import MaterialName
 from mechwright.contracts.parameters import FIRST, Parameters
 from mechwright.units import Millimetres, Unit
 
-FrameName = Literal["none", "plates", "base"]
+FrameName = Literal["none", "plate", "plates", "base"]
 BearingSeries = Literal["auto", "62", "60", "619", "618"]
 
 
@@ -18,8 +18,8 @@ class FrameKeys(Parameters):
     frame: FrameName = Field(
         "none",
         description=(
-            "What carries the shafts. plates: two bearing plates on pillars; base: the same on legs over a "
-            "base plate, with the motor on a bracket."
+            "What carries the shafts. plate: the mechanism's own ground plate, the motor behind it; plates: "
+            "two bearing plates on pillars; base: either of them on legs over a base plate, with the motor."
         ),
         json_schema_extra=FIRST,
     )
@@ -36,6 +36,11 @@ class FrameKeys(Parameters):
     cover: bool = Field(
         False,
         description="Whether the plates reach over all that moves, so that nothing stands out sideways.",
+    )
+    guard: bool = Field(
+        False,
+        description="Whether rings of polycarbonate close the space between the bearing plates, so that no "
+        "finger gets in.",
     )
     axial_gap: Millimetres = Field(
         2.0, ge=0.5, le=50, description="Least gap along the axes between what moves and the bearing plates."

@@ -17,7 +17,7 @@ from mechwright.standards.circlips import Circlip, shaft_circlips
 ORDER = ("60", "62", "619", "618")
 """In which series are tried: the usual one, the heavier one on shafts that it alone has, thinner ones."""
 
-WALL, LEAST_WALL = {"steel": 0.15, "pom": 0.3}, 4.0
+WALL, LEAST_WALL = {"steel": 0.15, "pom": 0.3, "polycarbonate": 0.3}, 4.0
 """Wall around a bearing in shares of its outside, 0.2 of other materials, and at least, mm; handbook."""
 
 MOST_STEP = 2.0

@@ -1,9 +1,11 @@
 """The space that a mechanism takes over its motion: a region of the plane for each range of heights.
 
-Bodies are taken by their convex hulls, so the region is never too small. One that turns about its origin
-takes a disc; others are looked at so often that the chord between two looks is far below any clearance.
+Bodies are taken by their convex hulls, so the region is never too small. One that turns fully about its
+origin takes a disc; others are looked at so often that the chord between two looks is far below any
+clearance.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,6 +24,12 @@ LOOKS = 121
 
 _STILL = 1e-9
 """A body whose origin moves less than this, mm, and whose axis stays upright, turns about it."""
+
+_NEARLY = 20.0
+"""What may lack of a turn, degrees, to count as full."""
+
+_BACK = 1e-6
+"""By how much a body that rocks may miss where it began, rad."""
 
 _ROUND = 32
 """Chords of a quarter circle."""
@@ -93,10 +101,7 @@ def _swept(part: Part, layer: Layer, instance: Instance, poses: Poses) -> Swept:
             "move in one plane"
         )
     z = float(poses.position[0, 2]) + instance.z
-    if (
-        float(spread.max()) < _STILL
-        and float(np.abs(np.diff(poses.rotation, axis=0)).max(initial=0)) > _STILL
-    ):
+    if float(spread.max()) < _STILL and _turns(poses):
         radius = float(np.hypot(*corners.T).max())
         region: shapely.Geometry = shapely.Point(poses.position[0, :2]).buffer(radius, quad_segs=_ROUND)
     else:
@@ -104,6 +109,13 @@ def _swept(part: Part, layer: Layer, instance: Instance, poses: Poses) -> Swept:
         looks = poses.transform(flat)[..., :2]
         region = shapely.union_all([shapely.convex_hull(shapely.multipoints(one)) for one in looks])
     return Swept(instance.body, part.name, z + low, z + high, region)
+
+
+def _turns(poses: Poses) -> bool:
+    """Whether an upright body turns on and on, or nearly as far, and does not just rock."""
+    angles = np.unwrap(np.arctan2(poses.rotation[:, 1, 0], poses.rotation[:, 0, 0]))
+    on = abs(angles[-1] - angles[0]) > _BACK
+    return bool(on or np.ptp(angles) > math.tau - math.radians(_NEARLY))
 
 
 def layers_of(part: Part) -> list[Layer]:
@@ -116,9 +128,14 @@ def layers_of(part: Part) -> list[Layer]:
             (_ring((0.0, 0.0), max(step.foot, step.diameter) / 2), low, low + step.length)
             for low, step in steps
         ]
-    if part.bought is None or part.bought.shape is None:
-        raise DesignError(f"part {part.name} is a solid of its own: nothing says what it sweeps")
-    return [_shape(part.bought.shape)]
+    # A part that is made as a shape, such as a key of a length that nobody sells, is built by its method.
+    shape = getattr(part.build, "__self__", None) if part.bought is None else part.bought.shape
+    if not isinstance(shape, Shape):
+        raise DesignError(
+            f"part {part.name} is a solid of its own: nothing says what it sweeps; leave frame out, or set "
+            'frame = "none"'
+        )
+    return [_shape(shape)]
 
 
 def _ring(centre: tuple[float, float], radius: float) -> Array:

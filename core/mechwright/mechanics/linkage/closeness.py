@@ -15,6 +15,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
+from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -83,14 +84,13 @@ class Closeness:
         if missing:
             raise GeometryError(f"the motion has no poses of {', '.join(sorted(missing))}")
         self.limit = clearance + 2 * PLAN_CHORD
-        self.placed = {
-            plate.name: _placed(plate.outline.outer.flatten(PLAN_CHORD), poses[plate.body])
-            for plate in plates
-        }
+        self.outlines = {plate.name: plate.outline.outer.flatten(PLAN_CHORD) for plate in plates}
+        self.placed = {plate.name: _placed(self.outlines[plate.name], poses[plate.body]) for plate in plates}
         self.poses = poses
         self.steps = {name: _step(points) for name, points in self.placed.items()}
+        self.circles = {plate.name: _circle(self.outlines[plate.name], poses[plate.body]) for plate in plates}
         self.areas: dict[str, NDArray[np.object_]] = {}
-        self.axes: dict[str, tuple[NDArray[np.object_], Array]] = {}
+        self.axes: dict[str, tuple[Array, Array]] = {}
         self.room: dict[tuple[str, str], float] = {}
 
     def plates(self, one: Plate, two: Plate) -> bool:
@@ -98,34 +98,38 @@ class Closeness:
         import shapely
 
         if one.body == two.body:
-            distance = shapely.distance(self._area(one.name)[:1], self._area(two.name)[:1])
+            start = np.zeros(1, dtype=np.intp)
+            distance = shapely.distance(self._area(one.name, start), self._area(two.name, start))
             return bool(distance.min() < self.limit)
         moved = self.steps[one.name] + self.steps[two.name]
         # Whether they are so near is known long before the distance is; below it, not at it.
         near = np.nextafter(self.limit + moved / 2, 0.0)
-        first, second = self._area(one.name), self._area(two.name)
+        (here, size), (there, other) = self.circles[one.name], self.circles[two.name]
+        asked = np.flatnonzero(np.hypot(*(here - there).T) - size - other <= near)
         # What meets mostly does so for long: some samples tell it.
         return any(
-            shapely.dwithin(first[some], second[some], near[some]).any()
-            for some in (slice(None, None, _SOME), slice(None))
+            shapely.dwithin(self._area(one.name, some), self._area(two.name, some), near[some]).any()
+            for some in (asked[::_SOME], asked)
         )
 
     def spindle(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
         """Whether a plate comes too close to a spindle of this radius."""
         import shapely
 
-        if spindle.name not in self.axes:
-            centre = np.array([[spindle.centre.real, spindle.centre.imag]])
-            axis = _placed(centre, self.poses[spindle.body])
-            self.axes[spindle.name] = shapely.points(axis[:, 0]), _step(axis)
-        points, step = self.axes[spindle.name]
         if (spindle.name, plate.name) not in self.room:
-            area = self._area(plate.name)
+            if spindle.name not in self.axes:
+                centre = np.array([[spindle.centre.real, spindle.centre.imag]])
+                axis = _placed(centre, self.poses[spindle.body])
+                self.axes[spindle.name] = axis[:, 0], _step(axis)
+            axis, step = self.axes[spindle.name]
             if spindle.body == plate.body:
-                least = float(shapely.distance(area[0], points[0]))
+                axis, slack = axis[:1], np.zeros(1)
             else:
-                least = _least(area, points, self.steps[plate.name] + step)
-            self.room[spindle.name, plate.name] = least
+                slack = (self.steps[plate.name] + step) / 2
+            # Seen from the plate, which then is one shape.
+            points = shapely.points(_seen(axis, self.poses[plate.body]))
+            room = shapely.distance(shapely.polygons(self.outlines[plate.name]), points) - slack
+            self.room[spindle.name, plate.name] = float(room.min())
         return self.room[spindle.name, plate.name] - radius < self.limit
 
     def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
@@ -139,41 +143,35 @@ class Closeness:
         (x0, y0), (x1, y1) = np.min(found, axis=0).tolist(), np.max(found, axis=0).tolist()
         return x0, y0, x1, y1
 
-    def _area(self, name: str) -> "NDArray[np.object_]":
+    def _area(self, name: str, samples: "NDArray[np.intp]") -> "NDArray[np.object_]":
+        """A plate at these samples; each is made when it is first asked for."""
         import shapely
 
-        if name not in self.areas:
-            areas = shapely.polygons(self.placed[name])
-            shapely.prepare(areas)
-            self.areas[name] = areas
-        return self.areas[name]
-
-
-def _least(areas: "NDArray[np.object_]", points: "NDArray[np.object_]", moved: Array) -> float:
-    """Least distance, mm, of areas and points (n,) over all samples, less half of what they have ``moved``.
-
-    Between samples that are looked at, a distance falls by no more than what is moved, so few others are.
-    """
-    import shapely
-
-    last = len(points) - 1
-    some = np.unique([*range(0, last, _SOME), last])
-    known = shapely.distance(areas[some], points[some])
-    least = float((known - moved[some] / 2).min())
-    way, every = np.cumsum(moved), np.arange(last + 1)
-    after = np.searchsorted(some, every)
-    before = np.maximum(after - 1, 0)
-    bound = np.maximum(known[before] - (way - way[some[before]]), known[after] - (way[some[after]] - way))
-    rest = np.flatnonzero(bound - moved / 2 < least)
-    if rest.size:
-        least = min(least, float((shapely.distance(areas[rest], points[rest]) - moved[rest] / 2).min()))
-    return least
+        areas = self.areas.setdefault(name, np.full(len(self.placed[name]), None, dtype=np.object_))
+        missing = samples[~shapely.is_geometry(areas[samples])]
+        areas[missing] = shapely.polygons(self.placed[name][missing])
+        shapely.prepare(areas[missing])
+        return areas[samples]
 
 
 def _placed(points: Array, poses: Poses) -> Array:
     """Points (k, 2) of a body in every pose, (n, k, 2)."""
     turned = points @ poses.rotation[:, :2, :2].transpose(0, 2, 1)
     return np.asarray(turned + poses.position[:, None, :2], dtype=np.float64)
+
+
+def _seen(points: Array, poses: Poses) -> Array:
+    """A point at each of the first poses, (m, 2), in the coordinates of the body, (m, 2)."""
+    count = len(points)
+    turned = np.einsum("nba,nb->na", poses.rotation[:count, :2, :2], points - poses.position[:count, :2])
+    return np.asarray(turned, dtype=np.float64)
+
+
+def _circle(points: Array, poses: Poses) -> tuple[Array, float]:
+    """Middle (n, 2) and radius, mm, of a circle around points (k, 2) of a body in every pose."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    size = float(np.hypot(*(points - middle).T).max())
+    return _placed(middle[None], poses)[:, 0], size + TOLERANCES.closure
 
 
 def _step(placed: Array) -> Array:

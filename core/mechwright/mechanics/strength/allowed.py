@@ -40,6 +40,7 @@ ALLOWED = {
     "aluminium": Allowed(95.0, 80.0, 60.0, 200.0, 200.0),
     "brass": Allowed(100.0, 50.0, 60.0, 250.0, 250.0),
     "pom": Allowed(25.0, 20.0, 20.0, 60.0, 40.0),
+    "polycarbonate": Allowed(8.0, 15.0, 8.0, 30.0, 30.0),
 }
 """By material."""
 

@@ -102,7 +102,7 @@ def judged(
     ways: Sequence[Way],
     load: str = "",
     *,
-    sought: bool = True,
+    advise: bool = True,
 ) -> Iterator[Finding]:
     """One finding on the worst of a group's stresses.
 
@@ -118,8 +118,9 @@ def judged(
         What helps, the best first: those whose values have been found to help are named.
     load
         What loads the parts, for the message: ``"408 N at 12 degrees"``.
-    sought
-        Whether values that help are sought, each of which asks for the stresses of another design.
+    advise
+        Whether values that help are sought, each of which takes the stresses of a few more designs: a judge,
+        asked of one design after the other, has no use for them.
     """
     stresses = stresses_of(params)
     if not stresses:
@@ -132,8 +133,8 @@ def judged(
     if one.severity is Severity.NOTE:
         yield Finding.note(code, said, one.value, one.unit)
         return
-    tried = ways if sought else ()
-    helps = [(way, value) for way in tried if (value := _tried(params, stresses_of, way)) is not None]
+    asked = ways if advise else ()
+    helps = [(way, value) for way in asked if (value := _tried(params, stresses_of, way)) is not None]
     words = [f"{way.key} at {'least' if way.up == (value > 0) else 'most'} {value:g}" for way, value in helps]
     changes: list[Change] = [{f"parameters.{way.key}": value} for way, value in helps]
     fails = one.severity is Severity.ERROR and one.breaks is not None

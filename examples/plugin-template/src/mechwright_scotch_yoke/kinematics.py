@@ -27,12 +27,12 @@ def motion(params: "ScotchYokeParams", samples: int) -> Motion:
     return Motion(
         input_name="theta",
         channels={
-            "theta": Channel(theta, "rad"),
-            "omega": Channel(np.full(samples, w), "rad/s"),
-            "x": Channel(x, "mm"),
-            "velocity": Channel(-r * w * np.sin(theta), "mm/s"),
-            "acceleration": Channel(-r * w**2 * np.cos(theta), "mm/s^2"),
-            "jerk": Channel(r * w**3 * np.sin(theta), "mm/s^3"),
+            "theta": Channel(theta, "rad", "angle of the crank"),
+            "omega": Channel(np.full(samples, w), "rad/s", "angular velocity of the crank"),
+            "x": Channel(x, "mm", "place of the yoke"),
+            "velocity": Channel(-r * w * np.sin(theta), "mm/s", "velocity of the yoke"),
+            "acceleration": Channel(-r * w**2 * np.cos(theta), "mm/s^2", "acceleration of the yoke"),
+            "jerk": Channel(r * w**3 * np.sin(theta), "mm/s^3", "jerk of the yoke"),
         },
         poses={
             "crank": Poses.planar(0.0, 0.0, theta),

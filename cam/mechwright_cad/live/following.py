@@ -1,0 +1,115 @@
+"""The file that a page shows and follows: read, watched, written where the page says so."""
+
+import hashlib
+import tomllib
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from mechwright.contracts.part import check_name
+from mechwright.designs.change import rewritten
+from mechwright.designs.files import read_text
+from mechwright.errors import DesignError, OutputError
+from mechwright.output.folder import rewrite, write_new
+from mechwright.plugins.host import Host
+
+Change = Mapping[str, Any]
+Asked = Mapping[str, Any]
+"""What a page sends: an object of JSON."""
+Answering = Callable[[Asked], Mapping[str, Any]]
+
+
+class Following(ABC):
+    """A file on disk and the page that shows it; nothing of the file is written unless the page asks."""
+
+    def __init__(self, path: Path, host: Host) -> None:
+        self.path, self.host = path, host
+
+    @property
+    @abstractmethod
+    def asks(self) -> dict[str, Answering]:
+        """What a page can ask, by the last part of the address."""
+
+    @property
+    @abstractmethod
+    def states(self) -> dict[str, Callable[[], Mapping[str, Any]]]:
+        """What a page looks at again and again, by the last part of the address."""
+
+    @abstractmethod
+    def described(self, change: Change) -> dict[str, Any]:
+        """What a page needs to begin; raises MechwrightError where the file cannot be read."""
+
+    @abstractmethod
+    def accept(self, content: Mapping[str, Any]) -> None:
+        """Do nothing if a file with this content could be shown; raises MechwrightError if not."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """End what runs beside."""
+
+    def digest(self) -> str:
+        """SHA-256 of the file as it is now; empty where it cannot be read."""
+        try:
+            return hashlib.sha256(self.path.read_bytes()).hexdigest()
+        except OSError:
+            return ""
+
+    def save(self, change: Change, digest: str) -> str:
+        """Write the change into the file, whose comments and order stay; gives the words that say so.
+
+        Raises
+        ------
+        OutputError
+            The file is another than the page knows.
+        DesignError
+            The change cannot be written, or the new file could not be read.
+        """
+        text, now = read_text(self.path)
+        if now != digest:
+            raise OutputError(
+                f"{self.path.name}: has changed on disk since; look at it first, then save again"
+            )
+        rewrite(self.path, self._text(text, change))
+        return f"{self.path.name}: saved"
+
+    def save_as(self, change: Change, name: str) -> str:
+        """Write what is shown to a new file beside the old one; raises as :meth:`save` does."""
+        return self.write(name, self._text(read_text(self.path)[0], change))
+
+    def write(self, name: str, text: str) -> str:
+        """Write a new file beside the old one, told in words; raises OutputError where there is one."""
+        target = self.path.with_name(f"{check_name(name, 'the new name')}.toml")
+        write_new(target, text)
+        return f"{target.name}: written"
+
+    def _text(self, text: str, change: Change) -> str:
+        new = rewritten(text, change)
+        self.accept(tomllib.loads(new))
+        return new
+
+    def common(self) -> dict[str, Answering]:
+        """What every page can ask."""
+        return {
+            "described": lambda body: self.described(change_of(body)),
+            "save": lambda body: {"said": self.save(change_of(body), text_of(body, "digest"))},
+            "save-as": lambda body: {"said": self.save_as(change_of(body), text_of(body, "name"))},
+        }
+
+
+def text_of(body: Asked, key: str) -> str:
+    """A text of a request; raises DesignError where it is none."""
+    found = body.get(key)
+    if not isinstance(found, str):
+        raise DesignError(f"the page sent no {key}")
+    return found
+
+
+def change_of(body: Asked) -> dict[str, Any]:
+    """The change of a request: dotted keys to values; raises DesignError where it is none."""
+    found = body.get("change")
+    if not isinstance(found, dict) or len(found) > 1000:
+        raise DesignError("the page sent no change")
+    if any(key.partition(".")[0] in {"family", "format", "name", ""} for key in found):
+        raise DesignError("family, format and name of a design are changed in its file")
+    return found

@@ -1,0 +1,56 @@
+"""The ground plate over its gears, from which a base, legs and a motor can follow."""
+
+from mechwright import GroundPlate, MountingError
+from mechwright_five_bar.frames import layout_of
+from mechwright_five_bar.hub import Hub, hub_of
+from mechwright_five_bar.params import FiveBarParams
+from mechwright_five_bar.plates import spans_of
+from mechwright_five_bar.train import train_of
+
+SCREW_HOLE = 6.0
+"""That is advised, mm: for M5."""
+
+KEY_ROOM = 1.0
+"""Around the heads of the clamp's screws, mm, in the way of a key to them."""
+
+
+def mounting_of(params: FiveBarParams) -> GroundPlate:
+    """The ground plate and the crank's shaft; raises MountingError where it stands on posts of its own.
+
+    ``params`` shows its first phase.
+    """
+    if params.screw_hole is None:
+        raise MountingError(
+            "parameters.screw_hole: the ground plate stands on posts that are pressed into it, where the "
+            f"pillars of a frame would be; set screw_hole = {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
+        )
+    layout, hub = layout_of(params), hub_of(params)
+    low = layout.heights["ground"]
+    x = sorted({at.real for at in layout.posts})
+    y = sorted({at.imag for at in layout.posts})
+    return GroundPlate(
+        "ground",
+        low,
+        low + params.ground_thickness,
+        ((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])),
+        params.screw_hole,
+        "crank",
+        (0.0, 0.0),
+        params.pin_diameter,
+        spans_of(params, layout)["shaft-a0"][0],
+        "parameters.post_offset",
+        "parameters.screw_hole",
+        "parameters.pin_diameter",
+        "parameters.ground_thickness",
+        offset=params.post_offset,
+        outwards=(1.0, 1.0),
+        neck=low - layout.heights["pinion"],
+        access=() if hub is None else (_way(params, hub),),
+    )
+
+
+def _way(params: FiveBarParams, hub: Hub) -> tuple[tuple[float, float], float]:
+    """Of a key to the screws of the arm's gear, wherever in its swing it stands."""
+    at = train_of(params).places["wheel"]
+    return (at.real, at.imag), hub.circle + hub.clamp.size.head / 2 + KEY_ROOM

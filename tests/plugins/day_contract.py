@@ -1,0 +1,22 @@
+"""The contract of families for those that come with the project: of alike builds, one is tried by day."""
+
+from collections.abc import Collection, Mapping
+from typing import ClassVar
+
+import pytest
+from by_night import NIGHT
+
+from mechwright.testing import FamilyContract
+
+
+class DayContract(FamilyContract):
+    """The contract, whose builds of an example wait for the night where another by day shows the same."""
+
+    night: ClassVar[Mapping[str, Collection[int]]] = {}
+    """Test to the places in ``examples`` that it takes by night only."""
+
+    @pytest.fixture(autouse=True)
+    def _by_day(self, request):
+        waits = self.night.get(request.function.__name__, ())
+        if waits and not NIGHT and self.examples.index(request.getfixturevalue("design")) in waits:
+            pytest.skip("by night, with MECHWRIGHT_NIGHT=1")

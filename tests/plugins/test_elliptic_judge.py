@@ -1,0 +1,78 @@
+"""What the fast judge of elliptic gears knows: how far tips reach, distances from the ellipse, loads."""
+
+import math
+
+import numpy as np
+import pytest
+
+from mechwright.contracts.finding import errors
+from mechwright_elliptic_gears.checks import findings, judged
+from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.strength_checks import strength_findings
+from mechwright_elliptic_gears.tip_reach import may_collide, that_clear, tip_depth
+
+COLLIDES = EllipticGearParams(eccentricity=0.2369, dedendum=1.044)
+"""Tips end 0.025 modules below the flanks of their mates."""
+
+
+@pytest.mark.parametrize("eccentricity", [0.0, 1e-4, 0.3, 0.7, 0.9])
+def test_the_depth_of_a_point_is_its_distance_from_the_nearest_of_many(eccentricity: float) -> None:
+    ellipse = Ellipse(50.0, eccentricity)
+    focus = ellipse.focal_distance
+    curve = ellipse.frame(np.linspace(0, math.tau, 20001)).point
+    around = np.random.default_rng(1).uniform([focus - 60, -60], [focus + 60, 60], (20, 2))
+    special = [[focus, 0], [0, 0], [2 * focus, 0], [focus + 49.9, 0], [focus - 70, 0], [focus, 10]]
+    points = np.concatenate((around, special))
+    nearest = np.array([np.hypot(*(curve - point).T).min() for point in points])
+    depth = ellipse.depth(points)
+    inside = ((points[:, 0] - focus) / 50) ** 2 + (points[:, 1] / ellipse.semi_minor) ** 2 < 1
+    assert np.abs(depth) == pytest.approx(nearest, abs=2e-3)
+    assert (depth <= nearest).all()
+    assert ((depth > 0) == inside).all()
+
+
+def test_the_tip_of_a_round_gear_ends_its_contact_where_the_line_of_action_leaves_it() -> None:
+    params = EllipticGearParams(eccentricity=0, teeth=30, module=2, backlash=0)
+    alpha, pitch, tip = math.radians(20), 30.0, 32.0
+    along = math.sqrt(tip**2 - (pitch * math.cos(alpha)) ** 2) - pitch * math.sin(alpha)
+    assert tip_depth(params) == pytest.approx(along * math.sin(alpha) / 2, rel=1e-9)
+
+
+def test_the_judge_finds_a_collision_and_what_is_proposed_against_it_helps() -> None:
+    assert may_collide(COLLIDES)
+    assert [one.code for one in errors(judged(COLLIDES))] == ["gear.mesh"]
+    found = next(one for one in findings(COLLIDES) if one.code == "gear.mesh")
+    assert found.proposed == tuple(that_clear(COLLIDES))
+    for change in found.proposed:
+        better = COLLIDES.model_copy(update={key.removeprefix("parameters."): v for key, v in change.items()})
+        assert not errors(findings(better)), change
+
+
+def test_a_usual_rack_asks_no_mesh_proof() -> None:
+    assert not may_collide(EllipticGearParams())
+    assert not may_collide(EllipticGearParams(eccentricity=0.7, teeth=60))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"dedendum": 1.07, "tip_radius": 0.45},
+        {"dedendum": 1.02, "tip_radius": 0.1},
+        {"addendum": 1.2, "dedendum": 1.25},
+        {"load_torque": 900},
+    ],
+)
+def test_judge_and_check_find_the_same_errors(changed: dict[str, float]) -> None:
+    params = EllipticGearParams.model_validate({"eccentricity": 0.3, **changed})
+    assert [one.code for one in errors(judged(params))] == [one.code for one in errors(findings(params))]
+
+
+def test_without_advice_a_load_is_judged_the_same() -> None:
+    params = EllipticGearParams(load_torque=900)
+    told, plain = strength_findings(params), strength_findings(params, advise=False)
+    for one, other in zip(told, plain, strict=True):
+        assert (one.code, one.message, one.severity) == (other.code, other.message, other.severity)
+        assert other.proposed == ()
+    assert any(one.proposed for one in strength_findings(params))

@@ -1,0 +1,187 @@
+"""The documentation site holds everything, leads nowhere wrong, and asks nobody elsewhere."""
+
+import doctest
+import importlib
+import os
+import posixpath
+import re
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import unquote
+
+import gallery
+import pytest
+import tour
+import tree
+from by_night import by_night
+
+import mechwright as mw
+from mechwright_cad.animation import PAGE_SAMPLES
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+PAGES = sorted(path.relative_to(ROOT).as_posix() for path in DOCS.rglob("*.md"))
+CONFIG = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+BUILT = os.environ.get("MECHWRIGHT_SITE", "")
+"""Folder of the site, where it has been built."""
+
+built = pytest.mark.skipif(
+    not BUILT, reason="mkdocs build --strict -d FOLDER, then with MECHWRIGHT_SITE=FOLDER"
+)
+
+
+@pytest.mark.parametrize("name", ["tree", "docstrings", "notebook_pages"])
+def test_examples_of_the_scripts(name):
+    if name == "docstrings":
+        pytest.importorskip("markdown", reason="pip install 'mechwright[docs]'")
+    done = doctest.testmod(importlib.import_module(name))
+    assert done.attempted
+    assert not done.failed
+
+
+def test_the_menu_holds_every_page_once():
+    menu = re.findall(r"[\w./-]+\.md", CONFIG[CONFIG.index("\nnav:") :])
+    outside = {name for name in menu if not (DOCS / name).is_file()}
+    assert all(tree.place(name) == name and (ROOT / name).is_file() for name in outside)
+    assert sorted(set(menu) - outside) == sorted(tree.place(page) for page in PAGES)
+    assert len(menu) == len(set(menu))
+
+
+def test_the_gallery_has_a_card_for_every_example():
+    page = gallery.index(gallery.examples())
+    files = [path for path in (ROOT / "examples").rglob("*.toml") if path.name != "pyproject.toml"]
+    assert len(files) > 40
+    assert [
+        path.name for path in files if f"({path.stem}.md)" not in page and f'"{path.stem}.html"' not in page
+    ] == []
+
+
+def test_an_example_is_drawn_and_moves():
+    mechanism = mw.load(ROOT / "examples" / "elliptic-pair.toml").asked(samples=PAGE_SAMPLES, command="solve")
+    shown = gallery.drawn(mechanism)
+    assert shown.keys() == {"still.svg", "motion.html"}
+    assert shown["still.svg"].count("<path") >= 3
+    example = gallery.Example(ROOT / "examples" / "elliptic-pair.toml")
+    page = gallery.page_of(example, gallery.framed("elliptic-pair", shown), gallery.listed(mechanism))
+    assert example.text.strip() in page
+    assert 'src="elliptic-pair/motion.html"' in page
+    assert "`gear.mesh`" in page
+
+
+@by_night
+def test_the_pictures_of_the_tour_are_what_a_build_draws():
+    for name, drawn in tour.pictures().items():
+        assert (tour.IMAGES / name).read_text(encoding="utf-8") == drawn, "python docs/tour.py draws it anew"
+
+
+def test_the_reference_has_every_public_name_once():
+    text = "".join(path.read_text(encoding="utf-8") for path in (DOCS / "reference").glob("*.md"))
+    assert sorted(re.findall(r"^::: mechwright\.(\w+)$", text, re.M)) == sorted(
+        set(mw.__all__) - {"__version__"}
+    )
+
+
+@pytest.mark.parametrize("origin", PAGES)
+def test_links_lead_to_pages_of_the_site(origin):
+    made = {tree.place(path.relative_to(ROOT).as_posix()) for path in (ROOT / "examples").rglob("*.*")}
+    made |= {*tree.TOP.values(), "gallery/README.md"}
+    text = tree.FENCED.sub("", tree.relinked((ROOT / origin).read_text(encoding="utf-8"), origin))
+    for _, target, _ in tree.LINK.findall(text):
+        file = target.partition("#")[0]
+        if file and not re.match(r"[a-z]+:", file):
+            wanted = posixpath.normpath(posixpath.join(posixpath.dirname(tree.place(origin)), file))
+            assert wanted in made or (DOCS / wanted).is_file(), f"{origin} leads to {target}"
+
+
+def test_every_source_is_in_the_table_of_figures():
+    table = (DOCS / "seeds" / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\|.*\|.+\|.+\|.*\]\(.*\|$", table, re.M)
+    assert len(rows) > 20
+    sources = {path.stem for path in (DOCS / "seeds").glob("*.md")} - {"README"}
+    assert [source for source in sorted(sources) if f"({source}.md" not in table] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("# A\n\n## B\n\n[fine](#b), [fine](other.md)", ""),
+        ("# A\n\n[gone](nowhere.md)", "nowhere.md"),
+        ("# A\n\n[gone](other.md#nowhere)", "#nowhere"),
+        ("# A\n\n[gone](#nowhere)", "#nowhere"),
+        ("# A\n\n[absolute](/other.md)", "/other.md"),
+        ("# A\n\n![gone](images/none.svg)", "none.svg"),
+    ],
+)
+def test_a_broken_link_stops_the_build(text, says, tmp_path):
+    pytest.importorskip("mkdocs", reason="pip install 'mechwright[docs]'")
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "README.md").write_text(text)
+    (tmp_path / "docs" / "other.md").write_text("# Other\n")
+    (tmp_path / "mkdocs.yml").write_text(
+        f"INHERIT: {ROOT / 'mkdocs.yml'}\nsite_name: tried\ndocs_dir: docs\nsite_dir: site\ntheme: {{name: mkdocs}}\n"
+        "hooks: []\nextra_css: []\nplugins: []\nnav: [README.md, other.md]\n"
+    )
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-W",
+            "ignore",
+            "-m",
+            "mkdocs",
+            "build",
+            "--strict",
+            "-f",
+            str(tmp_path / "mkdocs.yml"),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "NO_MKDOCS_2_WARNING": "1"},
+    )
+    assert done.returncode == int(bool(says)), done.stderr
+    assert says in done.stderr
+
+
+LOADED = re.compile(
+    r"<(?:script|link|img|iframe|source|video|audio)\b[^>]*?\b(?:src|href)=[\"']?([^\"'\s>]+)", re.I
+)
+"""Addresses that a browser fetches by itself."""
+STYLE = re.compile(r"url\(\s*[\"']?([^)\"']+)|@import\s+[\"']([^\"']+)")
+FOREIGN = re.compile(r"(?:[a-z]+:)?//", re.I)
+
+
+@built
+def test_nothing_is_fetched_from_elsewhere():
+    asked = []
+    for path in Path(BUILT).rglob("*"):
+        if path.suffix in {".html", ".svg"}:
+            text = path.read_text(encoding="utf-8")
+            asked += [(path.name, one) for one in LOADED.findall(text)]
+        if path.suffix in {".html", ".svg", ".css"}:
+            asked += [(path.name, one or two) for one, two in STYLE.findall(path.read_text(encoding="utf-8"))]
+    assert len(asked) > 1000
+    assert [one for one in asked if FOREIGN.match(one[1])] == []
+
+
+@built
+def test_whatever_a_page_of_the_site_loads_or_leads_to_is_there():
+    missing = []
+    for path in Path(BUILT).rglob("*.html"):
+        if path.name in {"motion.html", "404.html"}:
+            continue
+        text = re.sub(r"<(pre|code|script)\b.*?</\1>", "", path.read_text(encoding="utf-8"), flags=re.S)
+        for target in {*LOADED.findall(text), *re.findall(r"<a\b[^>]*?\bhref=\"([^\"]+)\"", text)}:
+            file = unquote(target.partition("#")[0].partition("?")[0])
+            if file and not re.match(r"[a-z]+:", file) and not (path.parent / file).exists():
+                missing.append((path.relative_to(BUILT).as_posix(), target))
+    assert missing == []
+
+
+@built
+def test_every_example_moves_on_the_site():
+    for one in gallery.examples():
+        page = Path(BUILT) / "gallery" / f"{one.name}.html"
+        assert page.is_file()
+        assert (page.with_suffix("") / "motion.html").is_file() is not one.required
+        assert (page.with_suffix("") / "still.svg").is_file() is not one.required
