@@ -21,7 +21,7 @@ WIDTH, NARROWER = 0.1, 0.6
 before."""
 
 MOST = 512
-"""Designs of the front that a round searches around."""
+"""Designs of the front that a round searches around, at most; a round has no more designs than the study."""
 
 
 class Front:

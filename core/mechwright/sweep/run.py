@@ -17,7 +17,7 @@ from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.sweep.folder import SHARDS, SUFFIX, SweepFolder
-from mechwright.sweep.front import MOST, Chosen, Front, around
+from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
 from mechwright.sweep.page import page_of
 from mechwright.sweep.pareto import spread
 from mechwright.sweep.shard import NUMBER, Counts, read, written
@@ -115,7 +115,7 @@ def _allowed(path: Path) -> dict[str, NDArray[Any]]:
 
 
 def _around(study: Study, front: Front, number: int, first: int) -> list[Task]:
-    places = spread(front.costs, MOST)
+    places = spread(front.costs, min(MOST, max(1, study.count // AROUND)))
     if not places:
         return []
     values = around(front, number, sorted(places))
