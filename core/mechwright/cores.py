@@ -9,8 +9,18 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
+_allowed: list[int] = []
+
+
+def keep_to(count: int) -> None:
+    """Let this process use no more than so many cores: others of the same work use the rest."""
+    _allowed[:] = [count]
+
+
 def cores() -> int:
     """How many processor cores this process may use: those it is bound to, where the system can tell."""
+    if _allowed:
+        return _allowed[0]
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

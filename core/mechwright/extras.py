@@ -5,7 +5,7 @@ from typing import Any
 
 from mechwright.errors import PluginError
 
-EXTRAS = {"pandas": "data", "plotly": "data"}
+EXTRAS = {"distributed": "scale", "pandas": "data", "plotly": "data", "pyarrow": "scale"}
 """Library to the extra of this distribution that brings it."""
 
 

@@ -259,7 +259,38 @@ class Synthesize(Command):
         synthesis.synthesize(requirement, output, as_json)
 
 
+class Sweep(Command):
+    """``mechwright sweep``."""
+
+    name = "sweep"
+    order = 95
+
+    def run(
+        self,
+        study: Annotated[
+            Path,
+            typer.Argument(metavar="STUDY", help="A study file (TOML).", show_default=False),
+        ],
+        output: OutputFolder,
+        workers: Annotated[
+            int | None,
+            typer.Option(min=1, max=1024, help="Processes of this machine; by default one for each core."),
+        ] = None,
+        scheduler: Annotated[
+            str, typer.Option(metavar="ADDRESS", help="Of a Dask scheduler, such as tcp://host:8786.")
+        ] = "",
+        as_json: AsJson = False,
+    ) -> None:
+        """Evaluate many designs, and find the best that build.
+
+        A sweep that was stopped goes on where it stood. The exit code is 1 if no design is allowed.
+        """
+        from mechwright.cli import sweeping
+
+        sweeping.run(study, output, workers, scheduler, as_json)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize]
+    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize, Sweep]

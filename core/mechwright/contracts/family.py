@@ -1,10 +1,10 @@
 """The contract of a mechanism family."""
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
 
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import shapely
 
     from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
@@ -46,6 +47,8 @@ class Family(Plugin, Generic[P]):
     """The table ``[parameters]``."""
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
     """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
+    batch: ClassVar[int] = 256
+    """Designs of a study that are evaluated together: half a minute's work of one core, or 10^5 and more."""
 
     @classmethod
     def fault(cls) -> str:
@@ -218,6 +221,42 @@ class Family(Plugin, Generic[P]):
             requirement cannot be met.
         """
         raise NotImplementedError(f"family {self.name} has no synthesis of kind {kind!r}")
+
+    def measures(self, params: P) -> Mapping[str, str]:
+        """The columns that a study around this design can have, name to unit; angles are in degrees.
+
+        The default are the figures of its motion, and the extremes of its channels.
+
+        Raises
+        ------
+        MechwrightError
+            The design does not move.
+        """
+        from mechwright.contracts.evaluation import SAMPLES, figures
+
+        return {name: unit for name, (_, unit) in figures(self.solve(params, SAMPLES)).items()}
+
+    def evaluate(self, batch: "Batch[P]", columns: Collection[str], stage: Stage = Stage.PARTS) -> "Columns":
+        """Many designs at once: their figures, and what forbids those that cannot be.
+
+        Parameters
+        ----------
+        batch
+            The designs.
+        columns
+            Which of ``measures`` are asked for.
+        stage
+            Up to which stage a design has to be free of errors.
+
+        Returns
+        -------
+        columns
+            The same numbers as ``solve`` gives for each of them, and the code of the first error that
+            ``judge`` finds. The default asks these two, one design after the other.
+        """
+        from mechwright.contracts.evaluation import one_by_one
+
+        return one_by_one(self, batch, columns, stage)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
         """The places that a requirement asks for, which ``mechwright live`` lets one drag.

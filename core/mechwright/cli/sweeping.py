@@ -1,0 +1,72 @@
+"""The command ``sweep``."""
+
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+
+import typer
+
+from mechwright.cli.hosting import open_host
+from mechwright.cli.progress import StoppedError, fraction
+from mechwright.cores import cores
+from mechwright.errors import DesignError
+from mechwright.sweep.run import Swept, sweep
+from mechwright.sweep.study import load_study
+from mechwright.sweep.workers import Alone, Cluster, Processes, Workers
+
+ADDRESS = "DASK_SCHEDULER_ADDRESS"
+"""Environment variable: the scheduler that is asked where the command names none."""
+
+
+def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bool) -> None:
+    """Evaluate the designs of a study; the exit code is 1 if none is allowed."""
+    installed = open_host()
+    study = load_study(path, installed)
+    workers = _workers(count, scheduler)
+    try:
+        with fraction() as progress:
+            found = sweep(study, folder, workers, installed, progress)
+    except KeyboardInterrupt:
+        raise StoppedError(f"the tables in {folder} stand; the same command goes on") from None
+    if as_json:
+        typer.echo(
+            json.dumps({"ok": found.counts.feasible > 0, "folder": str(folder), **asdict(found)}, indent=2)
+        )
+    else:
+        _say(folder, found)
+    raise typer.Exit(int(not found.counts.feasible))
+
+
+def _workers(count: int | None, scheduler: str) -> Workers:
+    address = scheduler or ("" if count else os.environ.get(ADDRESS, ""))
+    if scheduler and count:
+        raise DesignError(
+            "--workers: goes with processes of this machine, and --scheduler with a cluster; take one"
+        )
+    if address:
+        return Cluster(address)
+    number = count or cores()
+    return Alone() if number == 1 else Processes(number)
+
+
+def _say(folder: Path, found: Swept) -> None:
+    counts = found.counts
+    if not counts.feasible:
+        first = max(counts.forbidden.items(), key=lambda one: one[1])
+        typer.echo(
+            f"mechwright: no design is allowed: [{first[0]}] forbids {first[1]:,} of {counts.designs:,}; "
+            "widen the ranges or ease the constraints",
+            err=True,
+        )
+    for one in found.chosen:
+        told = ", ".join(f"{name} {_shown(value)}" for name, value in one.figures.items())
+        typer.echo(f"{one.name}.toml: {told}" if one.name else f"design {one.design}: refused: {one.refused}")
+    typer.echo(
+        f"{folder}: {counts.designs:,} designs, {counts.feasible:,} allowed, {found.front:,} on the front; "
+        f"{', '.join(found.files)}"
+    )
+
+
+def _shown(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

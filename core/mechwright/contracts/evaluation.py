@@ -1,0 +1,171 @@
+"""Many designs at once: what a study varies, and what is found of every design, as columns."""
+
+import math
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.parameters import Parameters
+from mechwright.errors import MechwrightError
+
+if TYPE_CHECKING:
+    from mechwright.contracts.family import Family
+    from mechwright.contracts.motion import Motion
+
+P = TypeVar("P", bound=Parameters)
+
+SAMPLES = 721
+"""Samples of a motion whose figures are columns: every half degree of a turn."""
+
+PARAMETERS = "parameters"
+"""What forbids a design whose own table is refused, before its key: ``parameters.teeth``."""
+
+MOTION = "motion"
+"""What forbids a design whose check found nothing and whose motion is refused all the same."""
+
+
+@dataclass(frozen=True)
+class Batch(Generic[P]):
+    """Designs that differ in some parameters.
+
+    Parameters
+    ----------
+    model
+        The family's table ``[parameters]``.
+    content
+        What all have in common, as a design file says it, defaults left out.
+    varied
+        Dotted name of a parameter to its values (n,) of the designs: numbers in the unit of the parameter, or
+        texts.
+    """
+
+    model: type[P]
+    content: Mapping[str, Any]
+    varied: Mapping[str, NDArray[Any]]
+
+    def __len__(self) -> int:
+        return min((values.size for values in self.varied.values()), default=0)
+
+    @cached_property
+    def common(self) -> P:
+        """What the designs have in common; of what is varied it has the first design's value."""
+        return self.one(0)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """The values (n,) of a parameter, varied or not; raises AttributeError where there is none."""
+        if name in self.varied:
+            return self.varied[name]
+        value: Any = self.common
+        for step in name.split("."):
+            value = getattr(value, step)
+        return np.full(len(self), value)
+
+    def one(self, place: int) -> P:
+        """One of the designs; raises pydantic's ValidationError where its table is refused."""
+        content = _copied(self.content)
+        for name, values in self.varied.items():
+            *tables, key = name.split(".")
+            table = content
+            for step in tables:
+                table = table.setdefault(step, {})
+            table[key] = values[place].item()
+        return self.model.model_validate(content)
+
+
+def _copied(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: _copied(value) if isinstance(value, Mapping) else value for key, value in table.items()}
+
+
+@dataclass(frozen=True)
+class Columns:
+    """What was found of the designs of a batch.
+
+    Parameters
+    ----------
+    values
+        Name of a column to its values (n,) float; NaN where a design is forbidden or has no such figure.
+    forbidden
+        (n,) of whole numbers: which of ``codes`` forbids the design.
+    codes
+        Codes of findings; the first is empty, which forbids nothing.
+    """
+
+    values: Mapping[str, Array]
+    forbidden: NDArray[np.int32]
+    codes: tuple[str, ...]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many designs each code forbids, without those that are allowed, by name."""
+        found = np.bincount(self.forbidden, minlength=len(self.codes))
+        return {code: int(n) for code, n in sorted(zip(self.codes, found, strict=True)) if code and n}
+
+
+def told_unit(unit: str) -> str:
+    """The unit in which a column is told: angles are in degrees."""
+    return "deg" if unit == "rad" else unit
+
+
+def _told(value: float, unit: str) -> float:
+    return math.degrees(value) if unit == "rad" else value
+
+
+def figures(motion: "Motion") -> dict[str, tuple[float, str]]:
+    """What a motion has for columns: its figures, and the extremes of every channel but the input.
+
+    Name to value and unit. Names of channels are followed by ``.least`` and ``.greatest``.
+    """
+    found = {name: (one.value, one.unit) for name, one in motion.scalars.items()}
+    for name, channel in motion.channels.items():
+        if name != motion.input_name:
+            found[f"{name}.least"] = float(channel.values.min()), channel.unit
+            found[f"{name}.greatest"] = float(channel.values.max()), channel.unit
+    return {name: (_told(value, unit), told_unit(unit)) for name, (value, unit) in found.items()}
+
+
+def one_by_one(family: "Family[P]", batch: Batch[P], columns: Collection[str], stage: Stage) -> Columns:
+    """What :meth:`Family.evaluate` says, from ``judge`` and ``solve`` of one design after the other."""
+    size = len(batch)
+    values = {name: np.full(size, np.nan) for name in columns}
+    forbidden = np.zeros(size, dtype=np.int32)
+    codes: dict[str, int] = {"": 0}
+    for place in range(size):
+        code, found = _one(family, batch, place, bool(columns), stage)
+        forbidden[place] = codes.setdefault(code, len(codes))
+        for name in values.keys() & found.keys():
+            values[name][place] = found[name][0]
+    return Columns(values, forbidden, tuple(codes))
+
+
+def _one(
+    family: "Family[P]", batch: Batch[P], place: int, solved: bool, stage: Stage
+) -> tuple[str, dict[str, tuple[float, str]]]:
+    """What forbids a design, and its figures if nothing does."""
+    try:
+        params = batch.one(place)
+    except ValidationError as error:
+        keys = ".".join(str(step) for step in error.errors(include_url=False)[0]["loc"])
+        return f"{PARAMETERS}.{keys}" if keys else PARAMETERS, {}
+    stopping = errors(family.judge(params), stage)
+    if stopping:
+        return stopping[0].code, {}
+    try:
+        return "", figures(family.solve(params, SAMPLES)) if solved else {}
+    except MechwrightError:
+        return MOTION, {}
+
+
+def summed(counts: Sequence[Mapping[str, int]]) -> dict[str, int]:
+    """Counts added up, by name."""
+    total: Counter[str] = Counter()
+    for one in counts:
+        total.update(one)
+    return dict(sorted(total.items()))

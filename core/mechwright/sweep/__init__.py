@@ -1,0 +1,1 @@
+"""Many designs of one family: which of them can be, which are best, and files of those."""

@@ -1,0 +1,90 @@
+"""One piece of a study's work, as a worker does it: in this process, in another, or on another machine."""
+
+import hashlib
+import json
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from importlib import import_module
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import NDArray
+
+from mechwright.contracts.evaluation import Batch
+from mechwright.plugins.host import host
+from mechwright.sweep.draw import drawn
+from mechwright.sweep.shard import shard_of
+from mechwright.sweep.study import Study, study_of
+
+LIBRARIES = ("numpy", "scipy", "pyarrow")
+"""Whose versions change the bytes of a table."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A batch: one that is drawn, by its number, or one whose parameters are given.
+
+    Parameters
+    ----------
+    name
+        Stem of the name of its file.
+    first
+        Number of its first design.
+    drawn
+        Which batch of the study; None for one that is given.
+    given
+        Parameter to values (n,).
+    """
+
+    name: str
+    first: int
+    drawn: int | None
+    given: Mapping[str, NDArray[Any]] = field(default_factory=dict, repr=False)
+
+
+def done(study: Study, task: Task) -> bytes:
+    """The table of a task."""
+    if task.drawn is not None:
+        return shard_of(study, drawn(study, task.drawn), task.first)
+    return shard_of(study, Batch(study.family.Params, study.content, task.given), task.first)
+
+
+@dataclass(frozen=True)
+class Source:
+    """A study as it goes to workers: what its file says, as JSON, and the file's name."""
+
+    text: str
+    name: str
+    family: str
+
+    @classmethod
+    def of(cls, study: Study) -> "Source":
+        """That of a study, without the tables that go into designs, which workers do not need."""
+        kept = ("format", "family", "name", "parameters", "study")
+        said = {key: study.file[key] for key in kept if key in study.file}
+        return cls(json.dumps(said), study.path.name, study.family.name)
+
+    def done(self, task: Task) -> bytes:
+        """The table of a task, by a worker that has only this."""
+        return done(_opened(self), task)
+
+
+@lru_cache(maxsize=4)
+def _opened(source: Source) -> Study:
+    return study_of(json.loads(source.text), Path(source.name), host())
+
+
+@cache
+def fingerprint(family: str) -> str:
+    """What tells installations apart whose tables could differ: versions, and the program's text."""
+    found = hashlib.sha256()
+    for package in ("mechwright", type(host().family(family)).__module__.partition(".")[0]):
+        root = Path(str(import_module(package).__file__)).parent
+        for path in sorted(root.rglob("*.py")):
+            found.update(str(path.relative_to(root)).encode())
+            found.update(path.read_bytes())
+    said = [f"{name} {version(name)}" for name in LIBRARIES]
+    return ", ".join([f"python {platform.python_version()}", *said, f"program {found.hexdigest()[:12]}"])
