@@ -367,6 +367,7 @@ def cluster(tmp_path):
             process.wait(10)
         except subprocess.TimeoutExpired:
             process.kill()
+            process.wait()
 
 
 def scheduler_of(cluster, port):
@@ -391,7 +392,9 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
     path = tmp_path / "strokes.toml"
     command = [sys.executable, "-m", "mechwright", "sweep", str(path), "-o", str(tmp_path / "two")]
     running = subprocess.Popen(
-        [*command, "--scheduler", f"tcp://127.0.0.1:{port}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        [*command, "--scheduler", f"tcp://127.0.0.1:{port}"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
     )
     tables = tmp_path / "two" / "tables"
     end = time.monotonic() + 120
