@@ -354,9 +354,9 @@ def cluster(tmp_path):
     started = []
 
     def start(*words):
-        out = (tmp_path / f"log-{len(started)}").open("wb")
         command = [sys.executable, "-m", f"distributed.cli.{words[0]}", *words[1:]]
-        started.append(subprocess.Popen(command, stdout=out, stderr=out, start_new_session=True))
+        with (tmp_path / f"log-{len(started)}").open("wb") as out:
+            started.append(subprocess.Popen(command, stdout=out, stderr=out, start_new_session=True))
         return started[-1]
 
     yield start
@@ -421,9 +421,9 @@ def test_an_address_where_nobody_answers_is_one_line(tmp_path):
 def test_the_example_and_the_page_on_it_are_one_study():
     page = (ROOT / "docs" / "scale.md").read_text()
     shown = tomllib.loads(page.split("```toml\n")[1].split("```")[0])
-    example = tomllib.loads((ROOT / "examples" / "four-bar-study.toml").read_text())
+    example = tomllib.loads((ROOT / "examples" / "studies" / "four-bar.toml").read_text())
     for told in (shown, example):
-        study_of(told, ROOT / "examples" / "four-bar-study.toml", host())
+        study_of(told, ROOT / "examples" / "studies" / "four-bar.toml", host())
     assert {k: v for k, v in example["study"].items() if isinstance(v, dict)}.keys() == {
         k: v for k, v in shown["study"].items() if isinstance(v, dict)
     }.keys()
@@ -434,7 +434,7 @@ def test_the_example_and_the_page_on_it_are_one_study():
 @by_night
 def test_the_example_gives_designs_that_build(tmp_path):
     pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
-    path = ROOT / "examples" / "four-bar-study.toml"
+    path = ROOT / "examples" / "studies" / "four-bar.toml"
     done = CliRunner().invoke(make_app(), ["sweep", str(path), "-o", str(tmp_path / "out"), "--json"])
     assert done.exit_code == 0, done.output
     said = json.loads(done.stdout)

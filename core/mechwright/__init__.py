@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+    from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
     from mechwright.contracts.finding import (
@@ -76,6 +77,7 @@ _HOMES = {
     "mechwright.contracts.bought": "Bought",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.fitting_marks": "FittingMark",
+    "mechwright.contracts.evaluation": "Batch Columns",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse until_error",
@@ -149,6 +151,7 @@ __all__ += [
     "refuse",
     "until_error",
 ]
+__all__ += ["Batch", "Columns"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis", "Target", "point_targets"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
