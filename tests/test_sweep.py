@@ -74,6 +74,9 @@ class Bowl(Family[BowlParams]):
         return []
 
 
+BOWL = Bowl()
+
+
 @dataclass
 class OneFamily:
     """The host, with one family more."""
@@ -95,7 +98,7 @@ def study(**changed):
         **changed,
     }
     content = {"family": "bowl", "study": {key: value for key, value in table.items() if value is not None}}
-    return study_of(content, Path("bowl.toml"), OneFamily(Bowl()))
+    return study_of(content, Path("bowl.toml"), OneFamily(BOWL))
 
 
 @given(arrays(float, st.tuples(st.integers(0, 60), st.integers(1, 4)), elements=st.integers(0, 6).map(float)))
@@ -237,9 +240,14 @@ def test_what_a_table_refuses_is_forbidden_by_its_key():
         teeth: int = Field(10, ge=8, le=20, description="A whole number.")
 
     batch = Batch(Picky, {}, {"x": np.array([0.0, 1.0]), "teeth": np.array([5, 9])})
-    found = one_by_one(Bowl(), batch, ("left",), Stage.PARTS)
+    found = one_by_one(BOWL.judge, BOWL.solve, batch, ("left",), Stage.PARTS)
     assert [found.codes[code] for code in found.forbidden] == ["parameters.teeth", ""]
-    assert one_by_one(Bowl(), Batch(BowlParams, {}, {"x": np.array([5.0])}), (), Stage.MOTION).counts == {}
+    assert (
+        one_by_one(
+            BOWL.judge, BOWL.solve, Batch(BowlParams, {}, {"x": np.array([5.0])}), (), Stage.MOTION
+        ).counts
+        == {}
+    )
 
 
 def test_refinement_stays_in_its_ranges_and_finds_what_is_known_to_be_best():
@@ -421,9 +429,9 @@ def test_an_address_where_nobody_answers_is_one_line(tmp_path):
 def test_the_example_and_the_page_on_it_are_one_study():
     page = (ROOT / "docs" / "scale.md").read_text()
     shown = tomllib.loads(page.split("```toml\n")[1].split("```")[0])
-    example = tomllib.loads((ROOT / "examples" / "studies" / "four-bar.toml").read_text())
+    example = tomllib.loads((ROOT / "examples" / "studies" / "four-bar-study.toml").read_text())
     for told in (shown, example):
-        study_of(told, ROOT / "examples" / "studies" / "four-bar.toml", host())
+        study_of(told, ROOT / "examples" / "studies" / "four-bar-study.toml", host())
     assert {k: v for k, v in example["study"].items() if isinstance(v, dict)}.keys() == {
         k: v for k, v in shown["study"].items() if isinstance(v, dict)
     }.keys()
@@ -434,7 +442,7 @@ def test_the_example_and_the_page_on_it_are_one_study():
 @by_night
 def test_the_example_gives_designs_that_build(tmp_path):
     pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
-    path = ROOT / "examples" / "studies" / "four-bar.toml"
+    path = ROOT / "examples" / "studies" / "four-bar-study.toml"
     done = CliRunner().invoke(make_app(), ["sweep", str(path), "-o", str(tmp_path / "out"), "--json"])
     assert done.exit_code == 0, done.output
     said = json.loads(done.stdout)

@@ -27,7 +27,11 @@ WORTH_A_LINK = {
 
 def design_files() -> list[Path]:
     """Every example that is a file of its own, sorted by name."""
-    found = [*EXAMPLES.glob("*.toml"), *(EXAMPLES / "motion").glob("*.toml")]
+    found = [
+        *EXAMPLES.glob("*.toml"),
+        *(EXAMPLES / "motion").glob("*.toml"),
+        *(EXAMPLES / "studies").glob("*.toml"),
+    ]
     return sorted(found, key=lambda path: path.name)
 
 
@@ -55,8 +59,8 @@ class Example:
 
     @property
     def required(self) -> bool:
-        """Whether it is a requirement, of which designs are to be found."""
-        return "\n[requirement]" in self.text
+        """Whether it is a requirement or a study, of which designs are to be found."""
+        return "\n[requirement]" in self.text or "\n[study]" in self.text
 
     @cached_property
     def said(self) -> str:

@@ -1,8 +1,7 @@
 """Many designs at once: what a study varies, and what is found of every design, as columns."""
 
 import math
-from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -12,12 +11,11 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from mechwright.arrays import Array
-from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.parameters import Parameters
 from mechwright.errors import MechwrightError
 
 if TYPE_CHECKING:
-    from mechwright.contracts.family import Family
     from mechwright.contracts.motion import Motion
 
 P = TypeVar("P", bound=Parameters)
@@ -131,14 +129,20 @@ def figures(motion: "Motion") -> dict[str, tuple[float, str]]:
     return {name: (_told(value, unit), told_unit(unit)) for name, (value, unit) in found.items()}
 
 
-def one_by_one(family: "Family[P]", batch: Batch[P], columns: Collection[str], stage: Stage) -> Columns:
+def one_by_one(
+    judge: Callable[[P], Sequence[Finding]],
+    solve: "Callable[[P, int], Motion]",
+    batch: Batch[P],
+    columns: Collection[str],
+    stage: Stage,
+) -> Columns:
     """What :meth:`Family.evaluate` says, from ``judge`` and ``solve`` of one design after the other."""
     size = len(batch)
     values = {name: np.full(size, np.nan) for name in columns}
     forbidden = np.zeros(size, dtype=np.int32)
     codes: dict[str, int] = {"": 0}
     for place in range(size):
-        code, found = _one(family, batch, place, bool(columns), stage)
+        code, found = _one(judge, solve if columns else None, batch, place, stage)
         forbidden[place] = codes.setdefault(code, len(codes))
         for name in values.keys() & found.keys():
             values[name][place] = found[name][0]
@@ -146,7 +150,11 @@ def one_by_one(family: "Family[P]", batch: Batch[P], columns: Collection[str], s
 
 
 def _one(
-    family: "Family[P]", batch: Batch[P], place: int, solved: bool, stage: Stage
+    judge: Callable[[P], Sequence[Finding]],
+    solve: "Callable[[P, int], Motion] | None",
+    batch: Batch[P],
+    place: int,
+    stage: Stage,
 ) -> tuple[str, dict[str, tuple[float, str]]]:
     """What forbids a design, and its figures if nothing does."""
     try:
@@ -154,18 +162,10 @@ def _one(
     except ValidationError as error:
         keys = ".".join(str(step) for step in error.errors(include_url=False)[0]["loc"])
         return f"{PARAMETERS}.{keys}" if keys else PARAMETERS, {}
-    stopping = errors(family.judge(params), stage)
+    stopping = errors(judge(params), stage)
     if stopping:
         return stopping[0].code, {}
     try:
-        return "", figures(family.solve(params, SAMPLES)) if solved else {}
+        return "", {} if solve is None else figures(solve(params, SAMPLES))
     except MechwrightError:
         return MOTION, {}
-
-
-def summed(counts: Sequence[Mapping[str, int]]) -> dict[str, int]:
-    """Counts added up, by name."""
-    total: Counter[str] = Counter()
-    for one in counts:
-        total.update(one)
-    return dict(sorted(total.items()))

@@ -256,7 +256,7 @@ class Family(Plugin, Generic[P]):
         """
         from mechwright.contracts.evaluation import one_by_one
 
-        return one_by_one(self, batch, columns, stage)
+        return one_by_one(self.judge, self.solve, batch, columns, stage)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
         """The places that a requirement asks for, which ``mechwright live`` lets one drag.
