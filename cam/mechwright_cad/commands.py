@@ -56,7 +56,7 @@ class Live(Command):
         ] = 0,
         show: Annotated[bool, typer.Option("--open/--no-open", help="Show the page in a browser.")] = True,
     ) -> None:
-        """Show a design, or a requirement, in the browser, and redraw it as you change it.
+        """Show a design or requirement in the browser, and redraw it.
 
         The page is for this machine alone. Nothing is written unless you ask for it there. Ctrl-C ends it.
         """

@@ -17,7 +17,11 @@ from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 
 Run = Callable[..., tuple[int, str, str]]
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("**/*.toml"))
+EXAMPLES = [
+    path
+    for path in sorted((Path(__file__).parents[2] / "examples").glob("**/*.toml"))
+    if path.parent.name != "studies"  # no schema says what a study may hold
+]
 EXAMPLES = [path for path in EXAMPLES if "template" not in str(path) and path.stem != "pyproject"]
 KNOWN = {
     *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "examples"),

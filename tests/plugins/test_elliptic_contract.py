@@ -26,7 +26,7 @@ class TestEllipticGears(DayContract):
         {},
         {"module": 2, "teeth": 39},
         {"bore": 16, "keyway_width": 5, "keyway_depth": 2.4, "keyway_relief": 2},
-        {"stages": 2, "bore": 12, "phase": 70, "tracer_diameter": 4},
+        {"stages": 2, "bore": 12, "phase": 70, "tracer_diameter": 4, "screw_hole": 6},
         {"stages": 2, "bore": 12, "phase_joint": "pins", "phases": [20, 100], "phase": 20},
         {"stages": 2, "bore": 12, "phase_joint": "clamp", "clamp_screw": 4, "clamp_screws": 4},
     )
@@ -51,7 +51,12 @@ class TestEllipticGears(DayContract):
         ("Q.acceleration.x", "Q.jerk.x"),
     )
     input_rate = "omega2"
-    variations: ClassVar = {"phases": ((20, 150),), "clamp_screw": (3,), "clamp_screws": (5,)}
+    variations: ClassVar = {
+        "screw_offset": (100,),
+        "phases": ((20, 150),),
+        "clamp_screw": (3,),
+        "clamp_screws": (5,),
+    }
     requirements: ClassVar = {
         "longest-window": (QUICK,),
         "least-acceleration": (QUICK,),

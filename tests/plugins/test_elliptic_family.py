@@ -203,7 +203,10 @@ def test_a_train_is_no_pair():
 def test_all_fields_are_perturbed():
     joint = {"phase_joint", "phases", "clamp_screw", "clamp_screws"}  # see the tests of phase joints
     loads = {"load_torque"}  # see the tests of strength
-    assert {*PERTURBED, *TRAIN_PERTURBED, *joint, *loads, "module", "stages"} == set(Params.model_fields)
+    # See the tests of frames and of bushes.
+    frame = {"bushes", "screw_hole", "screw_offset", "stub_diameter", "stub_length"}
+    known = {*PERTURBED, *TRAIN_PERTURBED, *joint, *loads, *frame, "module", "stages"}
+    assert known == set(Params.model_fields)
 
 
 def cut(params, radius):
