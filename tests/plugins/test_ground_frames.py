@@ -116,7 +116,9 @@ def test_one_plate_has_the_motor_behind_it_and_nothing_below(example):
     assert sum(len(part.instances) for part in screws) == 8
 
 
-@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+@pytest.mark.parametrize(
+    "example", [FOUR, pytest.param(FIVE, marks=by_night), pytest.param(EIGHT, marks=by_night)]
+)
 def test_no_plate_meets_another(example, tmp_path):
     assert commands.collisions(content(example=example), tmp_path, solids=False) == []
 
