@@ -66,11 +66,9 @@ class FiveBars(Family[FiveBarParams]):
 
     def settings(self, params: FiveBarParams) -> Mapping[str, FiveBarParams]:
         """The other phases that the pivots of the coupler and the arm's gear are set to."""
-        return {
-            f"phase = {phase}": params.model_copy(update={"phase": phase})
-            for phase in range(1, 2 + len(params.phases))
-            if phase != params.phase
-        }
+        from mechwright.mechanics.linkage.other_phases import other_phases
+
+        return other_phases(params)
 
     def as_made(self, params: FiveBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the coupler point, from bores and pins."""

@@ -71,11 +71,9 @@ class FourBars(Family[FourBarParams]):
 
     def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
         """The other phases that the pivots of the coupler are set to."""
-        return {
-            f"phase = {phase}": params.model_copy(update={"phase": phase})
-            for phase in range(1, 2 + len(params.phases))
-            if phase != params.phase
-        }
+        from mechwright.mechanics.linkage.other_phases import other_phases
+
+        return other_phases(params)
 
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""

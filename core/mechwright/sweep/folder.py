@@ -34,7 +34,7 @@ class SweepFolder:
 
     def __init__(self, path: Path, study: Study, host: Host) -> None:
         self.path, self.study, self.host = path, study, host
-        own = {"study": study.digest, "with": fingerprint(study.family.name), "batch": study.batch}
+        own = {"study": study.digest, "program": fingerprint(study.family.name), "batch": study.batch}
         found = self._begun()
         if found is None:
             self.write(Output({BEGUN: _said(own)}))

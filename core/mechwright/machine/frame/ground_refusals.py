@@ -7,7 +7,7 @@ from dataclasses import replace
 import shapely
 from shapely import affinity
 
-from mechwright.contracts.finding import Change, Finding, Stage
+from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import GroundPlate
 from mechwright.errors import DesignError
@@ -15,6 +15,7 @@ from mechwright.geometry.segments import Point
 from mechwright.machine.frame.base import HOLE
 from mechwright.machine.frame.coupled import BESIDE, GAP, PLATE, TURNS, face_below, outline
 from mechwright.machine.frame.decided import Wanted
+from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import PILLAR, SCREW
@@ -46,20 +47,7 @@ def refusal(error: DesignError) -> Finding:
     key, colon, rest = said.partition(": ")
     if not colon or " " in key:
         key, rest = "machine.frame", said
-    return _fault("frame.design", key, rest or remedy, remedy=remedy if rest else 'set frame = "none"')
-
-
-def _fault(
-    code: str,
-    key: str,
-    said: str,
-    value: float | None = None,
-    limit: float | None = None,
-    remedy: str = "",
-    proposed: tuple[Change, ...] = (),
-) -> Finding:
-    unit = "" if value is None else "mm"
-    return Finding.error(code, key, said, value, limit, unit, remedy, Stage.PARTS, proposed)
+    return fault("frame.design", key, rest or remedy, remedy=remedy if rest else 'set frame = "none"')
 
 
 def plate_key_faults(keys: FrameKeys) -> list[Finding]:
@@ -68,7 +56,7 @@ def plate_key_faults(keys: FrameKeys) -> list[Finding]:
         said = "the mechanism has its bearings in its own ground: no bearing plates go around it"
         change: Change = {"machine.frame": "base"}
         return [
-            _fault("frame.own-ground", "machine.frame", said, remedy='set frame = "base"', proposed=(change,))
+            fault("frame.own-ground", "machine.frame", said, remedy='set frame = "base"', proposed=(change,))
         ]
     found = []
     for key in WITHOUT:
@@ -77,7 +65,7 @@ def plate_key_faults(keys: FrameKeys) -> list[Finding]:
             said = "the mechanism has its bearings in its own ground: there are no bearing plates"
             change = {f"machine.{key}": usual}
             found.append(
-                _fault("frame.own-ground", f"machine.{key}", said, remedy="leave it out", proposed=(change,))
+                fault("frame.own-ground", f"machine.{key}", said, remedy="leave it out", proposed=(change,))
             )
     return found
 
@@ -95,7 +83,7 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
         )
         change = {ground.hole_key: HOLE}
         found.append(
-            _fault(
+            fault(
                 "frame.ground-holes", ground.hole_key, said, ground.hole, HOLE, f"make it {HOLE:g}", (change,)
             )
         )
@@ -104,7 +92,7 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
         key = ground.thickness_key
         said = f"no screw M{SCREW:g} is long enough for a ground plate of {thick:g} mm: {most:g} mm at most"
         remedy = f"make it {most:g}"
-        found.append(_fault("frame.ground-thickness", key, said, thick, most, remedy, ({key: most},)))
+        found.append(fault("frame.ground-thickness", key, said, thick, most, remedy, ({key: most},)))
     return found
 
 
@@ -112,7 +100,7 @@ def motor_wanted() -> Finding:
     """One plate adds the motor behind it, and nothing without one."""
     said = "a frame of one plate is the ground plate with the motor behind it, and there is no motor"
     change: Change = {"machine.motor": "auto"}
-    return _fault("frame.one-plate", "machine.motor", said, remedy='set motor = "auto"', proposed=(change,))
+    return fault("frame.one-plate", "machine.motor", said, remedy='set motor = "auto"', proposed=(change,))
 
 
 def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
@@ -141,12 +129,12 @@ def _no_bore(ground: GroundPlate) -> Finding:
     said = f"no coupling is sold for a shaft of {ground.diameter:g} mm; one of: {sold}"
     if works is None:
         return _without_motor(key, said, ground.diameter, BORES[0])
-    return _fault("frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},))
+    return fault("frame.coupling", key, said, ground.diameter, works, f"make it {works:g}", ({key: works},))
 
 
 def _without_motor(key: str, said: str, have: float, need: float) -> Finding:
     remedy, change = 'set motor = "none"', {"machine.motor": "none"}
-    return _fault("frame.coupling", key, said, have, need, remedy, (change,))
+    return fault("frame.coupling", key, said, have, need, remedy, (change,))
 
 
 def foot_of(
@@ -244,12 +232,12 @@ def longer(ground: GroundPlate, said: str, more: float) -> Finding:
     if ground.length_key:
         works = math.ceil(need)
         change: Change = {ground.length_key: works}
-        return _fault("frame.coupling", ground.length_key, said, have, need, f"make it {works:g}", (change,))
+        return fault("frame.coupling", ground.length_key, said, have, need, f"make it {works:g}", (change,))
     able: list[Change] = [{key: bore} for bore in BORES if bore * have >= need * ground.diameter]
     if not able:
         return _without_motor(key, said, have, need)
     remedy = "take a thicker shaft, which is longer"
-    return _fault("frame.coupling", key, said, have, need, remedy, tuple(able))
+    return fault("frame.coupling", key, said, have, need, remedy, tuple(able))
 
 
 def _turn(
@@ -283,4 +271,4 @@ def _offset_fault(
     (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
     said = f"the ground plate's holes stand {x1 - x0:.4g} by {y1 - y0:.4g} mm apart, where {why}"
     proposed: tuple[Change, ...] = () if works is None else ({key: works},)
-    return _fault("frame.ground-offset", key, said, now, works, remedy, proposed)
+    return fault("frame.ground-offset", key, said, now, works, remedy, proposed)

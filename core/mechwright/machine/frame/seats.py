@@ -8,8 +8,9 @@ import math
 from dataclasses import dataclass
 from itertools import combinations
 
-from mechwright.contracts.finding import Change, Finding, Stage
+from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.mounting import Mounting, Spindle
+from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.standards.bearings import Bearing, bearings
 from mechwright.standards.circlips import Circlip, shaft_circlips
@@ -109,7 +110,7 @@ def _no_bearing(spindle: Spindle, keys: FrameKeys) -> Finding:
     near = min(able, key=lambda b: (abs(b - bore), b), default=None)
     series = "" if keys.bearing == "auto" else f" of series {keys.bearing}"
     if keys.bearing != "auto" and candidates(bore, "auto"):
-        return _error(
+        return fault(
             "frame.bearing",
             "machine.bearing",
             f"no bearing{series} fits the shaft of spindle {spindle.name}, whose hub has a bore of "
@@ -117,7 +118,7 @@ def _no_bearing(spindle: Spindle, keys: FrameKeys) -> Finding:
             remedy='set bearing = "auto"',
             proposed=({"machine.bearing": "auto"},),
         )
-    return _error(
+    return fault(
         "frame.bearing",
         spindle.bore_key,
         f"no bearing{series} and circlip of the tables fit the shaft of spindle {spindle.name}, whose hub "
@@ -153,7 +154,7 @@ def _too_near(
     ]
     proposed += [change for change in smaller if "" not in change][:3]
     remedy = "use thinner bearings or shafts, or move the axes apart"
-    return _error(
+    return fault(
         "frame.bearing-room",
         "machine.bearing",
         said,
@@ -172,16 +173,3 @@ def _room(one: float, two: float, keys: FrameKeys, distance: float) -> bool:
 def bores() -> list[float]:
     """For which there are circlips, mm, from the least."""
     return sorted({one.size for one in shaft_circlips()})
-
-
-def _error(
-    code: str,
-    key: str,
-    said: str,
-    value: float | None = None,
-    limit: float | None = None,
-    remedy: str = "",
-    proposed: tuple[Change, ...] = (),
-) -> Finding:
-    unit = "mm" if value is not None else ""
-    return Finding.error(code, key, said, value, limit, unit, remedy, Stage.PARTS, proposed)
