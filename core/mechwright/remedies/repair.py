@@ -16,8 +16,6 @@ FAMILY = Limits(tries=1500, seconds=60.0)
 """For what the family itself judges: milliseconds each."""
 INSPECTED = Limits(tries=60, seconds=120.0)
 """For what inspections judge: a second or so each, of cutters and of bodies that meet."""
-_OWN = 2
-"""Of what is asked, what the family answers."""
 REFUSED = "build.refused"
 """Code of the finding that work ended with an error: no cutter, no parts, a program that is not proven."""
 
@@ -53,10 +51,10 @@ class Repair:
 
 def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unheard) -> Repair:
     """The smallest change found with which a design passes all that ``build`` asks up to a stage."""
-    asks = _asks(host, stage)
+    asked = Asked(host, stage)
     first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
-    whole = judge_of(host, asks, stage)
+    whole = asked.judge(asked.looks)
     start: Change = {}
     if found:
         possible = [change for change in candidates(first) if len(change) <= MOST_CHANGES]
@@ -66,17 +64,20 @@ def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unhe
             if not errors(whole(design.changed(change)), stage):
                 return Repair(found, change, [], first)
         start = possible[0]
-    return _further(Repair(found, start, [], first), design, host, stage, asks)
+    return _further(Repair(found, start, [], first), design, asked)
 
 
-def _further(repair: Repair, design: Design, host: Host, stage: Stage, asks: Sequence[Ask]) -> Repair:
-    """Go on from a change that pleases the family, with one dearer judgement after the other."""
+def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:
+    """Go on from a change that pleases the family, with one dearer judgement after the other.
+
+    The one that is new is asked first: most changes fail by it, and what it is content with is put to the
+    others then.
+    """
     found, change = repair.found, repair.change or {}
-    progress = repair.bench.progress
-    for number in range(_OWN, len(asks) + 1):
-        limits = FAMILY if number == _OWN else INSPECTED
-        judge = judge_of(host, asks[:number], stage)
-        bench = Bench(design.changed(change), judge, stage, limits, progress=progress)
+    for number in range(len(asked.looks) + 1):
+        limits = INSPECTED if number else FAMILY
+        judge = asked.judge(asked.looks[:number][::-1])
+        bench = Bench(design.changed(change), judge, asked.stage, limits, progress=repair.bench.progress)
         left = bench.errors({}) or []
         if left:
             found = found or left
@@ -87,22 +88,57 @@ def _further(repair: Repair, design: Design, host: Host, stage: Stage, asks: Seq
     return Repair(found, change, [], repair.bench)
 
 
-def judge_of(host: Host, asks: Sequence[Ask], stage: Stage) -> Judge:
-    """Ask one after the other, up to the first that finds an error."""
+class Asked:
+    """What ``build`` asks of a design up to a stage; an answer is kept.
+
+    Parameters
+    ----------
+    looks
+        One for every inspection: those of ``check``, then those that take longest.
+    """
+
+    def __init__(self, host: Host, stage: Stage) -> None:
+        self.host, self.stage = host, stage
+        order = list(Stage)
+        wanted = [
+            one
+            for one in sorted(host.all(Inspection), key=lambda one: one.order)
+            if "build" in one.commands and order.index(one.stage) <= order.index(stage)
+        ]
+        self.looks: list[Ask] = [one.findings for one in sorted(wanted, key=_slow)]
+        self._answers: dict[tuple[str, Ask], list[Finding]] = {}
+
+    def judge(self, looks: Sequence[Ask]) -> Judge:
+        """Ask the family, its parts, and then some looks, up to the first that finds an error."""
+        return judge_of(self.host, [_family, _parts, *looks], self.stage, self._answers)
+
+
+def judge_of(
+    host: Host, asks: Sequence[Ask], stage: Stage, answers: dict[tuple[str, Ask], list[Finding]] | None = None
+) -> Judge:
+    """Ask one after the other, up to the first that finds an error; ``answers`` are those that are known."""
+    known = {} if answers is None else answers
 
     def judge(design: Design) -> list[Finding]:
         found: list[Finding] = []
+        name = repr(design.content)
         with Build(design, host, Wanted("build")) as build:
             for ask in asks:
-                try:
-                    found += ask(build)
-                except MechwrightError as error:
-                    found.append(Finding.error(REFUSED, "", str(error), stage=stage))
+                if (name, ask) not in known:
+                    known[name, ask] = _answer(ask, build, stage)
+                found += known[name, ask]
                 if errors(found, stage):
                     break
         return found
 
     return judge
+
+
+def _answer(ask: Ask, build: Build, stage: Stage) -> list[Finding]:
+    try:
+        return list(ask(build))
+    except MechwrightError as error:
+        return [Finding.error(REFUSED, "", str(error), stage=stage)]
 
 
 def _family(build: Build) -> Sequence[Finding]:
@@ -115,17 +151,5 @@ def _parts(build: Build) -> Sequence[Finding]:
     return ()
 
 
-def _asks(host: Host, stage: Stage) -> list[Ask]:
-    """The family; its parts; what ``check`` asks; what ``build`` asks besides, which takes longest."""
-    order = list(Stage)
-    wanted = [
-        one
-        for one in sorted(host.all(Inspection), key=lambda one: one.order)
-        if "build" in one.commands and order.index(one.stage) <= order.index(stage)
-    ]
-
-    def ask(inspections: list[Inspection]) -> Ask:
-        return lambda build: [finding for one in inspections for finding in one.findings(build)]
-
-    quick = [one for one in wanted if "check" in one.commands]
-    return [_family, _parts, ask(quick), ask([one for one in wanted if one not in quick])]
+def _slow(inspection: Inspection) -> bool:
+    return "check" not in inspection.commands
