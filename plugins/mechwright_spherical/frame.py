@@ -103,8 +103,14 @@ def _bridge(params: SphericalParams, linkage: Linkage, shells: Shells) -> float 
     """The nearest whole degree for the bridge where all passes it, and its boss that of the axis."""
     boss, radius = params.hardware.boss_diameter + AIR, shells.links["ground-2"][0]
     beside = math.degrees(2 * math.atan(boss / 2 / radius)) if radius > 0 else 0.0
-    for degrees in range(math.ceil(beside) + 1, _FARTHEST + 1):
+    degrees = math.ceil(beside) + 1
+    while degrees <= _FARTHEST:
         place = math.radians(degrees)
-        if min(float(room.min()) for room in bridge_rooms(params, linkage, shells, place).values()) >= AIR:
+        rooms = bridge_rooms(params, linkage, shells, place)
+        lack = {name: AIR - float(room.min()) for name, room in rooms.items()}
+        if max(lack.values()) <= 0:
             return place
+        # Room grows at most as fast as the bridge moves past a link: no place that is nearer has enough.
+        on = max(math.degrees(air / shells.links[name][0]) for name, air in lack.items() if air > 0)
+        degrees += max(1, math.ceil(on - 1e-9))
     return None
