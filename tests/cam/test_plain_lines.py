@@ -18,9 +18,8 @@ from mechwright_cam.controls.reading.blocks import Block, read_block
 from mechwright_cam.controls.reading.plain import LETTERS, PlainLines
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
-PLAIN = re.compile(
-    " *" + "".join(rf"(?:{letter}(?P<{letter}>{NUMBER}) *)?" for letter in LETTERS), re.IGNORECASE
-)
+PLAIN = re.compile(rf" *(?:[{LETTERS}]{NUMBER} *)*", re.IGNORECASE)
+WORD = re.compile(rf"([{LETTERS}])({NUMBER})", re.IGNORECASE)
 COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "arc_error", "feed", "seconds", "state")
 
 
@@ -61,14 +60,37 @@ number = st.sampled_from(["0", "1", "-1", "2.5", "-.5", "+3.", "0.0", "10", "007
 tail = st.sampled_from(["", "", "", "", " ", "  ", " (then)", ";", "M8", "M9", "\t", "%"])
 
 
+WORDS = [
+    "",
+    "X",
+    "Y",
+    "XY",
+    "XYZ",
+    "Z",
+    "XIJ",
+    "XYIJ",
+    "XI",
+    "YJ",
+    "IJ",
+    "XYZIJ",
+    "F",
+    "XYF",
+    "XF",
+    "R",
+    "XYR",
+    "YXR",
+    "RX",
+    "XYRI",
+    "FX",
+    "XYZR",
+    "JI",
+]
+
+
 @st.composite
 def lines(draw: st.DrawFn) -> str:
     """A line that is plain, or nearly."""
-    letters = draw(
-        st.sampled_from(
-            ["", "X", "Y", "XY", "XYZ", "Z", "XIJ", "XYIJ", "XI", "YJ", "IJ", "XYZIJ", "F", "XYF", "XF", "R"]
-        )
-    )
+    letters = draw(st.sampled_from(WORDS))
     words = [letter + draw(number) for letter in letters]
     if draw(st.booleans()):
         words.insert(
@@ -85,7 +107,9 @@ def lines(draw: st.DrawFn) -> str:
 
 
 SAFE = "G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 X1 F200\n"
-arcs = st.sampled_from(["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0", "G3 X2 Y0 I1", "X0 Y0"])
+ARCS = ["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0", "G3 X2 Y0 I1", "X0 Y0", "G3 X2 Y0 R-2"]
+MORE = ["G91\nG2 X1 Y1 R1\nX-1 Y1 R-1", "G91\nG1 X.1\nY.2 X-.3\nZ1", "G90", "G2 X0 Y0 R3", "G53 G0 Z0"]
+arcs = st.sampled_from([*ARCS, *MORE])
 
 
 @settings(max_examples=examples(70, 200))
@@ -118,13 +142,15 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
         assert_alike("\n".join([*out, "M30"]), BY_NAME[control])
 
 
-@given(st.lists(st.text("NGXYZIJFgxK0123456789.+- \t(%", max_size=9), max_size=5))
+@given(st.lists(st.text("NGXYZIJRFgxK0123456789.+- \t(%", max_size=9), max_size=5))
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
     read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):
-        match = PLAIN.fullmatch(text)
-        words = {} if match is None else {k: float(v) for k, v in match.groupdict().items() if v is not None}
-        plain = match is not None and words.get("G", 0) in {0, 1, 2, 3} and not words.get("F", 0) < 0
+        said = [(letter.upper(), float(value)) for letter, value in WORD.findall(text)]
+        words = dict(said)
+        once = len(words) == len(said) and "N" not in list(words)[1:]
+        plain = PLAIN.fullmatch(text) is not None and once
+        plain &= words.get("G", 0) in {0, 1, 2, 3} and not words.get("F", 0) < 0
         assert bool(read.plain[index]) == plain, text
         for row, letter in enumerate(LETTERS):
             expected = words.get(letter, math.nan) if plain else math.nan

@@ -166,6 +166,11 @@ class Dialect:
     name: str = "the control"
     """Name for messages; a control gives its own title."""
 
+    @property
+    def chord_slack(self) -> float:
+        """By so much half the distance of an arc's ends may be larger than its R, mm."""
+        return self.arc_absolute if self.arc_chord is None else self.arc_chord
+
     def refuses(self, first: Any, last: Any, inches: bool) -> Any:
         """Whether arcs are refused whose radii at the start and at the end are these; (n,) or one, mm.
 

@@ -143,6 +143,7 @@ def _frame(first: Job, dowels: Sequence[Bore], flip: Literal["x", "y"]) -> Frame
     pins = [grow(inside_of(dowel), WALL, ROUGH) for dowel in dowels]  # they stand in their holes
     return Frame(
         shapely.transform(body, lambda points: (points + first.origin) * sign),
+        shapely.transform(first.target, lambda points: (points + first.origin) * sign),
         shapely.transform(shapely.union_all([holds, *pins]), lambda points: points * sign),
     )
 

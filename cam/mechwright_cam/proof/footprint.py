@@ -4,10 +4,15 @@ The proof of walls is exact and has no grid. This is for what hangs together: a 
 be found here is too narrow to hold. Whatever is uncertain counts as cut, so two cells side by side that are
 not cut are joined by material. What the program may not cut, the finished part and its tabs, is known without
 a grid to hang together, however thin it is.
+
+A plate that has been turned over begins with what the setup before has left, and a cut is through as soon as
+it meets the air below. Air that is near a cell counts as if it were there.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import shapely
@@ -16,8 +21,9 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.finished import finished_bodies
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.plane import Shape
+from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 
 CELL = 0.4
@@ -28,6 +34,8 @@ SKIN = 0.2
 """What stands no higher over the underside, mm, holds nothing; nor does the lower half of a tab."""
 NEVER = np.iinfo(np.int32).max
 """Stands for the step that cuts a cell which no step cuts."""
+BEFORE = -1
+"""Stands for the step that cuts a cell which the setup before has cut through."""
 UNSURE = 0.5 + math.sqrt(0.5) + 0.25
 """A cutter counts so many cells wider: half of one between two neighbours, half the diagonal of the cell that
 its place is in, and what is left between two places."""
@@ -82,7 +90,7 @@ class Grid:
 
 @dataclass(frozen=True)
 class Footprint(Grid):
-    """A grid by which step each cell of the plate is cut through."""
+    """A grid by which step each cell of the plate is cut through, :data:`BEFORE` by the setup before."""
 
     body: Steps
     """(ny, nx) above 0 where a cell is near enough to a cut to count as cut, and lies in the finished part or
@@ -121,18 +129,46 @@ def footprint(paths: Paths, job: Job) -> Footprint:
     cell = max(CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
     shape = max(math.ceil((y1 - y0) / cell), 1), max(math.ceil((x1 - x0) / cell), 1)
     cut = np.full(shape, NEVER, dtype=np.int32)
-    found = Footprint(x0, y0, cell, cut, np.zeros(shape, dtype=np.int32), job.target)
-    lowest = min((tab.top + job.thickness for tab in job.tabs), default=np.inf)
-    level = -job.thickness + min(SKIN, lowest / 2)
-    pieces = paths.below(level, steps=paths.cuts)
-    radii = np.round(paths.radius_at(pieces, level), 3)
-    for radius in np.unique(radii[radii > NEAR]).tolist():
-        found.lower(paths, pieces.step[radii == radius], radius, level, UNSURE)
-    kept = shapely.union_all([job.target, *(shapely.buffer(tab.shape, cell) for tab in job.tabs)])
-    for number, body in enumerate(shapely.get_parts(kept), start=1):
+    bodies = finished_bodies(job)
+    found = Footprint(x0, y0, cell, cut, np.zeros(shape, dtype=np.int32), shapely.union_all(bodies))
+    for level, there in _openings(found, job):
+        pieces = paths.below(level, steps=paths.cuts)
+        radii = np.round(paths.radius_at(pieces, level), 3)
+        one = replace(found, cut=np.full(shape, NEVER, dtype=np.int32))
+        for radius in np.unique(radii[radii > NEAR]).tolist():
+            one.lower(paths, pieces.step[radii == radius], radius, level, UNSURE)
+        np.minimum(cut, one.cut, out=cut, where=there)
+    for number, body in enumerate(_kept(bodies, job, cell), start=1):
         mine = found.inside(body, cut < NEVER)
         cut[mine], found.body[mine] = NEVER, number
     return found
+
+
+def _openings(found: Footprint, job: Job) -> Iterator[tuple[float, Mask]]:
+    """Heights z, mm, and the cells (ny, nx) that a cut down to there opens; tells what is open before."""
+    lowest = min((tab.top + job.thickness for tab in job.tabs), default=np.inf)
+    skin = min(SKIN, lowest / 2)
+    top = np.full(found.cut.shape, -job.thickness)
+    for air in sorted(job.gone, key=lambda air: air.top):
+        near = grow(air.shape, UNSURE * found.cell, found.cell / 100)
+        top[found.inside(near)] = air.top
+    found.cut[top >= -skin] = BEFORE
+    for height in np.unique(top[top < -skin]).tolist():
+        yield height + skin, top == height
+
+
+def _kept(bodies: list[Shape], job: Job, cell: float) -> NDArray[Any]:
+    """Plan views of what the program may not cut, and what hangs together of it.
+
+    A part that the setups cut apart is not known to hang together: what cuts it is found on the grid.
+    """
+    holds = [tab.shape for tab in job.tabs]
+    if job.frame is not None:
+        bodies, holds = bodies if len(bodies) == 1 else [], [job.frame.holds]
+    kept: NDArray[Any] = shapely.get_parts(
+        shapely.union_all([*bodies, *(shapely.buffer(one, cell) for one in holds)])
+    )
+    return kept
 
 
 def earliest(centres: Steps, reach: float) -> Steps:

@@ -83,6 +83,8 @@ def advice(job: Job) -> str:
     """What to do about a piece that nothing holds."""
     if job.clamp is not None:
         return "clamp it before"
+    if job.side == "underside":
+        return "leave it joined to the rest"
     if job.settings.hold.bed is not None:
         return f"leave pieces of {LEAST_AREA[job.settings.hold.bed]:g} mm² at least, or tabs"
     if job.settings.hold.method == "none":

@@ -5,6 +5,7 @@ import shapely
 
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.proof.bands import bands, stock_shape
+from mechwright_cam.proof.finished import finished_bodies
 from mechwright_cam.proof.grips import advice, grips
 from mechwright_cam.proof.loose import Loose, loose_pieces, passed
 from mechwright_cam.proof.paths import NEAR
@@ -24,12 +25,9 @@ BEARS = 0.95
 def holding(scene: Scene) -> Check:
     """The tabs join the part to a frame, or the jaws of the vice grip it.
 
-    On the second side pieces are not followed: that tabs and frame stay is for the rule on gouges.
+    On the second side they are those of the first, and that they stay is for the rule on gouges.
     """
     job = scene.job
-    if job.side == "underside":
-        message = "the part hangs in its frame while nothing else is cut; pieces are not followed"
-        return Check(True, message)
     if job.tabs:
         cut = scene.sweeps.through(job.thickness)
         free = None if _rim_is_whole(cut, job) else _free_tab(cut, job)
@@ -47,6 +45,16 @@ def holding(scene: Scene) -> Check:
         return _gripped(job)
     if job.clamp is not None:
         return Check(True, "the part is held by its clamp before it is cut free")
+    if job.side == "underside":
+        if len(bodies := finished_bodies(job)) > 1:
+            least = min(bodies, key=lambda body: float(body.area))
+            place = least.representative_point()
+            message = (
+                f"the recesses of both sides cut the part into {len(bodies)} pieces, one of {least.area:.0f} "
+                f"mm² at X{place.x:.1f} Y{place.y:.1f}; make those of one side less deep, or move them apart"
+            )
+            return Check(False, message)
+        return Check(True, "the part hangs in its frame, and nothing else comes loose in the way")
     if job.settings.hold.method == "none":
         return Check(True, "every piece stays where it is held")
     return Check(True, "the tabs join the part to the frame")
@@ -82,15 +90,19 @@ def clamp_words(scene: Scene) -> str:
 
 def remarks(scene: Scene) -> list[str]:
     """What falls out, and lies still or is taken away."""
-    if scene.job.side == "underside":
-        return []
     return [
         f"a piece of {piece.area:.0f} mm² comes loose {piece.where}, at X{piece.place[0]:.1f} "
-        f"Y{piece.place[1]:.1f}; "
-        + ("no cutter comes near it any more" if piece.taken is None else "it is taken out at a stop")
+        f"Y{piece.place[1]:.1f}; {_goes(piece)}"
         for piece in loose_pieces(scene, grips(scene))
         if not piece.is_part and passed(scene, piece) is None
     ]
+
+
+def _goes(piece: Loose) -> str:
+    """What becomes of a loose piece that no cutter passes."""
+    if piece.taken is None:
+        return "no cutter comes near it any more"
+    return f"it is taken out {'at a stop' if piece.taken >= 0 else 'when the plate is turned over'}"
 
 
 def _gripped(job: Job) -> Check:

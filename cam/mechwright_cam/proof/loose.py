@@ -9,7 +9,7 @@ import shapely
 from mechwright.contracts.part import Profile
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.entry_rules import ABOVE
-from mechwright_cam.proof.footprint import UNSURE, Mask
+from mechwright_cam.proof.footprint import BEFORE, UNSURE, Mask
 from mechwright_cam.proof.grips import Grip
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.scene import Scene
@@ -39,7 +39,7 @@ class Loose:
     where: str
     """Where it is, in words."""
     taken: int | None
-    """The stop at which it is taken away."""
+    """The stop at which it is taken away; -1 if that is when the plate is turned over."""
 
 
 def loose_pieces(scene: Scene, held: list[Grip]) -> Iterator[Loose]:
@@ -73,7 +73,10 @@ def _loose(scene: Scene, cells: Mask, step: int) -> Loose:
     where = f"in {name}" if name else "beside the part"
     stops = [stop for stop in stops_that_say(scene.run, TAKES) if stop > step]
     is_part = bool(part >= PART * np.count_nonzero(cells))
-    return Loose(step, cells, place, area, is_part, where, stops[0] if stops else None)
+    taken = stops[0] if stops else None
+    if step == BEFORE and scene.job.side == "underside":
+        taken = -1  # who lifts the plate finds it on the table
+    return Loose(step, cells, place, area, is_part, where, taken)
 
 
 def passed(scene: Scene, loose: Loose) -> int | None:

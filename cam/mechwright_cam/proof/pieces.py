@@ -16,10 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.finished import CHIP
 from mechwright_cam.proof.footprint import NEVER, UNSURE, Footprint, Mask
-
-CHIP = 2.0
-"""A loose piece narrower than this is a chip, mm: the cutter breaks it and throws it out."""
 
 
 @dataclass

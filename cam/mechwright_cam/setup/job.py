@@ -129,7 +129,8 @@ class Job:
         """What tells the part from its frame, if the plate has been turned over."""
         if not isinstance(self.part, TurnedOver):
             return None
-        shapes = (self.part.frame.body, self.part.frame.holds)
+        frame = self.part.frame
+        shapes = (frame.body, frame.part, frame.holds)
         return Frame(*(shapely.transform(shape, lambda points: points - self.origin) for shape in shapes))
 
     @property

@@ -16,6 +16,8 @@ class Frame:
 
     body: shapely.Geometry = field(default_factory=shapely.Polygon)
     """The part without its openings: what is cut lies in it."""
+    part: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """The part with the openings that both setups leave, of features of constant section."""
     holds: shapely.Geometry = field(default_factory=shapely.Polygon)
     """Tabs, and the stock around dowels: they stay, whatever is drawn. Nothing of them lies in the body."""
 

@@ -2,6 +2,11 @@
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+
 FULL = math.tau
 
 
@@ -50,3 +55,20 @@ def centre_of(
     left = ccw == (radius > 0)
     side = height / chord if left else -height / chord
     return (start[0] + end[0]) / 2 - dy * side, (start[1] + end[1]) / 2 + dx * side
+
+
+def centres_of(start: Array, end: Array, radius: Array, ccw: NDArray[np.bool_], slack: float) -> Array:
+    """Centres (n, 2) as :func:`centre_of` gives them, of arcs between places (n, 2); NaN where it gives none.
+
+    >>> centres_of(np.array([[1, 0.0]]), np.array([[-1, 0.0]]), np.ones(1), np.array([True]), 0.0).tolist()
+    [[0.0, 0.0]]
+    """
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what is not finite is none
+        way = end - start
+        chord = np.hypot(*way.T)
+        side = np.sqrt(np.maximum(radius * radius - chord * chord / 4, 0.0)) / chord
+        side[ccw != (radius > 0)] *= -1
+        found = (start + end) / 2 + side[:, None] * np.column_stack((-way[:, 1], way[:, 0]))
+        found[(chord == 0) | (chord / 2 > np.abs(radius) + slack)] = np.nan
+    centres: Array = found
+    return centres

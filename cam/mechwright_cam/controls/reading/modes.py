@@ -46,8 +46,8 @@ class Modal(Compensation):
 
     @property
     def moves_plainly(self) -> bool:
-        """Whether X, Y and Z are where the tool goes, and arcs lie in the XY plane."""
-        return self.absolute and self.plane == 170 and not self.side and self.left is None
+        """Whether X, Y and Z say where the tool goes, and arcs lie in the XY plane."""
+        return self.plane == 170 and not self.side and self.left is None
 
     def _take(self, block: Block, letter: str, missing: str) -> float:
         try:

@@ -170,10 +170,7 @@ class Moving(Modal):
                 raise fail(block.line, f"an arc has either R, or {first} and {second}")
             radius = words.pop("R") * self.scale
             try:
-                chord = (
-                    self.dialect.arc_absolute if self.dialect.arc_chord is None else self.dialect.arc_chord
-                )
-                centre = centre_of(start, end, radius, ccw, chord)
+                centre = centre_of(start, end, radius, ccw, self.dialect.chord_slack)
             except ValueError as error:
                 raise fail(block.line, str(error)) from None
         elif words.keys() & {first, second}:

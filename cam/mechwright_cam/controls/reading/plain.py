@@ -7,10 +7,10 @@ is read word by word (:mod:`mechwright_cam.controls.reading.blocks`).
 Glossary
 --------
 plain line
-    Words of N, G0 to G3, X, Y, Z, I, J and F in this order, each at most once; or an empty line.
+    Words of N, G0 to G3, X, Y, Z, I, J, R and F, each at most once and N before all others; or an empty line.
 motion line
     A plain line that needs nothing but the motion in force to be run: a straight move with an axis and no
-    centre, or an arc with a centre.
+    centre, or an arc with a centre or a radius.
 """
 
 import re
@@ -26,9 +26,9 @@ from mechwright_cam.controls.reading.run import Ints
 
 Bools = NDArray[np.bool_]
 
-LETTERS = "NGXYZIJF"
-"""Letters of a plain line in their order; words stand in columns of this order."""
-N, G, X, Y, Z, I, J, F = range(len(LETTERS))
+LETTERS = "NGXYZIJRF"
+"""Letters of a plain line; words stand in columns of this order."""
+N, G, X, Y, Z, I, J, R, F = range(len(LETTERS))
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
 _KINDS = 8  # kinds of character, 0 for any other, rounded up
 _MAY_FOLLOW = {
@@ -79,7 +79,7 @@ class PlainLines:
     plain
         (n,) whether each line is plain.
     words
-        (8, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
+        (9, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
         is not plain.
 
     Examples
@@ -110,14 +110,15 @@ class PlainLines:
         column = marks[at].astype(np.int64)
         line = np.cumsum(marks == _END_MARK, dtype=np.int64)[at] - 1
         value: Array = np.fromstring(clean.translate(_ONLY_NUMBERS), sep=" ")
-        wrong = np.zeros(at.size, dtype=np.bool_)
-        wrong[1:] = (line[1:] == line[:-1]) & (column[1:] <= column[:-1])
+        word = line * len(LETTERS) + column
+        wrong = np.bincount(word, minlength=1)[word] > 1
+        wrong[1:] |= (line[1:] == line[:-1]) & (column[1:] == N)
         wrong |= (column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))
         wrong |= (column == F) & (value < 0)
         wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.largest_n))
         wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
         if dialect.point_needed:
-            length = (column >= X) & (column <= J)
+            length = (column >= X) & (column <= R)
             wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
         self.words[column, line] = value
         struck = line[wrong]
@@ -129,7 +130,7 @@ class PlainLines:
 
     @cached_property
     def said(self) -> Bools:
-        """(8, n) whether each line has the word."""
+        """(9, n) whether each line has the word."""
         return ~np.isnan(self.words)
 
     @cached_property
@@ -138,7 +139,7 @@ class PlainLines:
         said = self.said
         axis, centre = said[X : Z + 1].any(axis=0), said[I : J + 1].any(axis=0)
         empty = ~said[G:].any(axis=0)
-        straight, bent = empty | (axis & ~centre), empty | centre
+        straight, bent = empty | (axis & ~centre & ~said[R]), empty | (centre ^ said[R])
         # The motion is known from the last G of the same stretch of plain lines.
         number = np.arange(len(self))
         last = np.maximum.accumulate(np.where(said[G] | ~self.plain, number, -1))

@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright_cam.controls.reading.arcs import centres_of
 from mechwright_cam.controls.reading.modes import Modal
-from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines, X, Z
+from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines, R, X, Z
 from mechwright_cam.controls.reading.run import WIDTH, Kind
 
 FEWEST_LINES = 8
@@ -34,11 +35,12 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
         return end
     words = lines.words[:, number]
     words[X : F + 1] *= machine.scale
-    last = (motion or 0) / 10, machine.x, machine.y, machine.z, machine.feed
-    for row, before in zip((G, *range(X, Z + 1), F), last, strict=True):
-        _hold(words[row], before)
+    _hold(words[G], (motion or 0) / 10)
+    _hold(words[F], machine.feed)
+    here = machine.x, machine.y, machine.z
+    lost = _places(words, here, absolute=machine.absolute)
     g, feed, place = words[G], words[F], words[X : Z + 1].T
-    start = np.concatenate(([[machine.x, machine.y, machine.z]], place[:-1]))
+    start = np.concatenate(([here], place[:-1]))
     arc = g >= 2
     table = np.zeros((number.size, WIDTH))
     table[:, 0] = np.where(arc, Kind.ARC, np.where(g == 1, Kind.FEED, Kind.RAPID))
@@ -47,7 +49,7 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     table[:, 8:10] = math.nan
     table[:, 12] = np.where(g > 0, feed, 0.0)
     table[:, 14] = machine.index
-    wrong = (g > 0) & ~(feed > 0)
+    wrong = lost | ((g > 0) & ~(feed > 0))
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
     faults = np.flatnonzero(wrong)
@@ -65,19 +67,39 @@ def _hold(row: Array, before: float) -> None:
     row[:] = np.where(last >= 0, row[last], before)
 
 
+def _places(words: Array, here: tuple[float, float, float], *, absolute: bool) -> Bools:
+    """Turn X, Y and Z into where each line goes; tells which are distances (G91) from an unknown place."""
+    lost = np.zeros(words.shape[1], dtype=np.bool_)
+    for row, before in zip(words[X : Z + 1], here, strict=True):
+        if absolute:
+            _hold(row, before)
+            continue
+        row[np.isnan(row)] = 0.0
+        lost |= (row != 0) & (not math.isfinite(before))
+        row[:] = np.cumsum(np.append(before, row))[1:]
+    return lost
+
+
 def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     """Fill in centre, sweep and error of the arcs in ``table``; tells which the control would refuse."""
     start, end = table[arc, 2:4], table[arc, 5:7]
     given = words[I : J + 1, arc].T
     missing = np.isnan(given)
+    ccw = words[G, arc] == 3
     centre = given if machine.absolute_centres else start + np.where(missing, 0.0, given)
+    radius = words[R, arc]
+    by_radius = np.flatnonzero(~np.isnan(radius))
+    if by_radius.size:
+        missing[by_radius] = False
+        centre[by_radius] = centres_of(
+            start[by_radius], end[by_radius], radius[by_radius], ccw[by_radius], machine.dialect.chord_slack
+        )
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused, like all that is not finite
         out, back = start - centre, end - centre
         first, last = np.hypot(*out.T), np.hypot(*back.T)
         error = np.abs(first - last)
         turn = np.arctan2(back[:, 1], back[:, 0]) - np.arctan2(out[:, 1], out[:, 0])
     whole = (start == end).all(axis=1)
-    ccw = words[G, arc] == 3
     turn = np.where(ccw & (whole | (turn <= 0)), np.where(whole, 0.0, turn) + math.tau, turn)
     turn = np.where(~ccw & (whole | (turn >= 0)), np.where(whole, 0.0, turn) - math.tau, turn)
     table[arc, 8:10], table[arc, 10], table[arc, 11] = centre, turn, error
