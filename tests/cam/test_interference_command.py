@@ -38,6 +38,14 @@ def twisted(family, params, samples, solve):
     return Motion(motion.input_name, motion.channels, poses, motion.scalars)
 
 
+@pytest.fixture
+def ahead(monkeypatch):
+    """All pairs have gear 4 two degrees ahead."""
+    family = type(host().family("elliptic-gears"))
+    solve = family.solve
+    monkeypatch.setattr(family, "solve", lambda self, params, samples: twisted(self, params, samples, solve))
+
+
 @pytest.mark.parametrize(
     "command",
     [
@@ -47,10 +55,8 @@ def twisted(family, params, samples, solve):
         pytest.param("build", marks=by_night),
     ],
 )
+@pytest.mark.usefixtures("ahead")
 def test_a_collision_stops_every_command_and_names_the_bodies(command, design, tmp_path, monkeypatch):
-    family = type(host().family("elliptic-gears"))
-    solve = family.solve
-    monkeypatch.setattr(family, "solve", lambda self, params, samples: twisted(self, params, samples, solve))
     monkeypatch.setattr("mechwright_cad.making.cores", lambda: 1)  # a second process would not be twisted
     folder = tmp_path / "out"
     words = [command, str(design)] + ([] if command == "check" else ["-o", str(folder)])
@@ -79,6 +85,14 @@ def test_the_kit_lists_collisions(tmp_path):
     assert commands.collisions(file, tmp_path, solids=True) == []
     with pytest.raises(AssertionError, match="'teeths'"):
         commands.collisions({**file, "parameters": {"teeths": 21}}, tmp_path, solids=False)
+
+
+@pytest.mark.usefixtures("ahead")
+@pytest.mark.parametrize("solids", [True, pytest.param(False, marks=by_night)])
+def test_the_kit_tells_of_a_collision_once(solids, tmp_path):
+    file = {"format": 1, "family": "elliptic-gears", "parameters": {"teeth": 21}}
+    (told,) = commands.collisions(file, tmp_path, solids=solids)
+    assert told.startswith("gear-2 and gear-4 stand in each other")
 
 
 def test_samples_are_added_until_the_motion_is_smooth_between_them():

@@ -11,11 +11,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mechwright.build import Build, Inspection, Wanted
 from mechwright.cli import main
+from mechwright.contracts.finding import errors
 from mechwright.designs.text import toml
+from mechwright.errors import MechwrightError
+from mechwright.plugins.host import host
 
+_INTERFERENCE = "interference"
+"""The inspection that looks for bodies that collide, by the name under which it is registered."""
 _COLLISION = "interference.collision"
-"""Code of the finding that two bodies collide."""
+"""Code of its finding that two do."""
 HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
 """Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
 
@@ -68,27 +74,30 @@ def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]
 def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list[str]:
     """What stands in what while the mechanism of a design moves: a message for each pair of bodies.
 
-    ``folder`` is an empty one to work in; with ``solids`` parts that are no plates are compared, where solids
-    are made. Raises AssertionError with what the command printed where it failed otherwise.
+    ``folder`` is an empty one to work in; with ``solids`` parts that are no plates are compared as well. The
+    commands ``model`` and ``solve`` look for the same before they write anything. Raises AssertionError where
+    the design is refused for anything else.
     """
-    if solids:
-        done = _run(design, folder, "model", "-o", folder / "out")
-        found = [line for line in done.stderr.splitlines() if _COLLISION in line]
-        if done.returncode and not found:
-            raise AssertionError(f"mechwright model ends with {done.returncode}:\n{done.stdout}{done.stderr}")
-        return found
-    done = _run(design, folder, "check", "--json")
-    try:
-        findings = json.loads(done.stdout)["findings"]
-    except ValueError as error:
-        raise AssertionError(f"mechwright check says:\n{done.stdout}{done.stderr}") from error
-    return [finding["message"] for finding in findings if finding["code"] == _COLLISION]
+    wanted = Wanted(command="model" if solids else "solve")
+    with Build(_written(design, folder), host(), wanted) as build:
+        try:
+            refused = errors(build.findings)
+            found = () if refused else build.host.get(Inspection, _INTERFERENCE).findings(build)
+        except MechwrightError as error:
+            raise AssertionError(str(error)) from error
+    if refused:
+        raise AssertionError("\n".join(f"{one.code}: {one.message}" for one in refused))
+    return [finding.message for finding in found if finding.code == _COLLISION]
 
 
 def _run(design: Mapping[str, Any], folder: Path, command: str, *options: str | Path) -> Done:
+    return run(command, _written(design, folder), *options)
+
+
+def _written(design: Mapping[str, Any], folder: Path) -> Path:
     file = folder / "design.toml"
     file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
-    return run(command, file, *options)
+    return file
 
 
 def heavy_imports(module: str) -> list[str]:

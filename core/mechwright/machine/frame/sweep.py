@@ -1,8 +1,8 @@
 """The space that a mechanism takes over its motion: a region of the plane for each range of heights.
 
 Bodies are taken by their convex hulls, so the region is never too small. One that turns fully about its
-origin takes a disc; others are looked at so often that the chord between two looks is far below any
-clearance.
+origin takes a disc, and one that stands still is looked at once; others are looked at so often that the chord
+between two looks is far below any clearance.
 """
 
 import math
@@ -27,6 +27,9 @@ _STILL = 1e-9
 
 _NEARLY = 20.0
 """What may lack of a turn, degrees, to count as full."""
+
+_STEP = math.tau / (LOOKS - 1)
+"""Between two looks at a body that rocks about its origin, rad."""
 
 _BACK = 1e-6
 """By how much a body that rocks may miss where it began, rad."""
@@ -101,19 +104,28 @@ def _swept(part: Part, layer: Layer, instance: Instance, poses: Poses) -> Swept:
             "move in one plane"
         )
     z = float(poses.position[0, 2]) + instance.z
-    if float(spread.max()) < _STILL and _turns(poses):
-        radius = float(np.hypot(*corners.T).max())
-        region: shapely.Geometry = shapely.Point(poses.position[0, :2]).buffer(radius, quad_segs=_ROUND)
-    else:
-        flat = np.column_stack((corners, np.zeros(len(corners))))
-        looks = poses.transform(flat)[..., :2]
-        region = shapely.union_all([shapely.convex_hull(shapely.multipoints(one)) for one in looks])
+    region = _turned(corners, poses) if float(spread.max()) < _STILL else _at_all(corners, poses)
     return Swept(instance.body, part.name, z + low, z + high, region)
 
 
-def _turns(poses: Poses) -> bool:
-    """Whether an upright body turns on and on, or nearly as far, and does not just rock."""
+def _turned(corners: Array, poses: Poses) -> shapely.Geometry:
+    """What a body takes whose origin stays: a disc, or the body at even steps between its two extremes."""
+    x, y, _ = poses.position[0]
     angles = np.unwrap(np.arctan2(poses.rotation[:, 1, 0], poses.rotation[:, 0, 0]))
+    if _turns(angles):
+        return shapely.Point(x, y).buffer(float(np.hypot(*corners.T).max()), quad_segs=_ROUND)
+    steps = math.ceil(float(np.ptp(angles)) / _STEP - _BACK)
+    return _at_all(corners, Poses.planar(x, y, np.linspace(angles.min(), angles.max(), steps + 1)))
+
+
+def _at_all(corners: Array, poses: Poses) -> shapely.Geometry:
+    """The body as it stands at each pose, together."""
+    flat = np.column_stack((corners, np.zeros(len(corners))))
+    return shapely.union_all(shapely.polygons(poses.transform(flat)[..., :2]))
+
+
+def _turns(angles: Array) -> bool:
+    """Whether an upright body turns on and on, or nearly as far, and does not just rock."""
     on = abs(angles[-1] - angles[0]) > _BACK
     return bool(on or np.ptp(angles) > math.tau - math.radians(_NEARLY))
 
