@@ -11,18 +11,18 @@ import warnings
 from collections import Counter
 from pathlib import Path
 
-from random_designs import WAYS, designs
+from random_designs import WAYS, designs, near
 
 from mechwright import Design, DesignError, Family, Stage, host
 from mechwright.contracts.finding import Change, Finding, errors
-from mechwright.designs.design import design_of
+from mechwright.designs.design import design_of, load
 
 MACHINE = {"frame": "base", "motor": "auto"}
 
 STEPS = 6
 """So many remedies are followed, one after the other."""
 
-DRAWN = 40
+DRAWN = 250
 """So many designs are drawn at most for each that is wanted: most of them cannot be made."""
 
 
@@ -31,13 +31,15 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--way", choices=WAYS, default="likely")
+    parser.add_argument("--near", type=Path, help="a design file, about which designs are drawn instead")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of the parameters")
     parser.add_argument("--tell", action="store_true", help="print every refusal")
     parser.add_argument("--no-fix", dest="fix", action="store_false", help="follow no remedies")
     parser.add_argument("families", nargs="*", default=sorted(host().of(Family)))
     asked = parser.parse_args()
     warnings.simplefilter("ignore")  # of arrays, in designs nobody would ask for
-    faults = [fault for name in asked.families for fault in one_family(name, asked)]
+    families = [load(asked.near, host()).family.name] if asked.near else asked.families
+    faults = [fault for name in families for fault in one_family(name, asked)]
     for fault in faults:
         print(fault, file=sys.stderr)
     return 1 if faults else 0
@@ -49,10 +51,12 @@ def one_family(name: str, asked: argparse.Namespace) -> list[str]:
     refused, faults, times, shown = Counter[str](), [], [], 0
     numbers = range(DRAWN * asked.count)
     given = {key: read(value) for key, value in (word.split("=") for word in asked.set)}
-    for number, drawn in zip(
-        numbers, designs(found.family(name), found, asked.seed, numbers, asked.way), strict=True
-    ):
-        content = dict(drawn.content)
+    if asked.near:
+        all_drawn = near(load(asked.near, found), found, asked.seed, numbers)
+    else:
+        all_drawn = designs(found.family(name), found, asked.seed, numbers, asked.way)
+    for number, drawn in zip(numbers, all_drawn, strict=True):
+        content = {key: table for key, table in drawn.content.items() if key != "machine"}
         content["parameters"] = {
             **content["parameters"],
             **given,
@@ -81,7 +85,8 @@ def one_family(name: str, asked: argparse.Namespace) -> list[str]:
             faults += [f"{name} {number}: {one}" for one in told if not named(one)]
             if asked.fix:
                 fixed[outcome(design)] += 1
-    print(f"\n{name}, {asked.way}: {shown} designs that can be made, seed {asked.seed}")
+    way = f"near {asked.near.stem}" if asked.near else asked.way
+    print(f"\n{name}, {way}: {shown} designs that can be made, seed {asked.seed}")
     print(f"  framed {framed}, refused {sum(refused.values())}: {dict(refused.most_common())}")
     if asked.fix:
         print(f"  the refused after their remedies: {dict(fixed.most_common())}")
@@ -123,10 +128,10 @@ def changed(design: Design, finding: Finding, change: Change) -> Design | None:
     """The design with a change, if that removes the finding."""
     try:
         better = design.changed(change)
-        left = {one.code for one in errors(better.check(), Stage.PARTS)}
+        left = {(one.code, one.parameter) for one in errors(better.check(), Stage.PARTS)}
     except DesignError:
         return None
-    return None if finding.code in left else better
+    return None if (finding.code, finding.parameter) in left else better
 
 
 if __name__ == "__main__":

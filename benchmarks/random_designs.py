@@ -3,8 +3,11 @@
 ``likely``: every key is left out half of the time; else a third are the default, a third lie between half and
 twice of it, and a third anywhere within the bounds, as in the test kit. ``whole``: every key is drawn evenly
 from all of its bounds. Lists and free texts are left out; tables that validation refuses are drawn again.
+:func:`near` draws about a design: each number that its file says is kept half of the time, else it lies
+between 0.7 and 1.4 times what it is.
 """
 
+import copy
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -29,6 +32,33 @@ def designs(family: Family[Any], host: Host, seed: int, numbers: range, way: str
         rng = np.random.default_rng([seed, number, WAYS.index(way)])
         while True:
             content = {**head, "parameters": _table(keys, rng, way)}
+            try:
+                yield design_of(content, Path("random.toml"), "", host)
+            except DesignError:
+                continue
+            break
+
+
+def near(start: Design, host: Host, seed: int, numbers: range) -> Iterator[Design]:
+    """Designs about one with these numbers; the same seed and number give the same one."""
+    keys = [
+        key
+        for key in keys_of(start).values()
+        if key.numeric and key.path.startswith("parameters.") and key.stands_in(start.content)
+    ]
+    for number in numbers:
+        rng = np.random.default_rng([seed, number, len(WAYS)])
+        while True:
+            content = copy.deepcopy(dict(start.content))
+            for key in keys:
+                if rng.integers(2):
+                    continue
+                value = min(max(float(f"{key.now(content) * rng.uniform(0.7, 1.4):.4g}"), key.low), key.high)
+                *tables, name = key.path.split(".")
+                inner = content
+                for one in tables:
+                    inner = inner[one]
+                inner[name] = round(value) if key.kind == "integer" else value
             try:
                 yield design_of(content, Path("random.toml"), "", host)
             except DesignError:

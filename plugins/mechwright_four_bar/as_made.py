@@ -53,7 +53,7 @@ def _between(
     params: FourBarParams, made: Mapping[str, Sequence[MadePart]], one: Hole, two: Hole
 ) -> MadeLink | None:
     """The distance of A0 and B0 in two plates that four bolts bring in line."""
-    screws = [Hole(at, params.pin_diameter) for at in posts_of(params).values()]
+    screws = [Hole(at, params.screw_hole or params.pin_diameter) for at in posts_of(params).values()]
     ends = offset(made["ground"][0], one, screws, 1 + 0j), offset(made["ground-2"][0], two, screws, 1 + 0j)
     if ends[0] is None or ends[1] is None:
         return None

@@ -98,10 +98,8 @@ def laid_out(params: FourBarParams, phases: Sequence[Mapping[str, Poses]], sides
     plates = [
         Plate(name, name, outline, params.thickness + up.get(name, 0.0)) for name, outline in outlines.items()
     ]
-    corner, hole = _corner(params), params.pin_diameter
-    if sides == 1 and params.screw_hole is not None:
-        hole = params.screw_hole
-        corner = hole / 2 + params.rim
+    hole = params.screw_hole or params.pin_diameter
+    corner = hole / 2 + params.rim
     low, high = _corners(params, own, corner)
     if sides == 2:
         bounds = [Closeness(plates, (), one, params.clearance).swept(MOVING) for one in phases]
@@ -117,17 +115,17 @@ def laid_out(params: FourBarParams, phases: Sequence[Mapping[str, Poses]], sides
         layers = (0,) if name == "ground" else ()
         plates.append(Plate(name, "ground", outlines[name], params.ground_thickness, layers))
     posts = screws if sides == 2 else ()
-    return Layout(outlines, _dealt(params, plates, posts, phases), screws, hole, sides, up)
+    dealt = _dealt(params, plates, _spindles(params, posts, hole), phases)
+    return Layout(outlines, dealt, screws, hole, sides, up)
 
 
 def _dealt(
     params: FourBarParams,
     plates: Sequence[Plate],
-    posts: Sequence[complex],
+    spindles: Sequence[Spindle],
     phases: Sequence[Mapping[str, Poses]],
 ) -> Stack:
     """Layers of plates; a coupler with clamps is on top."""
-    spindles = _spindles(params, posts)
     if not any(raised(params).values()):
         return stack(plates, spindles, phases, params.clearance, params.washer)
     faults: list[GeometryError] = []
@@ -160,7 +158,8 @@ def hidden(
     return (over, under) if over and under else None
 
 
-def _spindles(params: FourBarParams, posts: Sequence[complex]) -> list[Spindle]:
+def _spindles(params: FourBarParams, posts: Sequence[complex], hole: float) -> list[Spindle]:
+    """Pins and shafts, and posts about bolts of a diameter, mm."""
     radius, head = params.pin_diameter / 2, HEAD * params.pin_diameter / 2
     clamp, found = clamp_of_design(params), []
     for name, one in joints(params, 2 if posts else 1).items():
@@ -169,8 +168,9 @@ def _spindles(params: FourBarParams, posts: Sequence[complex]) -> list[Spindle]:
         if one.stud and clamp is not None:
             above = clamp.reach
         found.append(Spindle(name, one.body, one.place, radius, one.plates, above))
+    corner, head = hole / 2 + params.rim, HEAD * hole / 2
     for number, at in enumerate(posts, start=1):
-        found.append(Spindle(f"post-{number}", "ground", at, _corner(params), ("ground", "ground-2"), head))
+        found.append(Spindle(f"post-{number}", "ground", at, corner, ("ground", "ground-2"), head))
     return found
 
 
@@ -197,11 +197,6 @@ def _straight(bosses: tuple[Boss, ...], width: float) -> Outline:
         if taken < abs(two.centre - one.centre):
             return web_link(one, two, width, FILLET)
     return hull_link((one, two))
-
-
-def _corner(params: FourBarParams) -> float:
-    """Radius of a ground plate's corners about the bores for screws, and of the posts, mm."""
-    return params.pin_diameter / 2 + params.rim
 
 
 def _corners(

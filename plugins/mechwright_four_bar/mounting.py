@@ -1,17 +1,24 @@
 """The ground plate, from which a base, legs and a motor can follow."""
 
-from mechwright import DesignError, GroundPlate
+from mechwright import GroundPlate, MountingError
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import joints_of, layout_of
+from mechwright_four_bar.plates import BOLT, joints_of, layout_of
+
+HOLE = 6.0
+"""Diameter of screw holes that is advised, mm."""
 
 
 def mounting_of(params: FourBarParams) -> GroundPlate:
-    """The one ground plate and the crank's shaft; raises DesignError where there are two plates."""
+    """The one ground plate, or the lower one of two, and the crank's shaft.
+
+    Raises MountingError where the bolts of two plates have no ends for pillars.
+    """
     layout = layout_of(params)
-    if layout.sides == 2:
-        raise DesignError(
-            "machine.frame: the links stand between two ground plates, whose bolts stand out below, where "
-            'the legs of a base would be; leave frame out, or set frame = "none"'
+    if layout.sides == 2 and params.screw_hole is None:
+        raise MountingError(
+            "parameters.screw_hole: the bolts of both ground plates have no threaded ends for the pillars of "
+            f"a frame; set screw_hole = {HOLE:g}",
+            ({"parameters.screw_hole": HOLE},),
         )
     low, shaft = layout.bottom("ground"), joints_of(params)["shaft"]
     x = sorted({at.real for at in layout.screws})
@@ -30,4 +37,5 @@ def mounting_of(params: FourBarParams) -> GroundPlate:
         "parameters.screw_hole",
         "parameters.pin_diameter",
         "parameters.ground_thickness",
+        bolts=("bolt", BOLT * layout.hole) if layout.sides == 2 else None,
     )

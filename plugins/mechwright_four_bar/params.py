@@ -113,8 +113,8 @@ class FourBarParams(Parameters):
     )
     screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
-        description="Diameter of the holes in the corners of one ground plate; left out, that of the pins. "
-        "Between two ground plates the bolts of their posts go through.",
+        description="Diameter of the holes in the corners of the ground plates; left out, that of the pins. "
+        "Through those of two plates go the bolts of their posts, which it gives ends for a frame's pillars.",
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,

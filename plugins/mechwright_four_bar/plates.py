@@ -12,9 +12,11 @@ import numpy as np
 from mechwright import GROUND, Colour, GeometryError, Instance, KinematicsError, Outline, Part, Poses, kept
 from mechwright import Joint as Held
 from mechwright.contracts.joint import fixed
+from mechwright.contracts.turned import Step, Turned
 from mechwright.mechanics.linkage import Boss, Stack, bushing_part, pin_part
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright.standards.parts import GREY
 from mechwright_four_bar.joints import Joint, bosses, joints
 from mechwright_four_bar.layout import Layout, hidden, laid_out
 from mechwright_four_bar.loop import close
@@ -31,7 +33,10 @@ from mechwright_four_bar.reach import bar_of, course_of, is_lever, within
 from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, turning_bore
 
 BOLT = 1.5
-"""Length of a post's bolt under the lower plate, in pin diameters: for a nut, or the machine's bed."""
+"""Length of a post's bolt under the lower plate, in its diameters: for a nut, or the machine's bed."""
+
+THREAD = 5.0
+"""Of the end under the lower plate where ``screw_hole`` is given, mm: it goes into a frame's pillars."""
 
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
@@ -316,7 +321,7 @@ def _clamps(params: FourBarParams, layout: Layout) -> list[Part]:
 
 def _posts(params: FourBarParams, layers: Stack) -> list[Part]:
     """Tubes that hold two ground plates apart, and bolts that go through both and into what they stand on."""
-    frames, diameter = posts_of(params), params.pin_diameter
+    frames, diameter = posts_of(params), params.screw_hole or params.pin_diameter
     if not frames:
         return []
     under, over = layers.bottom("ground") + params.ground_thickness, layers.bottom("ground-2")
@@ -324,7 +329,20 @@ def _posts(params: FourBarParams, layers: Stack) -> list[Part]:
     end = low - BOLT * diameter
     posts = [Instance(frame, under) for frame in frames]
     bolts = [Instance(frame, end) for frame in frames]
-    return [
-        bushing_part("post", diameter, diameter + 2 * params.rim, over - under, posts, params.material),
-        pin_part("bolt", diameter, high - end, bolts, HEAD * diameter, HEAD_HEIGHT * diameter),
-    ]
+    tube = bushing_part("post", diameter, diameter + 2 * params.rim, over - under, posts, params.material)
+    if params.screw_hole is None or diameter <= THREAD:
+        return [
+            tube,
+            pin_part("bolt", diameter, high - end, bolts, HEAD * diameter, HEAD_HEIGHT * diameter),
+        ]
+    form = _threaded(diameter, low - end, high - low)
+    return [tube, Part("bolt", None, 0.0, "steel", tuple(bolts), GREY, turned=form)]
+
+
+def _threaded(diameter: float, end: float, grip: float) -> Turned:
+    """A bolt whose end has a thread; its head is turned by two flats. Sizes in mm."""
+    head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
+    note = (
+        f"thread M{THREAD:g} on the lower end, {end:g} long; two flats {1.3 * diameter:.1f} across the head"
+    )
+    return Turned((Step(THREAD, end), Step(diameter, grip), head), note=note)

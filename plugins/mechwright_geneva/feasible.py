@@ -99,12 +99,15 @@ def _straight(params: Sizes) -> Iterator[Finding]:
 
 
 def _centres(params: GenevaParams) -> Iterator[Finding]:
-    """Wheel and angles tell the distance of the axes: one that is given as well has to agree."""
+    """Wheel and angles tell the distance of the axes: one that is given as well has to agree.
+
+    Angles that leave no crank tell none; they are refused for themselves.
+    """
     if params.centre_distance is None:
         return
     sizes = sized(params)
     axes = float(frame_of(sizes).axes)
-    if abs(axes - params.centre_distance) <= LENGTH_SLACK:
+    if axes <= 0 or abs(axes - params.centre_distance) <= LENGTH_SLACK:
         return
     wheel = sizes.entry_radius * params.centre_distance / axes
     cure = f"use centre_distance = {axes:.4f}, or leave it out"

@@ -68,6 +68,11 @@ ERRORS = [
     ),
     ("geneva.angles", "crank_half_angle", {"crank_half_angle": 85}),
     ("geneva.angles", "offset_angle", {"offset_angle": -45}),
+    (
+        "geneva.angles",
+        "offset_angle",
+        {"slots": 12, "offset_angle": -30, "crank_half_angle": 15, "centre_distance": 100},
+    ),
     ("geneva.straight", "crank_half_angle", {"law": "straight", "crank_half_angle": 50}),
     ("geneva.straight", "offset_angle", {"law": "straight", "offset_angle": 5}),
     ("geneva.rollers", "rollers", {"rollers": 4}),

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import shapely
+import tomlkit
 from by_night import by_night
 from typer.testing import CliRunner
 
@@ -26,12 +27,17 @@ from mechwright.testing.frames import ground_faults
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOUR, FIVE, EIGHT = "four-bar-machine", "five-bar-machine", "figure-eight-machine"
+DOUBLE = "double-crank"
+MOTORISED = {"frame": "base", "motor": "auto"}
 
 
 def content(machine=None, example=FOUR, **parameters):
     found = tomllib.loads((EXAMPLES / f"{example}.toml").read_text())
-    found["parameters"] |= parameters
+    if example == DOUBLE:
+        found |= {"machine": dict(MOTORISED)}
+        found["parameters"] |= {"screw_hole": 6, "load_torque": 0.3}
     found["machine"] |= machine or {}
+    found["parameters"] |= parameters
     found["parameters"] = {key: value for key, value in found["parameters"].items() if value is not None}
     return found
 
@@ -54,7 +60,7 @@ def heights(found):
     }
 
 
-@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT, DOUBLE])
 def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next(example):
     found = design(example=example)
     assert errors(found.check()) == []
@@ -117,10 +123,26 @@ def test_one_plate_has_the_motor_behind_it_and_nothing_below(example):
 
 
 @pytest.mark.parametrize(
-    "example", [FOUR, pytest.param(FIVE, marks=by_night), pytest.param(EIGHT, marks=by_night)]
+    "example", [FOUR, *(pytest.param(one, marks=by_night) for one in (FIVE, EIGHT, DOUBLE))]
 )
 def test_no_plate_meets_another(example, tmp_path):
     assert commands.collisions(content(example=example), tmp_path, solids=False) == []
+
+
+def test_bolts_of_two_ground_plates_go_into_the_pillars():
+    found = design(example=DOUBLE)
+    parts = {part.name: part for part in (*found.parts(), *found.surroundings[0].parts)}
+    bolt, pillar = parts["bolt"].turned, parts["pillar"].turned
+    (thread,) = [one for one in pillar.threads if one.end == "upper"]
+    end, grip, _ = bolt.steps
+    assert thread.diameter == end.diameter == 5
+    assert end.length < thread.depth
+    assert grip.diameter == 6
+    # From under the lower plate to over the upper one.
+    low, high = parts["ground"].instances[0].z, parts["ground-2"].instances[0].z + 8
+    assert grip.length == pytest.approx(high - low)
+    assert parts["bolt"].instances[0].z + end.length == pytest.approx(low)
+    assert "screw-m5x16" not in parts
 
 
 def test_a_key_reaches_the_screws_of_the_gears_clamp_through_the_motors_plate():
@@ -163,6 +185,8 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
         ({}, {"example": FIVE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
         ({}, {"example": FIVE, "post_offset": 0}, "frame.ground-offset", {"parameters.post_offset": 29}),
         ({}, {"example": EIGHT, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
+        ({}, {"example": DOUBLE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
+        ({}, {"example": DOUBLE, "screw_hole": 7}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"example": EIGHT, "screw_offset": 75}, "frame.ground-offset", {"parameters.screw_offset": 82}),
         ({}, {"example": EIGHT, "stub_length": 10}, "frame.coupling", {"parameters.stub_length": 16}),
         ({}, {"example": EIGHT, "stub_diameter": None}, "frame.coupling", {"parameters.stub_diameter": 10}),
@@ -214,14 +238,15 @@ def test_heads_are_clear_in_the_other_phases_too():
     assert asked[1, 1] == asked[1, 2] > asked[0, 1]
 
 
-@pytest.mark.parametrize(("example", "bodies"), [(FOUR, 50), (FIVE, 67), (EIGHT, 61)])
+@pytest.mark.parametrize(("example", "bodies"), [(FOUR, 50), (FIVE, 67), (EIGHT, 61), (DOUBLE, 55)])
 @by_night
 def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, bodies, tmp_path):
     import cadquery as cq
 
     folder = tmp_path / "out"
-    file = str(EXAMPLES / f"{example}.toml")
-    done = CliRunner().invoke(make_app(), ["build", file, "-o", str(folder)])
+    file = tmp_path / "machine.toml"
+    file.write_text(tomlkit.dumps(content(example=example)))
+    done = CliRunner().invoke(make_app(), ["build", str(file), "-o", str(folder)])
     assert done.exit_code == 0, done.output
     rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
     count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
@@ -239,7 +264,7 @@ def test_a_key_of_a_length_that_nobody_sells_keeps_no_train_from_its_frame():
     assert errors(found.check()) == []
 
 
-@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT])
+@pytest.mark.parametrize("example", [FOUR, FIVE, EIGHT, DOUBLE])
 def test_what_a_family_says_of_its_ground_plate_is_so(example):
     found = design({"frame": "none", "motor": "none"}, example=example)
     ground, parts, motion = (

@@ -173,6 +173,9 @@ class GroundPlate:
         The design-file key of how far the shaft stands out; empty where it grows with the diameter.
     access
         Where a key has to reach screws below the plate from underneath: places and radii, mm.
+    bolts
+        The mechanism's own bolts through the holes, whose ends go into the pillars: the part, and how far
+        they stand out below, mm. None where screws of the frame go through.
 
     Raises
     ------
@@ -198,6 +201,7 @@ class GroundPlate:
     outwards: Point = (0.0, 1.0)
     length_key: str = ""
     access: tuple[tuple[Point, float], ...] = ()
+    bolts: tuple[str, float] | None = None
 
     def __post_init__(self) -> None:
         (x0, y0), (x1, y1) = self.holes[0], self.holes[2]

@@ -88,7 +88,7 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
             )
         )
     thick, most = ground.high - ground.low, lengths(SCREW, "cap")[-1] - SCREW
-    if thick > most:
+    if thick > most and ground.bolts is None:
         key = ground.thickness_key
         said = f"no screw M{SCREW:g} is long enough for a ground plate of {thick:g} mm: {most:g} mm at most"
         remedy = f"make it {most:g}"
@@ -157,7 +157,9 @@ def foot_of(
     _hanging(keys, ground, pieces, wanted, coupling)
     size = screw_size(SCREW)
     top = ground.high + size.head_height + keys.axial_gap
-    over = [one for one in pieces if one.low < top and one.high > ground.high and one.body != ground.body]
+    over = []
+    if ground.bolts is None:  # else links pass between plates, and heads are the mechanism's own
+        over = [one for one in pieces if one.low < top and one.high > ground.high and one.body != ground.body]
     under = [one for one in pieces if one.low < ground.low - _TOUCH and one.high < ground.high + _TOUCH]
 
     def attitude(corners: Sequence[Point]) -> tuple[float | None, str]:
@@ -180,7 +182,7 @@ def foot_of(
 
 
 def placed(ground: GroundPlate, space: Space, motion: Motion) -> list[Swept]:
-    """What the mechanism takes, in the ground plate's frame."""
+    """What the mechanism takes, bolts into the pillars apart, in the ground plate's frame."""
     pose = motion.poses[ground.body]
     x, y = pose.position[0, :2]
     turn = math.atan2(pose.rotation[0, 1, 0], pose.rotation[0, 0, 0])
@@ -188,7 +190,8 @@ def placed(ground: GroundPlate, space: Space, motion: Motion) -> list[Swept]:
     def of(region: shapely.Geometry) -> shapely.Geometry:
         return affinity.rotate(affinity.translate(region, -x, -y), -turn, (0, 0), use_radians=True)
 
-    return [replace(piece, region=of(piece.region)) for piece in space.pieces]
+    own = ground.bolts[0] if ground.bolts else ""
+    return [replace(piece, region=of(piece.region)) for piece in space.pieces if piece.part != own]
 
 
 def lowest_of(ground: GroundPlate, pieces: Sequence[Swept]) -> float:

@@ -123,13 +123,16 @@ def behind(ground: GroundPlate, coupled: Coupled | None, material: str) -> Kit:
 
 
 def _columns(kit: Kit, ground: GroundPlate) -> tuple[tuple[Standing, Sequence[Column]], float]:
-    """Places of the pillars, their screws through the ground plate, and how deep those go into them, mm."""
+    """Places of the pillars, screws through the ground plate unless it has its own, and their depth, mm."""
     (x0, y0), (x1, y1) = ground.holes[0], ground.holes[2]
     standing = Standing(x0, y0, x1, y1)
     posts = columns(standing.corners)
-    fixing = cap_screw(ground.high - ground.low)
     for post in posts:
         post.place(kit)
+    if ground.bolts is not None:
+        return (standing, posts), ground.bolts[1]
+    fixing = cap_screw(ground.high - ground.low)
+    for post in posts:
         put_screw(kit, fixing, post.name, ground.high)
     return (standing, posts), fixing.length - (ground.high - ground.low)
 
