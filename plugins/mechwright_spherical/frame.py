@@ -111,6 +111,7 @@ def _bridge(params: SphericalParams, linkage: Linkage, shells: Shells) -> float 
         if max(lack.values()) <= 0:
             return place
         # Room grows at most as fast as the bridge moves past a link: no place that is nearer has enough.
-        on = max(math.degrees(air / shells.links[name][0]) for name, air in lack.items() if air > 0)
+        reach = {name: shells.links[name][0] for name, air in lack.items() if air > 0}
+        on = max((math.degrees(lack[name] / radius) for name, radius in reach.items() if radius), default=0)
         degrees += max(1, math.ceil(on - 1e-9))
     return None
