@@ -1,6 +1,6 @@
 """What axe-core finds wrong with whole pages in Chromium, by WCAG 2.2, level AA, on a wide screen and a telephone.
 
-``pip install playwright axe-playwright-python`` brings what it takes; CI has neither.
+The extra ``browser`` brings what it takes.
 """
 
 import importlib.util

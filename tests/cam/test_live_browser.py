@@ -1,4 +1,4 @@
-"""The live page in a browser: with Chromium and playwright, which CI does not have; ``pip install playwright``."""
+"""The live page in a browser: with Chromium, and playwright of the extra ``browser``."""
 
 import shutil
 from pathlib import Path
@@ -102,10 +102,9 @@ def test_two_designs_are_shown_over_each_other(shown):
     page, _ = shown
     page.click("#compare")
     page.locator(SLIDER).fill("0.2")
-    page.wait_for_selector("#picture path.part")
-    assert page.locator("#picture path.ghost").count() == 2
+    until(page, "document.querySelectorAll('#picture path.ghost').length === 2")
     page.click("#compare")
-    assert page.locator("#picture path.ghost").count() == 0
+    until(page, "!document.querySelector('#picture path.ghost')")
 
 
 def test_a_telephone_shows_all_of_it(shown):
