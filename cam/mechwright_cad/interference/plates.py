@@ -152,7 +152,7 @@ def depth(fixed: Slab, moving: Slab, path: Path, time: float) -> tuple[float, Ar
             continue
         fine = shapely.segmentize(inside, max(inside.length / 400, TOUCH))
         points = shapely.get_coordinates(fine)
-        far = shapely.distance(shapely.points(points), two.boundary)
+        far = _from_the_boundary(points, two)
         if far.max() > best:
             best, at = float(far.max()), points[far.argmax()]
     common = shapely.intersection(here, there)
@@ -161,6 +161,15 @@ def depth(fixed: Slab, moving: Slab, path: Path, time: float) -> tuple[float, Ar
         if 2 * largest.length > best:
             best, at = 2 * largest.length, shapely.get_coordinates(largest)[0]
     return best, at
+
+
+def _from_the_boundary(points: Array, polygon: shapely.Polygon) -> Array:
+    """Distance (n,) of points (n, 2) from a polygon's boundary, mm, found among its edges by a tree."""
+    loops = [shapely.get_coordinates(loop) for loop in (polygon.exterior, *polygon.interiors)]
+    edges = np.concatenate([np.stack((loop[:-1], loop[1:]), axis=1) for loop in loops])
+    tree = shapely.STRtree(shapely.linestrings(edges))
+    _, far = tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
+    return np.asarray(far, dtype=np.float64)
 
 
 def gap(fixed: Slab, moving: Slab, path: Path, time: float) -> float:

@@ -1,0 +1,71 @@
+"""Studies: what is best of what was tried, and what is tried near it."""
+
+import numpy as np
+from bowl_family import BowlParams, study
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from mechwright.contracts.evaluation import Batch
+from mechwright.sweep.draw import drawn
+from mechwright.sweep.front import Front, around
+from mechwright.sweep.pareto import front_of, spread
+
+
+@given(arrays(float, st.tuples(st.integers(0, 60), st.integers(1, 4)), elements=st.integers(0, 6).map(float)))
+@settings(max_examples=100, deadline=None)
+def test_the_front_is_what_nothing_dominates(costs):
+    def dominated(k):
+        return any((one <= costs[k]).all() and (one < costs[k]).any() for one in costs)
+
+    assert front_of(costs).tolist() == [k for k in range(len(costs)) if not dominated(k)]
+
+
+def test_designs_without_a_number_are_in_no_front():
+    costs = np.array([[1.0, np.nan], [2.0, 2.0], [np.inf, 0.0]])
+    assert front_of(costs).tolist() == [1]
+    assert front_of(np.empty((0, 2))).tolist() == []
+
+
+def test_large_fronts_are_found_in_blocks():
+    x = np.random.default_rng(1).permutation(3000) / 3000
+    assert front_of(np.column_stack([x, 1 - x])).size == 3000
+    assert front_of(np.column_stack([x, x])).tolist() == [int(np.argmin(x))]
+
+
+def test_what_is_shown_of_a_front_are_its_ends_and_what_is_far_from_them():
+    x = np.linspace(0, 1, 11)
+    chosen = spread(np.column_stack([x, 1 - x]), 3)
+    assert sorted(chosen) == [0, 5, 10]
+    assert spread(np.empty((0, 2)), 3) == []
+
+
+def test_refinement_stays_in_its_ranges_and_finds_what_is_known_to_be_best():
+    asked = study(count=64, ranges={"x": {"least": -4, "greatest": 6}, "teeth": {"least": 5, "greatest": 20}})
+    front = Front(asked)
+
+    def take(first, batch):
+        found = asked.family.evaluate(batch, asked.measured)
+        free = found.forbidden == 0
+        values = {name: batch[name] for name in batch.varied} | dict(found.values)
+        front.take(
+            {"design": np.arange(first, first + len(batch))[free]} | {k: v[free] for k, v in values.items()}
+        )
+
+    take(0, drawn(asked, 0))
+    before = len(front)
+    for number in range(3):
+        values = around(front, number, spread(front.costs, 12))
+        assert values["x"].min() >= -4
+        assert values["x"].max() <= 6
+        assert set(values["teeth"].tolist()) <= set(range(5, 21))
+        known = {(x, n) for x, n in zip(front.columns["x"], front.columns["teeth"], strict=True)}
+        assert not known & set(zip(values["x"], values["teeth"], strict=True))
+        take(1000 * (number + 1), Batch(BowlParams, {}, values))
+    x = front.columns["x"]
+    assert len(front) > 5 * before
+    assert x.min() > -0.01  # the front in closed form, but for gaps of what was drawn
+    assert x.max() < 2.01
+    assert x.min() < 0.02
+    assert x.max() > 1.98
+    assert np.allclose(np.sqrt(front.costs).sum(axis=1), 2.0, atol=0.03)

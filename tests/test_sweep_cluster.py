@@ -1,0 +1,88 @@
+"""Sweeps by several processes or a cluster: tables that are the same whoever makes them."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from by_night import by_night
+from strokes import bytes_of, swept
+
+
+@by_night
+def test_processes_make_the_same_bytes_as_one(tmp_path):
+    assert swept(tmp_path / "one", "--workers", "1").exit_code == 0
+    assert swept(tmp_path / "two", "--workers", "2").exit_code == 0
+    assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
+    started = []
+
+    def start(*words):
+        command = [sys.executable, "-m", f"distributed.cli.{words[0]}", *words[1:]]
+        with (tmp_path / f"log-{len(started)}").open("wb") as out:
+            started.append(subprocess.Popen(command, stdout=out, stderr=out, start_new_session=True))
+        return started[-1]
+
+    yield start
+    for process in started:
+        process.terminate()
+    for process in started:
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def scheduler_of(cluster, port):
+    return cluster(
+        "dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--no-show"
+    )
+
+
+def worker_of(cluster, port, folder):
+    return cluster(
+        "dask_worker", f"tcp://127.0.0.1:{port}", "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny",
+        "--no-dashboard", "--local-directory", str(folder), "--death-timeout", "60",
+    )  # fmt: skip
+
+
+@by_night
+def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
+    assert swept(tmp_path / "one", "--workers", "1", text="keep = 'all'").exit_code == 0
+    port = 20000 + os.getpid() % 20000
+    first = scheduler_of(cluster, port)
+    workers = [worker_of(cluster, port, tmp_path / name) for name in "ab"]
+    path = tmp_path / "strokes.toml"
+    command = [sys.executable, "-m", "mechwright", "sweep", str(path), "-o", str(tmp_path / "two")]
+    running = subprocess.Popen(
+        [*command, "--scheduler", f"tcp://127.0.0.1:{port}"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    tables = tmp_path / "two" / "tables"
+    end = time.monotonic() + 120
+    while not (tables.is_dir() and any(tables.iterdir())) and time.monotonic() < end:
+        time.sleep(0.05)
+    workers[0].send_signal(signal.SIGKILL)
+    first.kill()
+    first.wait()
+    scheduler_of(cluster, port)
+    worker_of(cluster, port, tmp_path / "c")
+    said, _ = running.communicate(timeout=240)
+    assert running.returncode == 0, said.decode()
+    assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
+
+
+@by_night
+def test_an_address_where_nobody_answers_is_one_line(tmp_path):
+    pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
+    done = swept(tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
+    assert done.exit_code == 1
+    assert "nobody answers within 10 s" in str(done.exception)
