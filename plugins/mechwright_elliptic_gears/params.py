@@ -15,8 +15,8 @@ LEAST_MODULE = 0.1
 LEAST_TEETH = 6
 """Fewer have no room for a root and a shaft."""
 
-MOST_TEETH = 300
-"""More teeth say nothing new and take minutes to prove and to cut."""
+MOST_TEETH = 600
+"""More teeth than that say nothing new."""
 
 
 OFF_LINE = 2000

@@ -7,11 +7,14 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright_elliptic_gears.gear import ellipse_of, offset_miss, rack_of, teeth_of
-from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
+from mechwright_elliptic_gears.params import EllipticGearParams
 
 LEAST_REGULARITY = 1e-4
 """Share of its regularity on the pitch curve that a flank keeps to its end: at 0 it ends in a cusp, where a
 fitted curve could turn back."""
+
+MOST_PROPOSED = 300
+"""Teeth that a remedy proposes at most: finer ones are for those who ask for them."""
 
 
 def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
@@ -64,10 +67,11 @@ def greatest_eccentricity(params: EllipticGearParams) -> float | None:
 
 
 def _finest(params: EllipticGearParams) -> int:
-    """The greatest number of teeth that the tooth offset allows."""
-    if params.tooth_offset is None or offset_miss(params.tooth_offset, MOST_TEETH) == 0:
-        return MOST_TEETH
-    return MOST_TEETH - 1
+    """The greatest number of teeth that is proposed and that the tooth offset allows."""
+    most = max(MOST_PROPOSED, params.teeth)
+    if params.tooth_offset is None or offset_miss(params.tooth_offset, most) == 0:
+        return most
+    return most - 1
 
 
 def is_undercut(params: EllipticGearParams) -> bool:
@@ -79,9 +83,9 @@ def least_teeth(params: EllipticGearParams) -> EllipticGearParams | None:
     """The same design with the least greater number of teeth that is free of undercut.
 
     A tooth offset that the table gives is kept, so that only numbers of one parity come into question.
-    None if the bounds of ``teeth`` hold no such number.
+    None if no number up to ``MOST_PROPOSED`` is such.
     """
-    for teeth in range(params.teeth + 1, MOST_TEETH + 1):
+    for teeth in range(params.teeth + 1, MOST_PROPOSED + 1):
         if params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
             continue
         candidate = params.model_copy(update={"teeth": teeth})

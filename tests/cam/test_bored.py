@@ -1,14 +1,12 @@
 """Moves straight down in what one cut has bored: told as a search through all earlier cuts tells them."""
 
 import numpy as np
-import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL
 from test_proof_parts import coordinate, cuts, height, paths_of
 
-from mechwright_cam.proof import bored as module
 from mechwright_cam.proof.bored import bored, distance
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.shop.cutter import cutter
@@ -73,12 +71,12 @@ def test_distances_from_lines_and_arcs(text: str, x: float, y: float) -> None:
     np.testing.assert_allclose(distance(paths, paths.cuts, places), true, atol=SLACK)
 
 
-def test_of_too_many_cuts_the_smallest_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A place in a hole, and one on long cuts: with little time the second is not known."""
+def test_a_place_is_known_however_many_cuts_there_are() -> None:
+    """A place in a hole, and one on long cuts, among some ten thousand pairs of place and cut."""
     hole = "F100\nG0 X2 Y0\nG1 Z-3\nG3 I-2\nG0 Z5\n"
-    beside = "".join(f"G0 X-50 Y{20 + k}\nG1 Z-3\nX50\nG0 Z5\n" for k in range(20))
-    paths = paths_of(hole + beside + "G0 X0 Y0\nG1 Z-2\nG0 Z5\nG0 X40 Y25\nG1 Z-2")
-    down = paths.cuts[-2:]
-    assert bored(paths, paths.cuts, down, lift=0.0, radius=0.9).tolist() == [True, True]
-    monkeypatch.setattr(module, "MOST", 48)
-    assert bored(paths, paths.cuts, down, lift=0.0, radius=0.9).tolist() == [True, False]
+    beside = "".join(f"G0 X-50 Y{20 + k}\nG1 Z-3\nX50\nG0 Z5\n" for k in range(120))
+    again = "".join(f"G0 X{k} Y25\nG1 Z-2\nG0 Z5\n" for k in range(-45, 46))
+    paths = paths_of(hole + beside + "G0 X0 Y0\nG1 Z-2\nG0 Z5\n" + again)
+    down = paths.cuts[-92:]
+    assert bored(paths, paths.cuts, down, lift=0.0, radius=0.9).all()
+    assert not bored(paths, paths.cuts, down, lift=-1.5, radius=0.9).any()

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from mechwright.cli import completing
-from mechwright.cli.command import AsJson, Command, Curves, DesignFile, OutputFolder, names
+from mechwright.cli.command import AsJson, Command, Curves, DesignFiles, OutputFolder, Workers, names
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import DesignError
 from mechwright.plugins.hookspecs import hookimpl
@@ -20,21 +20,24 @@ class Cam(Command):
 
     def run(
         self,
-        design: DesignFile,
+        designs: DesignFiles,
         output: OutputFolder,
         dxf_curves: Curves = "spline",
         as_json: AsJson = False,
+        workers: Workers = None,
     ) -> None:
         """Write drawings and proven programs.
 
-        DXF, G-code, the tool table of the control, the setup sheet, and the proof.
+        DXF, G-code, the tool table of the control, the setup sheet, and the proof. Of several designs each
+        goes into a folder of its own in DIR.
         """
         from mechwright.build import Wanted
-        from mechwright.cli.perform import perform
+        from mechwright.cli.several import write
         from mechwright.contracts.finding import Stage
 
         nothing = "makes no plate part, so there is nothing to mill; use mechwright model"
-        perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing, as_json)
+        wanted = Wanted("cam", curves=dxf_curves)
+        write(designs, output, wanted, Stage.MACHINING, workers, nothing, as_json)
 
 
 def cam_settings(incomplete: str) -> list[tuple[str, str]]:

@@ -6,16 +6,15 @@ cuts the lowest counts.
 """
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array, first_of_each
 from mechwright_cam.controls.reading.run import Ints, Kind
 from mechwright_cam.proof.paths import NEAR, Paths
 
-MOST = 20_000_000
-"""Pairs of place and cut that are looked at; of too many cuts those of the smallest extent."""
-AT_ONCE = 1_000_000
-"""So many of them are looked at together."""
+AT_ONCE = 256
+"""So many places are looked at together, each with the cuts around it."""
 
 
 def bored(paths: Paths, cuts: Ints, steps: Ints, *, lift: float, radius: float) -> NDArray[np.bool_]:
@@ -64,18 +63,14 @@ def _different(paths: Paths, cuts: Ints) -> Ints:
 def _taken(paths: Paths, cuts: Ints, places: Array, radius: float) -> tuple[Ints, Ints, Array]:
     """Place and step (p,) of the cuts near enough, and the height z (p,) down to which each has taken all."""
     least, most = paths.extent(cuts)
-    if cuts.size * len(places) > MOST:
-        small = np.argsort((most - least).sum(axis=1), kind="stable")[: max(MOST // len(places), 1)]
-        cuts, least, most = cuts[small], least[small], most[small]
     reach = paths.radius[cuts, None] - radius
-    least, most = (least - reach).T, (most + reach).T
-    found: list[tuple[Ints, Ints, Array]] = []
-    some = max(AT_ONCE // cuts.size, 1)
-    for first in range(0, len(places), some):
-        x, y = places[first : first + some].T[:, :, None]
-        inside = (x >= least[0]) & (x <= most[0]) & (y >= least[1]) & (y <= most[1])
-        place, index = np.nonzero(inside)
-        step = cuts[index]
+    boxes = shapely.box(*(least - reach).T, *(most + reach).T)
+    able = np.flatnonzero((reach >= 0).ravel())
+    tree = shapely.STRtree(boxes[able])
+    found = [(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0))]
+    for first in range(0, len(places), AT_ONCE):
+        place, box = tree.query(shapely.points(places[first : first + AT_ONCE]))
+        step = cuts[able[box]]
         away = distance(paths, step, places[first + place])
         top = np.maximum(paths.start[step, 2], paths.end[step, 2])
         height = top + paths.cutters(step).height_at(away + radius)

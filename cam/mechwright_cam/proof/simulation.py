@@ -27,6 +27,10 @@ from mechwright_cam.shop.tool import Tool
 
 CELLS = 1_000_000
 """Cells of the grid: on a plate of a hand's size they are a tenth of a millimetre wide."""
+MOST_CELLS = 36_000_000
+"""Cells of the grid of a large plate that is cut with fine cutters."""
+ROWS = 256
+"""So many rows of the grid are looked at together."""
 FINEST = 0.05
 """Smallest cell, mm: finer shows nothing more."""
 MOST_PLACES = 40_000
@@ -72,23 +76,36 @@ def simulate(paths: Paths, job: Job) -> Simulation:
     """Cut the stock on a grid, place by place along the path, in the order of the program."""
     run, tools, steps = paths.run, paths.tools, paths.cuts
     x0, y0, x1, y1 = job.stock
-    cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS), _cell_for(paths, steps))
+    cell = max(FINEST, _cell_of(paths, job), _cell_for(paths, steps))
     shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
-    heights = np.zeros(shape, dtype=np.float32)
-    floors = np.full(shape, -job.thickness, dtype=np.float32)
-    for air in sorted(job.gone, key=lambda air: air.top):
-        floors[_inside(air.shape, job, shape, cell)] = air.top
-    through = floors >= -NEAR
-    heights[through] = -job.thickness
+    heights = np.zeros(shape, dtype=np.float32)  # what is not cut of a large plate takes no memory
+    floors = np.broadcast_to(np.float32(-job.thickness), shape)
+    if job.gone:
+        floors = floors.copy()
+        for air in sorted(job.gone, key=lambda air: air.top):
+            floors[_inside(air.shape, job, shape, cell)] = air.top
+        heights[floors >= -NEAR] = -job.thickness
     length, idle = paths.length, 0.0
     taken = []
     for number, mine in _runs_of_one_tool(run, steps):
         taken.append(_cut(paths, job, tools[number], mine, heights, floors, cell))
         idle += float(length[mine[taken[-1].of_steps(mine) <= cell**2 * NEAR]].sum())
-    heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
+    for first in range(0, shape[0], ROWS):
+        rows = heights[first : first + ROWS]
+        cut = rows <= floors[first : first + ROWS] + NEAR  # into what was open from below as well
+        if cut.any():
+            rows[cut] = -job.thickness
     loads = loads_of(taken, paths, job.part.material)
     works = works_of(loads, run, job.settings.machine)
     return Simulation(idle, float(length[steps].sum()), works, loads, heights, cell)
+
+
+def _cell_of(paths: Paths, job: Job) -> float:
+    """Cell, mm, for the size of the plate: on a large one no wider than the finest cutter needs."""
+    x0, y0, x1, y1 = job.stock
+    area = (x1 - x0) * (y1 - y0)
+    finest = COARSEST * float(paths.radius[paths.cuts].min(initial=math.inf))
+    return min(math.sqrt(area / CELLS), max(finest, math.sqrt(area / MOST_CELLS)))
 
 
 def _spacing(tool: Tool, cell: float) -> float:

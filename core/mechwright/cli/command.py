@@ -21,6 +21,25 @@ DesignFile = Annotated[
         autocompletion=completing.design_files,
     ),
 ]
+DesignFiles = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="DESIGN...",
+        help="Design files (TOML); several are done side by side.",
+        show_default=False,
+        autocompletion=completing.design_files,
+    ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        min=1,
+        max=1024,
+        metavar="N",
+        help="Cores for several designs, one process each; by default all that this process may use.",
+        show_default=False,
+    ),
+]
 OutputFolder = Annotated[
     Path, typer.Option("--output", "-o", metavar="DIR", help="Folder for the files.", show_default=False)
 ]

@@ -14,8 +14,10 @@ from mechwright.cli.command import (
     Command,
     Curves,
     DesignFile,
+    DesignFiles,
     OutputFolder,
     Samples,
+    Workers,
     names,
 )
 from mechwright.contracts.plugin import Plugin
@@ -136,19 +138,20 @@ class Check(Command):
 
     def run(
         self,
-        design: DesignFile,
+        designs: DesignFiles,
         as_json: AsJson = False,
         tolerances: Annotated[
             bool, typer.Option("--tolerances", help="What tolerances do: sensitivities, worst case, yield.")
         ] = False,
+        workers: Workers = None,
     ) -> None:
         """Say what an engineer would object to.
 
         The exit code is 1 if something forbids building.
         """
-        from mechwright.cli import check
+        from mechwright.cli import several
 
-        check.check(design, as_json, tolerances)
+        several.check(designs, workers, as_json, tolerances)
 
 
 class Fix(Command):
@@ -213,21 +216,25 @@ class Build(Command):
 
     def run(
         self,
-        design: DesignFile,
+        designs: DesignFiles,
         output: OutputFolder,
         samples: Samples = SAMPLES,
         also: Also = "",
         dxf_curves: Curves = "spline",
         at: At = "",
         as_json: AsJson = False,
+        workers: Workers = None,
     ) -> None:
-        """Write everything: motion, solids, drawings, programs."""
+        """Write everything: motion, solids, drawings, programs.
+
+        Of several designs each goes into a folder of its own in DIR. The exit code is 1 if one is refused.
+        """
         from mechwright.build import Wanted
-        from mechwright.cli.perform import perform
+        from mechwright.cli.several import write
         from mechwright.contracts.finding import Stage
 
         wanted = Wanted("build", samples, at, names(also), dxf_curves)
-        perform(design, output, wanted, Stage.MACHINING, as_json=as_json)
+        write(designs, output, wanted, Stage.MACHINING, workers, as_json=as_json)
 
 
 class Synthesize(Command):

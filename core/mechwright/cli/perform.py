@@ -39,23 +39,24 @@ def perform(
         What is said goes to standard output as JSON, findings of any severity with it.
     """
     found = open_host()
-    _check_formats(found, wanted.formats)
+    check_formats(found, wanted.formats)
     with standing(folder), Mechanism(path, found, wanted) as build:
         try:
             with fraction() as progress:
                 written = build.write(folder, stage, progress, empty)
         except RefusedError as refused:
             if as_json:
-                _print(_data(build, Written(folder, (), refused.findings), ok=False))
+                _print(data_of(build.design.name, Written(folder, (), refused.findings), ok=False))
                 raise typer.Exit(1) from None
             refuse(refused.findings, path)
         if as_json:
-            _print(_data(build, written, ok=True))
+            _print(data_of(build.design.name, written, ok=True))
         else:
-            _say(path, stage, written)
+            say(path, stage, written)
 
 
-def _say(path: Path, stage: Stage, written: Written) -> None:
+def say(path: Path, stage: Stage, written: Written, *, files: bool = True) -> None:
+    """Tell what was found and left out, and which files were written, if that is asked for."""
     for finding in written.findings:
         if finding.severity is not Severity.NOTE:
             tell(path, finding)
@@ -69,19 +70,24 @@ def _say(path: Path, stage: Stage, written: Written) -> None:
             + (f": {said}" if said else "")
             + ("; mechwright fix looks for a change that helps" if written.later else ""),
         )
-    typer.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
+    if files:
+        typer.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
 
 
-def _data(build: Mechanism, written: Written, *, ok: bool) -> dict[str, Any]:
-    """What is told as JSON; ``ok`` is what the exit code says, whatever findings stopped nothing."""
+def data_of(name: str, said: Written, *, ok: bool, written: bool = True) -> dict[str, Any]:
+    """What is told as JSON; ``ok`` is what the exit code says, whatever findings stopped nothing.
+
+    Of what writes nothing there are the findings alone.
+    """
+    found = {"design": name, "ok": ok, "findings": [finding.as_dict() for finding in said.findings]}
+    if not written:
+        return found
     return {
-        "design": build.design.name,
-        "ok": ok,
-        "findings": [finding.as_dict() for finding in written.findings],
-        "folder": str(written.folder),
-        "files": list(written.files),
-        "missing": list(written.missing),
-        "faults": list(written.faults),
+        **found,
+        "folder": str(said.folder),
+        "files": list(said.files),
+        "missing": list(said.missing),
+        "faults": list(said.faults),
     }
 
 
@@ -89,7 +95,8 @@ def _print(data: dict[str, Any]) -> None:
     typer.echo(json.dumps(data, indent=2))
 
 
-def _check_formats(found: Host, names: Iterable[str]) -> None:
+def check_formats(found: Host, names: Iterable[str]) -> None:
+    """Raise PluginError, named as the option, where nothing is installed for one of some formats."""
     try:
         for name in names:
             found.get(Exporter, name)

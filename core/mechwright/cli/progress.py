@@ -30,17 +30,17 @@ class StoppedError(Exception):
 @contextmanager
 def standing(folder: Path | None = None) -> Iterator[None]:
     """Run a block; raises StoppedError where the keyboard stops it, with what stands in ``folder``."""
-    before = _stamp(folder)
+    before = stamp(folder)
     try:
         yield
     except KeyboardInterrupt:
         if folder is None:
             raise StoppedError(NOTHING) from None
-        stands = "is as it was" if _stamp(folder) == before else "is written, all of it"
+        stands = "is as it was" if stamp(folder) == before else "is written, all of it"
         raise StoppedError(f"{folder} {stands}") from None
 
 
-def _stamp(folder: Path | None) -> tuple[int, int] | None:
+def stamp(folder: Path | None) -> tuple[int, int] | None:
     """What tells one run's folder from the next one's: they are exchanged as a whole."""
     try:
         stat = (folder / MANIFEST).stat() if folder is not None else None

@@ -38,9 +38,9 @@ def block(finding: Finding, console: "Console") -> None:
     console.print(head)
     for words, style in ((finding.message, ""), (finding.remedy, _REMEDY)):
         if words:
-            console.print(Padding(Text(_plain(words), style), (0, 0, 0, _INDENT), expand=False))
+            console.print(Padding(Text(plain(words), style), (0, 0, 0, _INDENT), expand=False))
 
 
-def _plain(words: str) -> str:
+def plain(words: str) -> str:
     """Without characters that could steer a terminal."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in words)
