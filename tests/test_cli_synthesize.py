@@ -59,6 +59,39 @@ def test_designs_are_written_best_first_with_their_residuals(command_line: Run, 
     assert set(manifest["outputs"]) == {"wanted-1.toml", "wanted-2.toml", "synthesis.json"}
 
 
+def test_what_nobody_asked_for_bars_no_machine_that_is_named_later(command_line: Run, tmp_path: Path) -> None:
+    asked = 'family = "disc"\n[requirement]\n[cam]\nclearance = 7\n[cam.machine]\nrapid = 9000\n'
+    path = requirement(tmp_path, asked)
+    assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
+    design = tmp_path / "out" / "wanted-1.toml"
+    text = design.read_text()
+    given = [line.split(" =")[0] for line in text.split("[cam]")[1].splitlines() if re.match(r"\w+ =", line)]
+    assert given == ["clearance", "rapid"]
+    assert "# retract_z = 0.0  # Machine Z of a full retract" in text
+    plain = settings_of(load(design, hosting.host())).cam.machine
+    assert (plain.retract_z, plain.rapid) == (0, 9000)
+    design.write_text(text.replace('# model = ""', 'model = "desktop-router"'))
+    named = settings_of(load(design, hosting.host())).cam.machine
+    assert (named.retract_z, named.rapid) == (-2, 9000)
+    assert named.travel_x != plain.travel_x
+
+
+def test_a_new_design_with_all_keys_leaves_room_for_a_machine(command_line: Run, tmp_path: Path) -> None:
+    path = tmp_path / "new.toml"
+    assert command_line("new", "disc", "--all", "-o", path)[0] == 0
+    path.write_text(path.read_text().replace('# model = ""', 'model = "desktop-router"'))
+    assert settings_of(load(path, hosting.host())).cam.machine.retract_z == -2
+
+
+def test_a_requirement_that_is_taken_for_a_design_is_told(command_line: Run, tmp_path: Path) -> None:
+    path = requirement(tmp_path, 'family = "disc"\n[requirement]\n')
+    for command in (("check", path), ("build", path, "-o", tmp_path / "out")):
+        code, _, wrong = command_line(*command)
+        assert code == 2
+        assert "find designs by mechwright synthesize wanted.toml -o FOLDER" in wrong
+        assert len(wrong.splitlines()) == 1
+
+
 def test_many_designs_sort_as_they_are_numbered(command_line: Run, tmp_path: Path) -> None:
     path = requirement(tmp_path, 'family = "disc"\n[requirement]\nkind = "rim"\ncount = 12\n')
     assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
@@ -88,7 +121,7 @@ def test_a_requirement_that_cannot_be_met_is_exit_code_1_and_writes_nothing(
         ('family = "disc"\n[requirement]\nspeed = 3\n', "requirement: unknown key 'speed'"),
         ('family = "disc"\n[requirement]\nrim_speed = -3\n', "requirement.rim_speed: "),
         ('family = "disc"\nrequirement = 3\n', "requirement: is 3; write a table [requirement]"),
-        ('family = "disc"\n[parameters]\nbore = 3\n', "unknown key 'parameters'"),
+        ('family = "disc"\n[parameters]\nbore = 3\n', "parameters: this file is a design, and asks for none"),
         ('family = "disc"\n[cam]\nclear = 3\n', "cam: unknown key 'clear'"),
         ('family = "disc"\n[cam]\ntool_library = "../a.toml"\n', "leads out"),
     ],

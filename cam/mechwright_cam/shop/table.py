@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+from pydantic import BaseModel
+
 from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
@@ -12,7 +14,7 @@ from mechwright.designs.files import beside
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
-from mechwright_cam.shop.machine import machine_figures
+from mechwright_cam.shop.machine import Machine, machine_figures
 from mechwright_cam.shop.part_settings import says_how, split
 from mechwright_cam.shop.settings import CamSettings, PartSettings
 
@@ -70,7 +72,9 @@ class CamTable(Table[JobSettings]):
 
     def text(self, value: JobSettings | None = None) -> list[str]:
         """The table ``[cam]``; the tables of single parts are for each design by itself."""
-        return [*table_lines(CamSettings, "cam", None if value is None else value.cam), *_OF_ONE_PART]
+        if value is None:  # a machine that is named brings its own figures
+            return [*table_lines(CamSettings, self.name, open_=(Machine,)), *_OF_ONE_PART]
+        return [*table_lines(CamSettings, self.name, value.cam, open_=(BaseModel,)), *_OF_ONE_PART]
 
     def first(self) -> list[str]:
         """Control, work offset, cutters and machine."""

@@ -173,6 +173,11 @@ def telling_places(path: Path, content: Mapping[str, Any], host: Host, own: str)
 def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -> Design:
     """The design that a file ``path`` with this content holds; raises as :func:`load` does."""
     tables = host.of(Table)
+    if "requirement" in content and "parameters" not in content:
+        raise DesignError(
+            f"{path}: requirement: this file says what is asked of a design, and is none; find designs by "
+            f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
+        )
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
     readers = tuple(entry.item for entry in tables.values())

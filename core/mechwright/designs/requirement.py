@@ -84,6 +84,11 @@ def load_requirement(path: Path, host: Host) -> Requirement:
 def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -> Requirement:
     """The requirement that a file ``path`` with this content holds; raises as ``load_requirement`` does."""
     registered = host.of(Table)
+    if "parameters" in content and "requirement" not in content:
+        raise DesignError(
+            f"{path}: parameters: this file is a design, and asks for none; build it by mechwright build "
+            f"{path.name} -o FOLDER, or write what is asked in a table [requirement]"
+        )
     name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
     require_synthesis(family, str(path))
     table = content.get("requirement", {})

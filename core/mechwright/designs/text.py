@@ -70,9 +70,18 @@ def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
 
 
 def table_lines(
-    model: type[BaseModel], where: str, values: BaseModel | None = None, *, first: bool = False
+    model: type[BaseModel],
+    where: str,
+    values: BaseModel | None = None,
+    *,
+    first: bool = False,
+    open_: tuple[type[BaseModel], ...] = (),
 ) -> list[str]:
-    """A table with the values of an instance, or with the defaults of its fields; or just the ``first``."""
+    """A table with the values of an instance, or with the defaults of its fields; or just the ``first``.
+
+    Keys that an instance of ``open_`` models was not given stand as comments, so that what is written later,
+    such as the name of a machine, is not barred by defaults that nobody asked for.
+    """
     lines, tables = [f"[{where}]"], []
     schema = model.model_json_schema()["properties"]
     chosen = first_fields(model) if first else tuple(model.model_fields)
@@ -80,13 +89,14 @@ def table_lines(
         field = model.model_fields[key]
         value = getattr(values, key) if values is not None else field.get_default(call_default_factory=True)
         if isinstance(value, BaseModel):
-            tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=first)]
+            tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=first, open_=open_)]
             continue
         text = f"{field.description or ''}{_limits(schema[key])}"
         if value is None:
             lines.append(f"# {key} = ...  # {text}")
         else:
-            lines.append(f"{key} = {toml(value)}  # {text}")
+            left_out = isinstance(values, open_) and key not in values.model_fields_set
+            lines.append(f"{'# ' if left_out else ''}{key} = {toml(value)}  # {text}")
     return lines + tables
 
 
