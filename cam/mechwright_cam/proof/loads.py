@@ -65,7 +65,8 @@ class Taken:
         length = np.where(first, 0.0, np.sqrt((way**2).sum(axis=1)))
         so_far = np.cumsum(length)
         time = np.cumsum(length / np.maximum(paths.run.feed[step], NEAR) * 60)
-        fall = np.sign(np.where(first, 0.0, way[:, 2]))
+        moved = np.maximum.accumulate(np.where(first | (length > 0), np.arange(step.size), 0))
+        fall = np.sign(np.where(first, 0.0, way[:, 2]))[moved]  # where one move ends the next begins
         turns = fall[:-1] != fall[1:]  # lowest and highest places of the way
         apart = np.diff(np.floor(so_far / (spacing / 2))) > 0
         long = paths.length[step] >= spacing / 2

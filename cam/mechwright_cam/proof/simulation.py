@@ -20,6 +20,7 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.loads import Loads, Taken, Work, loads_of, works_of
+from mechwright_cam.proof.lowering import FEW_CELLS, lowered
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
@@ -155,6 +156,12 @@ def _cut(
             f"line {line}: so long a path in material, each time deeper, is set onto the stock at more than "
             f"{MOST_TRIED:,} places; split the program"
         )
+    if np.count_nonzero(np.isfinite(disc)) <= FEW_CELLS:
+        tip = taken.z[low].astype(np.float32)
+        found = lowered(heights, floors, disc, rows[low], columns[low], tip)
+        taken.depth[low], taken.volume[low] = found.depth, found.sums[:, 0] * cell**2
+        taken.moment[low] = found.sums[:, 1:] * cell**3
+        return taken
     at = (np.arange(-half, half + 1) * cell).astype(np.float32)
     weights = np.column_stack((np.ones_like(at), at))  # products of matrices are the quickest sums
     area = cell * cell

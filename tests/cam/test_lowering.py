@@ -1,0 +1,43 @@
+"""Places set onto a grid all at once take what they take one after the other."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright_cam.proof import lowering
+from mechwright_cam.proof.lowering import lowered
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(0, 4), st.integers(0, 60), st.sampled_from([1, 50, 1_000_000]))
+def test_all_at_once_is_one_after_the_other(seed: int, half: int, count: int, chunk: int) -> None:
+    rng = np.random.default_rng(seed)
+    size = 2 * half + 1
+    heights = rng.uniform(-1.5, 0.0, (9, 12)).astype(np.float32)
+    floors = np.where(rng.random((9, 12)) < 0.2, -1.0, -2.0).astype(np.float32)
+    heights = np.maximum(heights, floors)
+    disc = rng.choice([0.0, 0.25, np.inf], (size, size)).astype(np.float32)
+    disc[half, half] = 0.0
+    row, column = rng.integers(-half, 9 + half, count), rng.integers(-half, 12 + half, count)
+    z = rng.choice([-0.5, -1.0, -1.25, -3.0], count).astype(np.float32)
+    at_once = heights.copy()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lowering, "CHUNK", chunk)
+        found = lowered(at_once, floors, disc, row, column, z)
+    for index in range(count):
+        sums = np.zeros(3)
+        most = 0.0
+        for i, j in zip(*np.nonzero(np.isfinite(disc)), strict=True):
+            y, x = row[index] + i - half, column[index] + j - half
+            if not (0 <= y < 9 and 0 <= x < 12):
+                continue
+            tip = max(disc[i, j] + z[index], floors[y, x])
+            more = float(heights[y, x] - np.float32(tip))
+            if more > 0:
+                sums += more * np.array([1, j - half, i - half])
+                most = max(most, more)
+                heights[y, x] = tip
+        assert found.depth[index] == most
+        np.testing.assert_allclose(found.sums[index], sums, atol=1e-12)
+    np.testing.assert_array_equal(at_once, heights)
