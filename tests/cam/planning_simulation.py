@@ -15,6 +15,9 @@ from mechwright_cam.program.moves import Drill, Feed, FeedArc, Pause, Program, R
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
 
+CHAIN = 100
+"""Points of a chain of moves from which on another one is begun."""
+
 
 @dataclass(frozen=True, eq=False)
 class Motion:
@@ -136,7 +139,7 @@ def gouge(job: Job, program: Program) -> float:
 
 def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
     """Area, mm², of reachable stock thicker than ``thickness`` beside the part's walls."""
-    found = [m for m in motions(program, 0.02) if m.kind != "rapid"]
+    found = [m for m in motions(program, 0.05) if m.kind != "rapid"]
     mills = {m.tool.number: m.tool for m in found if m.tool.kind is ToolKind.END_MILL}
     if not mills:
         return 0.0
@@ -156,25 +159,33 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
         low = [tab.shape.buffer(widest) for tab in job.tabs if tab.top > bottom + 1e-6]
         todo = todo.difference(shapely.union_all(low)) if low else todo
         for tool in {m.tool.number: m.tool for m in found}.values():
-            lines = []
-            for motion in found:
-                if motion.tool.number != tool.number:
-                    continue
-                deep = motion.points[:, 2] <= bottom + 2e-4
-                if motion.kind == "drill":
-                    if (
-                        motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2))
-                        <= bottom
-                    ):
-                        lines.append(shapely.Point(motion.points[1, :2]))
-                elif deep.all():
-                    lines.append(shapely.LineString(motion.points[:, :2]))
+            ways = np.array(_ways([m for m in found if m.tool.number == tool.number], bottom), dtype=object)
             shapely.prepare(todo)
-            lines = [line for line in lines if todo.dwithin(line, tool.radius + 1e-3)]
-            swept = shapely.union_all(shapely.buffer(lines, tool.radius + 1e-4, quad_segs=64))
-            todo = todo.difference(swept)
+            near = ways[shapely.dwithin(todo, ways, tool.radius + 1e-3)]
+            todo = todo.difference(shapely.union_all(shapely.buffer(near, tool.radius + 1e-4, quad_segs=64)))
         area += todo.buffer(-thickness / 2, quad_segs=4).area
     return area
+
+
+def _ways(found: list[Motion], bottom: float) -> list[shapely.Geometry]:
+    """Where the middle of one tool goes at a height or below: points of drills, and moves in chains.
+
+    A chain is buffered far sooner than its moves, each with two round ends; a long one no longer is.
+    """
+    ways: list[shapely.Geometry] = []
+    chain: list[np.ndarray] = []
+    for motion in found:
+        if motion.kind == "drill":
+            cone = motion.tool.radius / math.tan(math.radians(motion.tool.point_angle / 2))
+            if motion.points[1, 2] + cone <= bottom:
+                ways.append(shapely.Point(motion.points[1, :2]))
+        elif (motion.points[:, 2] <= bottom + 2e-4).all():
+            points = motion.points[:, :2]
+            if chain and (sum(map(len, chain)) > CHAIN or not np.array_equal(chain[-1][-1], points[0])):
+                ways.append(shapely.LineString(np.concatenate(chain)))
+                chain = []
+            chain.append(points)
+    return [*ways, *([shapely.LineString(np.concatenate(chain))] if chain else [])]
 
 
 def check_rules(job: Job, program: Program) -> None:
