@@ -289,7 +289,7 @@ FIGURES = (
     (
         "24",
         "prototype, two photographs",
-        "[figure-eight-machine](../../examples/figure-eight-machine.toml): 61 bodies on a base, with motor",
+        "[figure-eight-machine](../../examples/figure-eight-machine.toml): 63 bodies on a base, with motor",
     ),
     ("Table 1", "lost: near-constant speed of a single pair", "erratum 13; a train with γ = 180° moves so"),
     ("Tables 2, 3", "windows and peaks", "the tables above, row by row"),
