@@ -286,7 +286,13 @@ FIGURES = (
         "setup sheets: the order of touching off, work offset, tool table",
     ),
     ("23", "a milled gear", "programs of all plates, proven, and [as made](../as-made.md)"),
-    ("24", "prototype, two photographs", "`assembly.step` of the example"),
+    (
+        "24",
+        "prototype, two photographs",
+        "[figure-eight-machine](../../examples/figure-eight-machine.toml): 63 bodies on a base, with motor",
+    ),
+    ("Table 1", "lost: near-constant speed of a single pair", "erratum 13; a train with γ = 180° moves so"),
+    ("Tables 2, 3", "windows and peaks", "the tables above, row by row"),
     ("1, 2, 4 to 6, 10 to 12, 15 to 19", "", "not in the text at hand"),
 )
 """Figure of the source, what it shows, and where ours is."""

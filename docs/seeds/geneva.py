@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import geneva_driver as driver
+import geneva_machine
 import geneva_printed as printed
 import geneva_undercut as undercut
 import numpy as np
@@ -131,8 +132,88 @@ def against_straight() -> Iterator[list[str]]:
 
 
 def figures() -> str:
-    rows = [f"| {shows} | ![{shows}](../images/{name}.svg) |" for name, shows, _ in driver.SLOTS]
-    return "\n".join(rows)
+    """Every figure of the source, and what of ours stands beside it."""
+
+    def picture(name: str, shows: str) -> str:
+        return f"![{shows}](../images/{name}.svg)"
+
+    loop, *undercut_ones = driver.SLOTS
+    rows = [
+        [
+            "1",
+            "a family of curves and its envelope, from a textbook",
+            "a wall is the envelope of the roller: *Points of the walls* above, and the picture of figure 6, "
+            "where the roller touches both walls",
+        ],
+        [
+            "2, 4, 5",
+            "lost with pages 4 and 6",
+            "frames, angles and the offset angle: [Motion](../geneva.md#motion) of the family's page",
+        ],
+        [
+            "3",
+            "inversion, the wheel held: equation (2)",
+            "the roller's way on the wheel, thin in the picture of figure 6; its centre in *Points of the "
+            "walls*",
+        ],
+        [
+            "(a), after (30)",
+            "slots without undercut; lost with page 12, the design is ours",
+            picture(undercut_ones[1][0], undercut_ones[1][1]),
+        ],
+        [
+            "(b), after (30)",
+            "undercut; lost with page 12, the designs are ours",
+            " ".join(picture(name, shows) for name, shows, _ in (undercut_ones[0], undercut_ones[2])),
+        ],
+        [
+            "6",
+            "walls that cross in a loop, θd1 = 11.7177° and θd2 = 108.2823°, (57.9668, −57.9668)",
+            picture(loop[0], loop[1]),
+        ],
+        [
+            "7",
+            "named in the text before that picture, whose caption says 6; one whose own caption says 7 would "
+            "stand on the lost page 14, *2.8 Simulation*",
+            "the numbers that the text gives for 7: the first two rows of *Figure 6* above; a simulation of "
+            "any design: `motion.html`, as of [geneva-cycloidal](../../examples/geneva-cycloidal.toml)",
+        ],
+        [
+            "8, 9",
+            "assembly, two views, without sizes",
+            "`assembly.html` and `assembly-drawing.pdf` of "
+            "[geneva-machine](../../examples/geneva-machine.toml), the prototype as a machine",
+        ],
+        [
+            "10",
+            "stop wheel",
+            "`locking-disc` of the machine, pale red in the pictures of 16 to 18; the wheel that it stops is "
+            "blue",
+        ],
+        ["11", "camshaft", "`shaft-driver` of the machine: drawing `shaft-driver.pdf`, in ball bearings"],
+        [
+            "12 to 15",
+            "lost with page 16: parts, by their neighbours",
+            "base, bearing plates, wheel and its shaft of the machine, each with a drawing or a program",
+        ],
+        *(
+            [
+                number,
+                f"front view, {name} of the stroke",
+                picture(f"geneva-machine-{name}", f"{number}: {name}"),
+            ]
+            for number, name in zip(("16", "17", "18"), geneva_machine.SHARE, strict=True)
+        ),
+        ["19", "view from above", picture("geneva-machine-side", "19: from the side of the axes")],
+        ["20", "view from the side", picture("geneva-machine-end-on", "20: along the line of the axes")],
+        [
+            "text after 20",
+            "motor with reversible speed control; from the slowest to the fastest no interference",
+            '`direction = "both"`, a motor found for both; no two of the 64 bodies meet over the turn, whose '
+            "places are the same in both directions",
+        ],
+    ]
+    return table(["figure", "shows", "ours"], rows)
 
 
 def page() -> str:
@@ -273,14 +354,11 @@ as it carries a load.
 
 ## Figures
 
-| figure | ours |
-| --- | --- |
 {figures()}
 
 The source's loop is that of its printed numbers, of another law and without the chain rule; the \
-picture has equation (33). Its figures of undercut are lost; those designs are ours. Figures 1 and \
-3, an envelope and the inversion, are what the walls are made of; 8 to 20 show parts and assembly, \
-which `build` writes as solids and drawings.
+picture has equation (33). Of its machine it prints pictures without a size; ours stands on its base \
+with upright shafts, so that what the source sees from the front is seen from above here.
 """
 
 

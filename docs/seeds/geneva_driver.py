@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+import geneva_machine
 import numpy as np
 
 from mechwright.build.figures.sheet import INK, LINKS, Window
@@ -146,7 +147,7 @@ def walls() -> str:
 def drawn() -> dict[str, str]:
     """Picture to its content."""
     found = {f"{name}.svg": slot(table) for name, _, table in SLOTS}
-    return {**found, "geneva-walls.svg": walls()}
+    return {**found, "geneva-walls.svg": walls(), **geneva_machine.drawn()}
 
 
 def draw() -> None:

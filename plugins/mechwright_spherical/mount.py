@@ -175,7 +175,7 @@ def mounting_of(params: SphericalParams) -> Flange:
             tuple((plate * x, plate * y) for x, y in FLANGE_SCREWS),
             thread_of(stand),
             hardware.link_thickness,
-            "parameters.stand.screw",
+            "parameters.stand.plate_thickness",
         ),
         "parameters.stand.motor_flange",
         "parameters.stand.arc",

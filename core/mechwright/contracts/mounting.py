@@ -245,7 +245,7 @@ class Foot:
     grip
         Thickness of what the inner ones hold, mm.
     key
-        The design-file key of the holes' diameter.
+        The design-file key of its thickness.
     """
 
     body: str

@@ -222,10 +222,18 @@ def _add_base(kit: Kit, flange: Flange, standing: Standing, material: str) -> No
 
 def _fixing(plate: Foot, grip: float) -> Screw:
     """The longest screw that goes into the foot's threads and not out of them, a diameter deep at least."""
-    fitting = [one for one in lengths(plate.screw) if one <= grip + plate.thickness]
-    if not fitting or fitting[-1] < grip + plate.screw:
-        raise DesignError(
-            f"{plate.key}: no screw M{plate.screw:g} goes through {grip:g} mm and a diameter into a foot of "
-            f"{plate.thickness:g} mm; make its holes smaller"
-        )
-    return screw(plate.screw, fitting[-1])
+    sold, have = lengths(plate.screw), plate.thickness
+    fitting = [one for one in sold if grip + plate.screw <= one <= grip + have]
+    if fitting:
+        return screw(plate.screw, fitting[-1])
+    said = (
+        f"no screw M{plate.screw:g} that is sold goes through {grip:g} mm and a diameter into a foot of "
+        f"{have:g} mm, and not out of it"
+    )
+    longer = next((one for one in sold if one >= grip + plate.screw), None)
+    if longer is None:
+        off: Change = {"machine.frame": "none"}
+        raise _fault("frame.foot", plate.key, said, have, None, "mm", 'set frame = "none"', off)
+    works = math.ceil(10 * (longer - grip) - 1e-6) / 10
+    change: Change = {plate.key: works}
+    raise _fault("frame.foot", plate.key, said, have, works, "mm", f"make it {works:g}", change)
