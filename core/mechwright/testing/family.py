@@ -35,6 +35,7 @@ from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_rotations
+from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
@@ -48,7 +49,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests):
+class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples

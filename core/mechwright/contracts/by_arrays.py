@@ -1,0 +1,189 @@
+"""Evaluation of many designs by arrays, for families that have formulas for it.
+
+A family writes one function of :class:`Designs`, and calls :func:`by_arrays` from its ``evaluate``::
+
+    def evaluate(self, batch, columns, stage=Stage.PARTS):
+        from mechwright_scotch_yoke.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)
+
+``answer(designs, columns, stage)`` gets designs whose tables are allowed, some thousand at once, so that
+arrays stay in the cache. ``designs["crank"]`` is an array (n,) where the crank is varied and a plain number
+where it is not; :meth:`Designs.full` is an array in any case. It gives an :class:`Answer`, or None where it
+has no way for what is varied or asked. It may leave any design undecided: what it does not decide is checked
+and solved one by one.
+"""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright.contracts.evaluation import Batch, Columns, one_by_one
+from mechwright.contracts.finding import Stage
+from mechwright.contracts.refusals import refusals
+
+if TYPE_CHECKING:
+    from mechwright.contracts.family import Family
+
+CHUNK = 4096
+"""Designs that are answered at once: some dozens of arrays of them stay in the cache."""
+
+
+@dataclass(frozen=True)
+class Designs:
+    """Designs whose tables are allowed.
+
+    Parameters
+    ----------
+    common
+        One of them; of what is varied it says nothing of the others.
+    varied
+        Dotted name of a parameter to its values (n,), as the table reads them.
+    """
+
+    common: Any
+    varied: Mapping[str, NDArray[Any]]
+
+    def __len__(self) -> int:
+        return min(values.size for values in self.varied.values())
+
+    def __getitem__(self, name: str) -> Any:
+        """The values (n,) of a parameter that is varied, the one value of another."""
+        if name in self.varied:
+            return self.varied[name]
+        value: Any = self.common
+        for step in name.split("."):
+            value = getattr(value, step)
+        return value
+
+    def full(self, name: str) -> NDArray[Any]:
+        """The values (n,) of a parameter, varied or not."""
+        return np.broadcast_to(self[name], len(self)) if name not in self.varied else self.varied[name]
+
+    def some(self, places: "NDArray[Any] | slice") -> "Designs":
+        """Those at these places, or where a mask is true."""
+        return Designs(self.common, {name: values[places] for name, values in self.varied.items()})
+
+
+@dataclass
+class Answer:
+    """What is found of designs (n,), decided step by step, in the order in which a check goes.
+
+    Parameters
+    ----------
+    size
+        How many there are.
+    """
+
+    size: int
+    forbidden: NDArray[np.int32] = field(init=False)
+    """Which of ``codes`` forbids the design; 0 as long as nothing does."""
+    undecided: NDArray[np.bool_] = field(init=False)
+    """Whether the design has to be looked at by itself."""
+    codes: list[str] = field(default_factory=lambda: [""])
+    values: dict[str, Array] = field(default_factory=dict)
+    """Column to its values (n,); what stands at forbidden designs does not matter."""
+
+    def __post_init__(self) -> None:
+        self.forbidden = np.zeros(self.size, np.int32)
+        self.undecided = np.zeros(self.size, bool)
+
+    @property
+    def open(self) -> NDArray[np.bool_]:
+        """Which designs nothing has been said of so far."""
+        return np.asarray((self.forbidden == 0) & ~self.undecided)
+
+    @property
+    def left(self) -> NDArray[np.intp]:
+        """The places of the designs that nothing has been said of so far."""
+        return np.flatnonzero(self.open)
+
+    def forbid(self, code: str, which: NDArray[Any], places: "NDArray[np.intp] | None" = None) -> None:
+        """Say what forbids designs that are open so far: a mask of all, or of those at ``places``."""
+        self.forbidden[self._open(which, places)] = self._number(code)
+
+    def doubt(self, which: NDArray[Any], places: "NDArray[np.intp] | None" = None) -> None:
+        """Leave designs undecided, of those that are open so far."""
+        self.undecided[self._open(which, places)] = True
+
+    def give(self, column: str, values: Array, places: "NDArray[np.intp] | None" = None) -> None:
+        """Give values of a column, of all or of those at ``places``."""
+        if column not in self.values:
+            self.values[column] = np.full(self.size, np.nan)
+        self.values[column][slice(None) if places is None else places] = values
+
+    def _open(self, which: NDArray[Any], places: "NDArray[np.intp] | None") -> NDArray[np.intp]:
+        asked = np.flatnonzero(np.broadcast_to(which, self.size)) if places is None else places[which]
+        return np.asarray(asked[(self.forbidden[asked] == 0) & ~self.undecided[asked]])
+
+    def _number(self, code: str) -> int:
+        if code not in self.codes:
+            self.codes.append(code)
+        return self.codes.index(code)
+
+
+def by_arrays(
+    family: "Family[Any]",
+    batch: Batch[Any],
+    columns: Collection[str],
+    stage: Stage,
+    answer: Callable[[Designs, Collection[str], Stage], Answer | None],
+    chunk: int = CHUNK,
+) -> Columns:
+    """What :meth:`Family.evaluate` says, by arrays where ``answer`` has a way, design by design where not."""
+    told = refusals(batch)
+    found = _Found(batch, columns, told.codes, told.forbidden.copy())
+    slow = ~told.known
+    left = np.flatnonzero(told.known & (told.forbidden == 0))
+    for start in range(0, left.size, chunk):
+        places = left[start : start + chunk]
+        designs = Designs(told.common, {name: values[places] for name, values in told.values.items()})
+        with np.errstate(all="ignore"):
+            said = answer(designs, columns, stage)
+        if said is None:
+            slow[left[start:]] = True
+            break
+        slow[places[said.undecided]] = True
+        found.take(places, said)
+    if slow.any():
+        some = np.flatnonzero(slow)
+        one = Batch(batch.model, batch.content, {name: values[some] for name, values in batch.varied.items()})
+        found.merge(some, one_by_one(family.judge, family.solve, one, columns, stage))
+    return Columns(found.values, found.forbidden, tuple(found.codes))
+
+
+@dataclass
+class _Found:
+    """Columns as they come together."""
+
+    batch: Batch[Any]
+    columns: Collection[str]
+    first: tuple[str, ...]
+    forbidden: NDArray[np.int32]
+
+    @cached_property
+    def codes(self) -> dict[str, int]:
+        return {code: number for number, code in enumerate(self.first)}
+
+    @cached_property
+    def values(self) -> dict[str, Array]:
+        return {name: np.full(len(self.batch), np.nan) for name in self.columns}
+
+    def take(self, places: NDArray[np.intp], said: Answer) -> None:
+        free = said.open
+        for name in self.values.keys() & said.values.keys():
+            self.values[name][places[free]] = said.values[name][free]
+        self.forbidden[places] = self._numbers(tuple(said.codes))[said.forbidden]
+
+    def merge(self, places: NDArray[np.intp], said: Columns) -> None:
+        for name in self.values.keys() & said.values.keys():
+            self.values[name][places] = said.values[name]
+        self.forbidden[places] = self._numbers(said.codes)[said.forbidden]
+
+    def _numbers(self, codes: tuple[str, ...]) -> NDArray[np.int32]:
+        return np.array([self.codes.setdefault(code, len(self.codes)) for code in codes], dtype=np.int32)

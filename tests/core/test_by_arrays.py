@@ -1,0 +1,242 @@
+"""Many designs by arrays: what tables refuse, and answers that leave some designs to the slow way."""
+
+import warnings
+from typing import Annotated, ClassVar, Literal, Self
+
+import numpy as np
+import pytest
+from pydantic import AfterValidator, Field, ValidationError, model_validator
+
+from mechwright import Channel, Family, Finding, KinematicsError, Motion, Parameters, Scalar, Stage
+from mechwright.contracts.by_arrays import Answer, by_arrays
+from mechwright.contracts.evaluation import PARAMETERS, Batch, one_by_one
+from mechwright.contracts.refusals import refusals
+from mechwright.contracts.stand_in import Asked, StandIn
+from mechwright.testing import FamilyContract
+from mechwright.testing.evaluation import assert_same
+from mechwright.units import Millimetres, Ratio, Unit
+
+RANDOM = np.random.default_rng(1)
+
+
+class Inner(Parameters):
+    low: Millimetres = Field(1.0, ge=0, le=50, description="One end.")
+    high: Millimetres = Field(20.0, gt=0, lt=50, description="Other end.")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.low >= self.high:
+            raise ValueError("low has to be below high")
+        return self
+
+
+class Table(Parameters):
+    first: Millimetres = Field(3.0, ge=1, le=10, description="A length.")
+    inner: Inner = Field(Inner(), description="A table.")
+    teeth: int = Field(10, ge=5, le=20, description="A whole number.")
+    end: Annotated[float, Field(ge=-5, le=5), Unit("deg")] | None = Field(None, description="An angle.")
+    ratio: Ratio = Field(1.0, ge=0, le=2, description="A number.")
+    shape: Literal["round", "square"] = Field("round", description="A name.")
+    hollow: bool = Field(False, description="Whether it is hollow.")
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if self.shape == "square" and self.end is not None:
+            raise ValueError("end is for what is round")
+        return self
+
+    @model_validator(mode="after")
+    def _hollow(self) -> Self:
+        if self.hollow and self.inner.low < 2:
+            raise ValueError("inner.low is too small for a hollow one")
+        return self
+
+
+def some(low, high, count=200):
+    return RANDOM.uniform(low, high, count)
+
+
+def by_itself(batch):
+    said = []
+    for place in range(len(batch)):
+        try:
+            batch.one(place)
+            said.append("")
+        except ValidationError as error:
+            said.append(".".join([PARAMETERS, *map(str, error.errors()[0]["loc"])]))
+    return said
+
+
+@pytest.mark.parametrize(
+    ("content", "varied"),
+    [
+        ({}, {"ratio": some(-1, 3), "first": some(0, 11), "teeth": RANDOM.integers(3, 23, 200)}),
+        ({}, {"teeth": np.round(some(4, 8), 1), "end": some(-6, 6)}),
+        ({"shape": "square"}, {"end": np.append(some(-6, 6), np.nan), "first": some(0, 11, 201)}),
+        ({}, {"shape": RANDOM.choice(["round", "square", "oval"], 200), "first": some(0, 11)}),
+        ({}, {"first": RANDOM.choice(["2 mm", "2 cm", "0.1 in", "3 kg"], 200), "ratio": some(-1, 3)}),
+        ({}, {"inner.low": some(-1, 51), "inner.high": some(-1, 51), "teeth": RANDOM.integers(3, 23, 200)}),
+        ({}, {"inner.low": some(-1, 30), "first": some(0, 11), "ratio": some(-1, 3)}),
+        ({"hollow": True}, {"inner.low": some(0, 9), "first": some(0, 11)}),
+        ({"inner": {"low": 4}}, {"hollow": some(0, 1) > 0.5, "first": some(0, 11)}),
+    ],
+)
+def test_tables_are_refused_as_one_by_one(content, varied):
+    batch = Batch(Table, content, varied)
+    told = refusals(batch)
+    said = by_itself(batch)
+    if any(not code for code in said):
+        assert told.known.all()
+        assert {""} < set(said)
+    assert [c for c, k in zip(said, told.known, strict=True) if k] == [
+        told.codes[n] for n, k in zip(told.forbidden, told.known, strict=True) if k
+    ]
+    for place in np.flatnonzero(told.known & (told.forbidden == 0))[:20]:
+        one = batch.one(place)
+        for name, values in told.values.items():
+            value = one
+            for step in name.split("."):
+                value = getattr(value, step)
+            assert values[place] == value
+
+
+def test_what_is_not_known_is_left_to_the_table():
+    class Strange(Parameters):
+        even: Annotated[int, AfterValidator(lambda value: value + value % 2)] = Field(2, ge=0, le=9)
+        first: float = Field(2.0, ge=0, le=9)
+
+    class Completed(Parameters):
+        first: float = Field(2.0, ge=0, le=9)
+        second: float | None = Field(None, ge=0, le=9)
+
+        @model_validator(mode="after")
+        def _complete(self) -> Self:
+            return self if self.second is not None else self.model_copy(update={"second": 2 * self.first})
+
+    whole = np.arange(4)
+    assert not refusals(Batch(Strange, {}, {"even": whole})).known.any()
+    assert refusals(Batch(Strange, {}, {"first": whole})).known.all()
+    with warnings.catch_warnings(action="ignore"):  # pydantic takes a completed copy in a nested table alone
+        assert not refusals(Batch(Completed, {}, {"first": whole})).known.any()
+    assert not refusals(Batch(Table, {"first": -1}, {"ratio": some(0, 1)})).known.any()
+    assert not refusals(Batch(Table, {"strange": 1}, {"ratio": some(0, 1)})).known.any()
+
+
+def test_a_stand_in_tells_what_is_alike_and_asks_for_the_rest():
+    stand_in = StandIn(Table(), frozenset({"first", "inner.low"}))
+    assert isinstance(stand_in, Table)
+    assert stand_in.first is not None
+    assert (stand_in.teeth, stand_in.inner.high) == (10, 20.0)
+    for ask in (
+        lambda: stand_in.first > 2,
+        lambda: f"{stand_in.first:g}",
+        lambda: isinstance(stand_in.first, float),
+        lambda: stand_in.inner.low + 1,
+        lambda: stand_in.inner == Inner(),
+        lambda: stand_in.model_dump(),
+        lambda: np.sqrt(stand_in.first),
+    ):
+        with pytest.raises(Asked):
+            ask()
+
+
+class WedgeParams(Parameters):
+    """A wedge."""
+
+    rise: Millimetres = Field(2.0, ge=0, le=10, description="A length.")
+    run: Millimetres = Field(5.0, ge=1, le=10, description="A length.")
+
+
+class Wedge(Family[WedgeParams]):
+    name, title, summary = "wedge", "Wedge", "A closed form."
+    Params = WedgeParams
+    slow: ClassVar[list[float]] = []
+
+    def check(self, params):
+        self.slow.append(params.rise)
+        if params.rise > 2 * params.run:
+            return [Finding.error("wedge.steep", "rise", "is too steep")]
+        return (
+            [Finding.error("wedge.flat", "rise", "is too flat", stage=Stage.PARTS)] if params.rise < 1 else []
+        )
+
+    def solve(self, params, samples):
+        if params.rise == 4:
+            raise KinematicsError("rise: jams at 4; take another")
+        x = np.linspace(0, params.run, samples)
+        return Motion(
+            "x",
+            {"x": Channel(x, "mm"), "y": Channel(params.rise / params.run * x, "mm")},
+            scalars={"slope": Scalar(np.arctan2(params.rise, params.run), "rad")},
+        )
+
+    def parts(self, params):
+        return ()
+
+    def evaluate(self, batch, columns, stage=Stage.PARTS):
+        return by_arrays(self, batch, columns, stage, wedges, chunk=64)
+
+
+def wedges(designs, columns, stage):
+    if not {*columns} <= {"slope", "y.greatest", "y.least"} or "run" in designs.varied:
+        return None
+    found = Answer(len(designs))
+    rise = designs.full("rise")
+    found.forbid("wedge.steep", rise > 2 * designs["run"])
+    if stage is not Stage.MOTION:
+        found.forbid("wedge.flat", rise < 1)
+    left = found.left
+    found.doubt(rise[left] > 9, left)
+    found.doubt(rise == 4)
+    found.give("slope", np.degrees(np.arctan2(rise, designs["run"])))
+    found.give("y.greatest", rise)
+    found.give("y.least", 0 * rise)
+    return found
+
+
+@pytest.mark.parametrize("stage", [Stage.MOTION, Stage.PARTS])
+def test_what_is_undecided_is_asked_by_itself(stage):
+    rise = np.append(some(-1, 11, 300), [4.0, 2.0])
+    batch = Batch(WedgeParams, {"run": 5}, {"rise": rise})
+    Wedge.slow.clear()
+    found = Wedge().evaluate(batch, ["slope", "y.greatest"], stage)
+    assert sorted(Wedge.slow) == sorted(rise[((rise > 9) & (rise <= 10)) | (rise == 4)])
+    assert_same(found, one_by_one(Wedge().judge, Wedge().solve, batch, ["slope", "y.greatest"], stage))
+    assert {"parameters.rise", "motion"} <= set(found.counts)
+
+
+def test_what_has_no_way_goes_one_by_one():
+    for content, varied, columns in (
+        ({}, {"run": some(0, 11)}, ["slope"]),
+        ({}, {"rise": some(0, 11)}, ["slope", "x.least"]),
+        ({"run": -1}, {"rise": some(0, 11)}, ["slope"]),
+    ):
+        batch = Batch(WedgeParams, content, varied)
+        found = Wedge().evaluate(batch, columns)
+        assert_same(found, one_by_one(Wedge().judge, Wedge().solve, batch, columns, Stage.PARTS))
+
+
+class WrongWedge(Wedge):
+    def evaluate(self, batch, columns, stage=Stage.PARTS):
+        found = super().evaluate(batch, columns, stage)
+        found.values["slope"][0] *= 1 + 1e-8
+        return found
+
+
+class HastyWedge(Wedge):
+    def evaluate(self, batch, columns, stage=Stage.PARTS):
+        return super().evaluate(batch, columns, Stage.MOTION)
+
+
+def test_the_contract_finds_other_figures_and_other_refusals():
+    def contract(kind):
+        tests = FamilyContract()
+        type(tests).__test__ = False
+        tests.family, tests.designs = kind, 30
+        return tests
+
+    contract(Wedge).test_evaluate()
+    with pytest.raises(AssertionError, match="slope"):
+        contract(WrongWedge).test_evaluate()
+    with pytest.raises(AssertionError, match=r"by itself by 'wedge\.flat'"):
+        contract(HastyWedge).test_evaluate()
