@@ -355,7 +355,7 @@ def _asked(
     alike: Collection[str],
     asked: NDArray[np.intp],
 ) -> Collection[int] | NDArray[np.intp]:
-    """Places of designs with some values alike that a rule refuses: all or none if it asks for nothing else."""
+    """Places of designs with some values alike that a rule refuses: all or none if it asks no other value."""
     stand_in = StandIn(common, frozenset(values) - frozenset(alike))
     try:
         if rule(stand_in) is not stand_in:
