@@ -17,8 +17,10 @@ transmission angle μ
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import reduce
 
 import numpy as np
 
@@ -42,6 +44,11 @@ class Kind(StrEnum):
     def full_turn(self) -> bool:
         """Whether the crank turns fully without a doubt about the branch."""
         return self in (Kind.CRANK_ROCKER, Kind.DOUBLE_CRANK)
+
+
+def _single(lengths: Sequence[float]) -> bool:
+    """Whether these are numbers, no arrays over many linkages."""
+    return not any(isinstance(length, np.ndarray) for length in lengths)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,13 +99,22 @@ class FourBar:
     @property
     def grashof_excess(self) -> float:
         """Sum of the two middle links less that of shortest and longest, mm; 0 or more: some link turns."""
-        shortest, *middle, longest = sorted(self.lengths)
-        return sum(middle) - shortest - longest
+        if _single(self.lengths):
+            shortest, *middle, longest = sorted(self.lengths)
+            return sum(middle) - shortest - longest
+        ordered = np.sort(np.stack(np.broadcast_arrays(*self.lengths)), axis=0)
+        excess: float = ordered[1] + ordered[2] - ordered[0] - ordered[3]
+        return excess
 
     @property
     def closes(self) -> bool:
         """Whether the links can be assembled in some position: none is longer than the others together."""
-        return 2 * max(self.lengths) <= sum(self.lengths)
+        return 2 * self.longest <= sum(self.lengths)
+
+    @property
+    def longest(self) -> float:
+        """The longest link, mm."""
+        return max(self.lengths) if _single(self.lengths) else reduce(np.maximum, self.lengths)
 
     @property
     def kind(self) -> Kind:
@@ -123,7 +139,8 @@ class FourBar:
         The diagonal A-B0 runs from abs(f - a) to f + a, and the dyad of c and b spans abs(c - b) to c + b.
         """
         a, c, b, f = self.lengths
-        return min(b + c - a - f, abs(f - a) - abs(b - c))
+        far, near = b + c - a - f, abs(f - a) - abs(b - c)
+        return min(far, near) if _single(self.lengths) else np.minimum(far, near)
 
     @property
     def lines_up(self) -> bool:
@@ -133,29 +150,36 @@ class FourBar:
     @property
     def rocks(self) -> bool:
         """Whether the crank cannot turn fully: it is a lever."""
-        return self.crank_room < 0 and not self.lines_up
+        if _single(self.lengths):
+            return self.crank_room < 0 and not self.lines_up
+        back: bool = np.asarray(self.crank_room < 0) & ~np.asarray(self.lines_up)
+        return back
 
     def limits(self) -> Limits | None:
         """Limit positions of the follower; None where it turns fully or the crank does not.
 
         cos φ = (f² + (c ± a)² - b²) / (2 f (c ± a)), crank and coupler in one line.
         """
-        if self.kind is not Kind.CRANK_ROCKER:
-            return None
+        return self.folding() if self.kind is Kind.CRANK_ROCKER else None
+
+    def folding(self) -> Limits:
+        """The same of a crank-rocker, or of many at once."""
         a, c, b, f = self.lengths
-        extended = self.branch * math.acos((f * f + (c + a) ** 2 - b * b) / (2 * f * (c + a)))
-        folded = math.pi + self.branch * math.acos((f * f + (c - a) ** 2 - b * b) / (2 * f * (c - a)))
+        extended = self.branch * np.arccos((f * f + (c + a) ** 2 - b * b) / (2 * f * (c + a)))
+        folded = math.pi + self.branch * np.arccos((f * f + (c - a) ** 2 - b * b) / (2 * f * (c - a)))
         # At the limits B is in line with the crank: at (c + a) and, folded, at (c - a) against the crank.
         far = (c + a) * np.exp(1j * extended) - f
         near = -(c - a) * np.exp(1j * folded) - f
-        swing = abs(float(np.angle(far / near)))
+        swing = abs(np.angle(far / near))
         between = (folded - extended) % math.tau
-        return Limits(
+        longer = np.maximum(between, math.tau - between)
+        figures = (
             extended % math.tau,
             folded % math.tau,
             swing,
-            max(between, math.tau - between) / min(between, math.tau - between),
+            longer / np.minimum(between, math.tau - between),
         )
+        return Limits(*(map(float, figures) if _single(self.lengths) else figures))
 
     def transmission_cosines(self) -> tuple[float, float]:
         """Cosines of the angle at B with the crank over the ground line, and against it."""
@@ -163,6 +187,10 @@ class FourBar:
         near = (b * b + c * c - (f - a) ** 2) / (2 * b * c)
         far = (b * b + c * c - (f + a) ** 2) / (2 * b * c)
         return near, far
+
+    def cosine_over(self, square: float) -> float:
+        """Cosine of the angle at B over a squared diagonal from A to B0, mm²."""
+        return (self.follower**2 + self.coupler**2 - square) / (2 * self.follower * self.coupler)
 
     def least_transmission_angle(self) -> float:
         """Smallest transmission angle of a turn, rad; the crank must turn fully."""
@@ -178,11 +206,11 @@ class FourBar:
         Both are counted from the ground line; the angle at B changes one way between crank in line and
         crank against it.
         """
-        a, c, b, f = self.lengths
+        a, f = self.crank, self.ground
         low, high = min(one, two), max(one, two)
         through = range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)
         squares = [a * a + f * f - 2 * a * f * math.cos(x) for x in (low, high)]
         squares += [(f + (a if k % 2 else -a)) ** 2 for k in through]
-        cosines = [(b * b + c * c - square) / (2 * b * c) for square in squares]
+        cosines = [self.cosine_over(square) for square in squares]
         angles = [math.acos(min(1.0, abs(cosine))) for cosine in cosines]
         return min(angles), math.pi / 2 if min(cosines) * max(cosines) <= 0 else max(angles)

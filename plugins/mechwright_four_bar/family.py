@@ -1,9 +1,9 @@
 """The family ``four-bar``."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         ToleranceModel,
         Tolerances,
     )
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class FourBars(Family[FourBarParams]):
@@ -29,6 +30,7 @@ class FourBars(Family[FourBarParams]):
     title = "Four-bar linkage"
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
     Params = FourBarParams
+    batch = 1 << 16
     requirements: ClassVar = {
         "path": PathRequirement,
         "adjustable-path": AdjustablePathRequirement,
@@ -88,6 +90,15 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.tolerances import FourBarTolerances
 
         return FourBarTolerances(in_phase(params), tolerances)
+
+    def evaluate(
+        self, batch: "Batch[FourBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Many at once, where they are plain and may have two ground plates; forces and masses one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_four_bar.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

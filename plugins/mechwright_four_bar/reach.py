@@ -31,10 +31,7 @@ def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
     >>> reach(FourBar(30, 80, 70, 90)) == ((0.0, math.tau),)
     True
     """
-    a, c, b, f = bar.lengths
-    less = 4 * b * c * math.sin(least / 2) ** 2
-    near = (a * a + f * f - (b - c) ** 2 - less) / (2 * a * f)
-    far = (a * a + f * f - (b + c) ** 2 + less) / (2 * a * f)
+    near, far = reach_cosines(bar, least)
     if near <= -1 or far >= 1 or far >= near:
         return ()
     low = math.acos(near) if near < 1 else 0.0
@@ -42,6 +39,14 @@ def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
     if near >= 1:
         return ((0.0, math.tau),) if far <= -1 else ((-high, high),)
     return ((low, math.tau - low),) if far <= -1 else ((low, high), (-high, -low))
+
+
+def reach_cosines(bar: FourBar, least: float = 0.0) -> tuple[float, float]:
+    """Cosines of the crank angles at which the diagonal is as short, and as long, as :func:`reach` allows."""
+    a, c, b, f = bar.lengths
+    less = 4 * b * c * math.sin(least / 2) ** 2
+    near = (a * a + f * f - (b - c) ** 2 - less) / (2 * a * f)
+    return near, (a * a + f * f - (b + c) ** 2 + less) / (2 * a * f)
 
 
 def bar_of(params: FourBarParams) -> FourBar:

@@ -10,11 +10,12 @@ A family writes one function of :class:`Designs`, and calls :func:`by_arrays` fr
 ``answer(designs, columns, stage)`` gets designs whose tables are allowed, some thousand at once, so that
 arrays stay in the cache. ``designs["crank"]`` is an array (n,) where the crank is varied and a plain number
 where it is not; :meth:`Designs.full` is an array in any case. It gives an :class:`Answer`, or None where it
-has no way for what is varied or asked. It may leave any design undecided: what it does not decide is checked
-and solved one by one.
+has no way for what is varied. It may leave any design undecided, and any column out: what it does not decide
+is checked and solved one by one, and columns that it leaves out are taken from the motion of each design that
+is allowed.
 """
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -24,7 +25,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.evaluation import Batch, Columns, one_by_one
-from mechwright.contracts.finding import Stage
+from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.refusals import refusals
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ class Answer:
     """Whether the design has to be looked at by itself."""
     codes: list[str] = field(default_factory=lambda: [""])
     values: dict[str, Array] = field(default_factory=dict)
-    """Column to its values (n,); what stands at forbidden designs does not matter."""
+    """Column to its values (n,), NaN where there is none; those of forbidden designs do not matter."""
 
     def __post_init__(self) -> None:
         self.forbidden = np.zeros(self.size, np.int32)
@@ -150,11 +151,22 @@ def by_arrays(
             break
         slow[places[said.undecided]] = True
         found.take(places, said)
+        if missing := [name for name in columns if name not in said.values]:
+            solved = places[said.open]
+            found.merge(solved, one_by_one(_allowed, family.solve, _some(batch, solved), missing, stage))
     if slow.any():
         some = np.flatnonzero(slow)
-        one = Batch(batch.model, batch.content, {name: values[some] for name, values in batch.varied.items()})
-        found.merge(some, one_by_one(family.judge, family.solve, one, columns, stage))
+        found.merge(some, one_by_one(family.judge, family.solve, _some(batch, some), columns, stage))
     return Columns(found.values, found.forbidden, tuple(found.codes))
+
+
+def _some(batch: Batch[Any], places: NDArray[np.intp]) -> Batch[Any]:
+    varied = {name: values[places] for name, values in batch.varied.items()}
+    return Batch(batch.model, batch.content, varied)
+
+
+def _allowed(params: Any) -> Sequence[Finding]:  # noqa: ARG001 - what is asked has been judged
+    return ()
 
 
 @dataclass
@@ -184,6 +196,8 @@ class _Found:
         for name in self.values.keys() & said.values.keys():
             self.values[name][places] = said.values[name]
         self.forbidden[places] = self._numbers(said.codes)[said.forbidden]
+        for values in self.values.values():
+            values[places[said.forbidden != 0]] = np.nan
 
     def _numbers(self, codes: tuple[str, ...]) -> NDArray[np.int32]:
         return np.array([self.codes.setdefault(code, len(self.codes)) for code in codes], dtype=np.int32)

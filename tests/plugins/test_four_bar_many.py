@@ -1,0 +1,133 @@
+"""Many four-bars at once are what each is by itself."""
+
+import math
+
+import numpy as np
+import pytest
+
+from mechwright import Stage
+from mechwright.contracts import by_arrays
+from mechwright.contracts.evaluation import Batch, one_by_one
+from mechwright.testing.evaluation import assert_same
+from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.params import FourBarParams
+
+FAMILY = FourBars()
+POINT = [
+    f"{rate}{axis}P.{end}" for rate in ("", "v", "a", "j") for axis in "xy" for end in ("least", "greatest")
+]
+LINKS = [
+    f"{name}.{end}"
+    for name in (
+        "sigma",
+        "psi",
+        "omega_c",
+        "alpha_c",
+        "jerk_c",
+        "omega_b",
+        "alpha_b",
+        "jerk_b",
+        "transmission_angle",
+    )
+    for end in ("least", "greatest")
+]
+FIGURES = [
+    "least_transmission_angle", "greatest_transmission_angle", "grashof_excess", "swing", "time_ratio",
+    "limit_extended", "limit_folded", "omega_b_max", "alpha_b_max", "time.greatest", "omega_a.greatest",
+    "alpha_a.least", "jerk_a.least", "swing_from", "swing_to", "input_range", "toggle_low", "toggle_high",
+]  # fmt: skip
+
+
+def drawn(count, content, **ranges):
+    rng = np.random.default_rng(1)
+    varied = {
+        name: rng.choice(some, count) if isinstance(some, list) else rng.uniform(*some, count)
+        for name, some in ranges.items()
+    }
+    return Batch(FourBarParams, content, varied)
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """How many designs were asked one by one."""
+    count = []
+
+    def counted(judge, solve, batch, columns, stage):
+        count.extend(range(len(batch)))
+        return one_by_one(judge, solve, batch, columns, stage)
+
+    monkeypatch.setattr(by_arrays, "one_by_one", counted)
+    return count
+
+
+def same(batch, columns, stage):
+    found = FAMILY.evaluate(batch, columns, stage)
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, columns, stage))
+    return found
+
+
+def test_cranks_and_levers_of_both_branches(alone):
+    batch = drawn(
+        16, {"speed": 100, "bushing_wall": 0}, crank=(0, 100), coupler=(5, 150), follower=(5, 150),
+        ground=(1, 150), ground_angle=(-300, 300), branch=["open", "crossed"], direction=["cw", "ccw"],
+    )  # fmt: skip
+    found = same(batch, LINKS + FIGURES, Stage.PARTS)
+    assert {"four-bar.closure", "four-bar.bores", "parameters.crank"} & set(found.counts)
+    assert not alone
+
+
+def test_accelerating_cranks_and_coupler_points(alone):
+    batch = drawn(
+        12, {"acceleration_ratio": 0.1, "coupler_point_x": 20, "pivot_x": 5, "ground": 90},
+        crank=(20, 50), coupler=(60, 120), follower=(40, 100), coupler_point_y=(-40, 40),
+    )  # fmt: skip
+    found = same(batch, POINT + LINKS + FIGURES, Stage.MOTION)
+    assert "four-bar.acceleration" in found.counts
+    assert not alone
+
+
+def test_what_may_tear_is_asked_by_itself(alone):
+    batch = drawn(
+        8, {"speed": 3000, "thickness": 2, "rim": 1, "load_torque": 100, "ground": 100},
+        crank=(10, 30), coupler=(90, 110), follower=(70, 90), material=["pom", "steel"],
+    )  # fmt: skip
+    found = same(batch, ["alpha_b_max"], Stage.PARTS)
+    assert "four-bar.eye" in found.counts
+    assert alone
+
+
+def test_forces_and_masses_are_those_of_each(alone):
+    batch = drawn(4, {"ground": 90}, crank=(15, 25), coupler=(80, 100))
+    same(batch, ["mass_coupler", "force_A.greatest", "xG.least", "alpha_b_max"], Stage.PARTS)
+    assert len(alone) == 4
+
+
+@pytest.mark.parametrize(
+    "content", [{"frame": "one"}, {"coupler_bend": 3}, {"swing_from": 10, "swing_to": 50}]
+)
+def test_what_has_no_way_goes_one_by_one(content, alone):
+    same(drawn(3, content, crank=(15, 25)), ["alpha_b_max"], Stage.MOTION)
+    assert len(alone) == 3
+
+
+def test_a_lever_turns_back_at_one_degree():
+    batch = drawn(50, {"ground": 110, "coupler": 60, "follower": 75}, crank=(60, 90))
+    found = FAMILY.evaluate(batch, ["least_transmission_angle"])
+    assert (found.forbidden == 0).all()
+    assert found.values["least_transmission_angle"] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_rates_of_a_parallelogram_like_linkage_in_closed_form():
+    # With the crank over the ground line the follower turns with a/(f - a) times sin(b)/sin(d) of the triangle.
+    a, c, b, f = 30.0, 100.0, 90.0, 95.0
+    found = FAMILY.evaluate(
+        Batch(
+            FourBarParams,
+            {"ground": f},
+            {"crank": np.array([a]), "coupler": np.array([c]), "follower": np.array([b])},
+        ),
+        ["grashof_excess", "swing"],
+    )
+    far, near = (math.acos((b * b + f * f - x * x) / (2 * b * f)) for x in (c + a, c - a))
+    assert found.values["swing"][0] == pytest.approx(math.degrees(far - near))
+    assert found.values["grashof_excess"][0] == pytest.approx(b + f - a - c)
