@@ -47,7 +47,7 @@ def examples() -> list[str]:
     return [
         name
         for name, controls in milled.items()
-        if controls in ([], ["linuxcnc"]) and "requirement" not in name
+        if controls in ([], ["linuxcnc"]) and not name.endswith(("-requirement", "-study"))
     ]
 
 

@@ -17,7 +17,9 @@ from mechwright.designs.text import template
 from mechwright.plugins.host import host
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
-DESIGNS = sorted(path for path in EXAMPLES.glob("*.toml") if not path.stem.endswith("-requirement"))
+DESIGNS = sorted(
+    path for path in EXAMPLES.glob("*.toml") if not path.stem.endswith(("-requirement", "-study"))
+)
 FOUR_BAR = 'format = 1\nfamily = "four-bar"\nname = "rocker"\n'
 
 

@@ -9,10 +9,12 @@ from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
+from mechwright.sweep.study import load_study
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]
-DESIGNS = [path for path in EXAMPLES if path not in REQUIREMENTS]
+STUDIES = [path for path in EXAMPLES if path.stem.endswith("-study")]
+DESIGNS = [path for path in EXAMPLES if path not in REQUIREMENTS + STUDIES]
 
 
 def test_every_family_has_a_design_and_every_synthesis_a_requirement() -> None:
@@ -33,3 +35,13 @@ def test_a_design_has_no_fault_and_says_what_it_is(path: Path) -> None:
 @pytest.mark.parametrize("path", REQUIREMENTS, ids=lambda path: path.stem)
 def test_a_requirement_says_how_it_is_met(path: Path) -> None:
     assert f"mechwright synthesize examples/{path.name}" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+def test_a_study_says_how_it_is_run_and_is_evaluated_at_once(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith("# ")
+    assert f"mechwright sweep examples/{path.name}" in text
+    study = load_study(path, host())
+    assert study.count >= 10**6
+    assert type(study.family).evaluate is not Family.evaluate

@@ -30,7 +30,6 @@ def design_files() -> list[Path]:
     found = [
         *EXAMPLES.glob("*.toml"),
         *(EXAMPLES / "motion").glob("*.toml"),
-        *(EXAMPLES / "studies").glob("*.toml"),
     ]
     return sorted(found, key=lambda path: path.name)
 

@@ -25,7 +25,9 @@ from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
 from mechwright_cad.animation.space import SURFACE_CHORD
 
 EXAMPLES = sorted(
-    path for path in (Path(__file__).parents[2] / "examples").glob("*.toml") if "requirement" not in path.stem
+    path
+    for path in (Path(__file__).parents[2] / "examples").glob("*.toml")
+    if not path.stem.endswith(("-requirement", "-study"))
 )
 SIZE = 1_000_000
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

@@ -83,6 +83,7 @@ def test_lengths_without_a_locus_are_one_line(arguments, words, capsys):
 
 
 EXAMPLES = sorted((ROOT / "examples").glob("slider-crank-*.toml"))
+EXAMPLES = [path for path in EXAMPLES if not path.stem.endswith("-study")]
 
 
 @pytest.mark.parametrize(
