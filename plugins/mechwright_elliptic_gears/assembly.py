@@ -15,7 +15,9 @@ axis is off:
 
 import math
 
-from mechwright import TOLERANCES
+import numpy as np
+
+from mechwright import TOLERANCES, Array
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 LEFT = 2 * TOLERANCES.leftover
@@ -54,12 +56,25 @@ def jamming_backlash(params: EllipticGearParams) -> float:
 
 
 def _backlash(params: EllipticGearParams, left: float, off_centre: float) -> float:
-    alpha = math.radians(params.pressure_angle)
-    share = 1.0
+    alpha = np.asarray(math.radians(params.pressure_angle))
     if params.stages == 1:
-        share = math.sin(alpha) / math.sqrt(1 - params.eccentricity**2)
-    least = 2 * (left + off_centre * share) / math.cos(alpha)
-    return round(math.ceil(least / STEP) * STEP, 6)
+        return float(_of_pairs(np.asarray(params.eccentricity), alpha, left, off_centre))
+    return float(_up(2 * (left + off_centre) / np.cos(alpha)))
+
+
+def least_backlashes(eccentricity: Array, pressure_angle: Array) -> Array:
+    """As :func:`least_backlash` of many pairs (n,), their angles in rad."""
+    return _of_pairs(eccentricity, pressure_angle, LEFT, OFF_CENTRE)
+
+
+def _of_pairs(eccentricity: Array, alpha: Array, left: float, off_centre: float) -> Array:
+    share = np.sin(alpha) / np.sqrt(1 - eccentricity**2)
+    return _up(2 * (left + off_centre * share) / np.cos(alpha))
+
+
+def _up(backlash: Array) -> Array:
+    up: Array = np.round(np.ceil(backlash / STEP) * STEP, 6)
+    return up
 
 
 def backlash_of(params: EllipticGearParams) -> float:

@@ -1,6 +1,6 @@
 """The family ``elliptic-gears``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         ToleranceModel,
         Tolerances,
     )
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -33,6 +34,7 @@ class EllipticGears(Family[EllipticGearParams]):
     summary = "A pair of congruent elliptic gears, or a train of two whose coupler draws a figure of eight."
     Params = EllipticGearParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
+    batch: ClassVar[int] = 100_000
 
     def check(self, params: EllipticGearParams) -> Sequence[Finding]:
         """Undercut, tips, roots, bore, phase, pressure angle at the shaft, and the mesh proof."""
@@ -101,6 +103,15 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.synthesis import synthesise
 
         return synthesise(kind, REQUIREMENTS[kind].model_validate(requirement.model_dump()), progress)
+
+    def evaluate(
+        self, batch: "Batch[EllipticGearParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Teeth, rims and figures of many pairs by formulas."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_elliptic_gears.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer, chunk=self.batch)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
         """The end of the figure of eight."""

@@ -124,6 +124,32 @@ def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: flo
     return pressure_angle + np.abs(tilt(gear, eccentricity))
 
 
+def alpha_peak(eccentricity: Array) -> Array:
+    """Greatest size of f' (...), rad/s² at 1 rad/s of gear 2: where 2 e cos² θ + (1 + e²) cos θ = 4 e."""
+    e = np.asarray(eccentricity, dtype=float)
+    one = 1 + e * e
+    # the root in the form that stands where e is 0
+    cos = 8 * e / (one + np.sqrt(one * one + 32 * e * e))
+    peak: Array = 2 * e * (1 - e * e) * np.sqrt(1 - cos * cos) / (one - 2 * e * cos) ** 2
+    return peak
+
+
+def jerk_peak(eccentricity: Array) -> Array:
+    """Greatest size of the second derivative of f (...), rad/s³ at 1 rad/s of gear 2.
+
+    With c = cos θ it is 2 e (1 - e²) (2 e c² + (1 + e²) c - 4 e)/D³, greatest at θ = 0, at π, or where
+    4 e² c² + 8 e (1 + e²) c + (1 + e²)² = 24 e².
+    """
+    e = np.asarray(eccentricity, dtype=float)
+    one = 1 + e * e
+    half, rest = 4 * e * one, one * one - 24 * e * e
+    root = np.sqrt(np.maximum(half * half - 4 * e * e * rest, 0.0))
+    inner = np.clip(-rest / np.where(half + root > 0, half + root, np.inf), -1, 1)
+    sizes = [np.abs((2 * e * c * c + one * c - 4 * e) / (one - 2 * e * c) ** 3) for c in (1.0, -1.0, inner)]
+    peak: Array = 2 * e * (1 - e * e) * np.maximum.reduce(sizes)
+    return peak
+
+
 def steepest_shaft_pressure_angle(eccentricity: float, pressure_angle: float) -> float:
     """Largest value of :func:`shaft_pressure_angle` over a turn, rad: pressure angle + asin e."""
     return pressure_angle + float(np.arcsin(eccentricity))

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -44,33 +45,9 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     a, e = ellipse_of(params).semi_major, params.eccentricity
     omega = params.speed * math.tau / 60
     theta2 = travelled(math.tau, samples)
-    gear2 = Turning.of(theta2, omega)
-    phase = params.phase_angle
-    turning: dict[str, Turning] = {"2": gear2}
-    if phase is None:
-        first, second, link = gear2, driven(gear2, e), "3"
-        turning |= {"4": second}
-        inputs = [gear2]
-    else:
-        gear3, first, second = train(gear2, e, phase)
-        turning |= {"3": gear3, "4": first, "5": second}
-        link, inputs = "6", [gear2, first]
-    turning[link] = coupler(first, second)
-    q = point_of_coupler(first, second, a, e, place(params.point_along, params.point_across, a))
-    channels = {"time": Channel(theta2 / omega, "s", "time")}
-    for number, one in turning.items():
-        channels |= turning_channels(one, f"theta{number}", number, _called(number, link))
-    channels["ratio"] = Channel(second.omega / omega, "", "ratio of the speeds")
-    if phase is None:
-        s2, s4 = pitch_radii(gear2, a, e)
-        channels |= {
-            "s2": Channel(s2, "mm", "pitch radius of gear 2"),
-            "s4": Channel(s4, "mm", "pitch radius of gear 4"),
-        }
-    channels |= _point_channels(q)
-    alpha = math.radians(params.pressure_angle)
-    steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
-    channels["pressure_angle"] = Channel(steepest, "rad", "pressure angle at the shaft")
+    phase, c = params.phase_angle, place(params.point_along, params.point_across, a)
+    turning = _turning(theta2, e, omega, phase)
+    channels = _channels(turning, a, e, omega, math.radians(params.pressure_angle), c)
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
     around = np.linspace(0, math.tau, _PITCH_SAMPLES)
@@ -82,6 +59,45 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     )
     curves = {f"pitch-{name}": Curve.planar(name, pitch) for name in poses if name.startswith("gear-")}
     return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves)
+
+
+def _turning(theta2: Array, e: Any, omega: Any, phase: float | None) -> dict[str, Turning]:
+    """The gears by their numbers, and the coupler last; many pairs are columns (m, 1)."""
+    gear2 = Turning.of(theta2, omega)
+    if phase is None:
+        gear4 = driven(gear2, e)
+        return {"2": gear2, "4": gear4, "3": coupler(gear2, gear4)}
+    gear3, gear4, gear5 = train(gear2, e, phase)
+    return {"2": gear2, "3": gear3, "4": gear4, "5": gear5, "6": coupler(gear4, gear5)}
+
+
+def pair_channels(theta2: Array, a: Any, e: Any, omega: Any, alpha: Any, c: Any) -> dict[str, Channel]:
+    """The channels of pairs at angles (n,) of gear 2; all else are columns (m, 1), angles in rad."""
+    return _channels(_turning(theta2, e, omega, None), a, e, omega, alpha, c)
+
+
+def _channels(
+    turning: Mapping[str, Turning], a: Any, e: Any, omega: Any, alpha: Any, c: Any
+) -> dict[str, Channel]:
+    *_, link = turning
+    pair, gear2 = link == "3", turning["2"]
+    first, second = (gear2, turning["4"]) if pair else (turning["4"], turning["5"])
+    q = point_of_coupler(first, second, a, e, c)
+    channels = {"time": Channel(gear2.theta / omega, "s", "time")}
+    for number, one in turning.items():
+        channels |= turning_channels(one, f"theta{number}", number, _called(number, link))
+    channels["ratio"] = Channel(second.omega / omega, "", "ratio of the speeds")
+    if pair:
+        s2, s4 = pitch_radii(gear2, a, e)
+        channels |= {
+            "s2": Channel(s2, "mm", "pitch radius of gear 2"),
+            "s4": Channel(s4, "mm", "pitch radius of gear 4"),
+        }
+    channels |= _point_channels(q)
+    inputs = [gear2] if pair else [gear2, first]
+    steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
+    channels["pressure_angle"] = Channel(steepest, "rad", "pressure angle at the shaft")
+    return channels
 
 
 _PITCH_SAMPLES = 181

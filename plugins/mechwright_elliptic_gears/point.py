@@ -9,6 +9,8 @@ A middle point (c = 1/2) runs along a hippopede whatever the phase angle, about 
 4 a² ((e² - 1/2) 2 β + sin(2 β)/2), β = arcsin e.
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechwright import Array
@@ -16,9 +18,9 @@ from mechwright.mechanics.planar import PointMotion
 from mechwright_elliptic_gears.kinematics import Complex, Turning, mate_pointer, ratio
 
 
-def place(along: float, across: float, semi_major: float) -> complex:
+def place(along: Any, across: Any, semi_major: Any) -> Any:
     """The number c of a point ``along`` (0 at J, 1 at K) and ``across``, mm to the left of J-K."""
-    return complex(along, across / (2 * semi_major))
+    return along + 1j * across / (2 * semi_major)
 
 
 def point_of_coupler(
@@ -38,11 +40,11 @@ def point_of_coupler(
     ((90+0j), 400.0)
     """
     reach = 2 * semi_major * eccentricity
-    position: Complex = np.zeros(np.shape(gear.theta), dtype=np.complex128) + 2 * semi_major * c
+    shape = np.broadcast_shapes(np.shape(gear.theta), np.shape(reach), np.shape(c))
+    position: Complex = np.zeros(shape, dtype=np.complex128) + 2 * semi_major * c
     rates: list[Complex] = [np.zeros_like(position) for _ in range(3)]
     for turning, share in ((gear, 1 - c), (mate, c)):
-        pointer = _unit(turning.theta)
-        pointer *= share * reach
+        pointer = _unit(turning.theta) * (share * reach)
         position += pointer
         omega, alpha = turning.omega, turning.alpha
         rates[0] += 1j * omega * pointer

@@ -19,7 +19,7 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 LEAST_CLEARANCE = 0.1
 """Modules between tip and root below which dirt and run-out make them touch (ISO 53 racks have 0.25)."""
 
-_DOUBT = 0.03
+DOUBT = 0.03
 """Modules of flank left below a tip from which no tip was seen to collide, if it clears the root as well."""
 
 _SPARE = 0.005
@@ -50,7 +50,7 @@ def may_collide(params: EllipticGearParams) -> bool:
         left = rack.straight_depth / rack.module - tip_depth(params)
     except GeometryError:
         return False
-    return left < _DOUBT or params.dedendum - params.addendum < LEAST_CLEARANCE
+    return left < DOUBT or params.dedendum - params.addendum < LEAST_CLEARANCE
 
 
 def that_clear(params: EllipticGearParams) -> Iterator[Change]:

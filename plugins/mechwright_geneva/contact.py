@@ -39,7 +39,11 @@ _SHORTEST = 1e-3
 """Length of a roller, mm, below which no line touches; keeps the pressure of one without a length finite."""
 
 _SAMPLES = 501
-"""Samples of a stroke that find a peak, mid stroke among them; as many again within two of them refine it."""
+"""Samples of a stroke that find a peak, mid stroke among them."""
+
+_CLOSER, _ZOOMS = 17, 3
+"""Samples between the neighbours of the greatest one, and how often they are drawn together: between the
+last a hill is flat to a share of 1e-10."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +131,7 @@ def drive_of(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Dr
         params.load_inertia,
         params.load_torque,
         m.roller,
-        max(m.params.roller_length, _SHORTEST),
+        np.maximum(m.params.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
         turning.alpha,
         m.driver.sense,
@@ -220,25 +224,30 @@ class Loads:
     wheel_torque: float
 
 
+def sampled(mechanism: Mechanism) -> "tuple[Stroke, list[tuple[int, Contact]]]":
+    """A stroke at the samples among which peaks are sought, and the contact in each of a turn that differ."""
+    run = mechanism.stroke(np.linspace(0, 1, _SAMPLES))
+    strokes = mechanism.strokes if mechanism.driver.varies else mechanism.strokes[:1]
+    return run, [(stroke, contact(mechanism, run, stroke)) for stroke in strokes]
+
+
 @kept
 def loads(mechanism: Mechanism) -> Loads:
     """The peaks of the contact over the strokes of a turn; over one where all are alike."""
-    u = np.linspace(0, 1, _SAMPLES)
-    run = mechanism.stroke(u)
+    run, found = sampled(mechanism)
     time = 2 * mechanism.crank_half
-    strokes = mechanism.strokes if mechanism.driver.varies else mechanism.strokes[:1]
-    found = [(stroke, contact(mechanism, run, stroke)) for stroke in strokes]
 
     def peak(name: str) -> tuple[float, float, bool]:
-        each = [(*_peak(mechanism, u, one, stroke, name), stroke) for stroke, one in found]
-        most, at, island, stroke = max(each, key=lambda one: one[0])
-        return most, time * at + stroke * mechanism.pitch, island
+        each = []
+        for stroke, one in found:
+            most, at, wall = (value.item() for value in peak_of(mechanism, one, stroke, name))
+            each.append((most, time * at + stroke * mechanism.pitch, wall == mechanism.side))
+        return max(each, key=lambda one: one[0])
 
     force, force_at, island = peak("force")
     pressure, pressure_at, _ = peak("pressure")
     torque, _, _ = peak("crank_torque")
     first = found[0][1]
-    zone = np.flatnonzero(first.blocked)
     return Loads(
         force,
         force_at,
@@ -247,18 +256,32 @@ def loads(mechanism: Mechanism) -> Loads:
         torque,
         island and not mechanism.straight,
         time * float(np.mean(first.pressure_angle > math.pi / 4)),
-        float(run.theta[zone[-1]] - run.theta[zone[0]]) if zone.size else 0.0,
+        float(carried(run, first)),
         max(float((one.force * one.lever).max()) for _, one in found) / 1e3,
     )
 
 
-def _peak(
-    mechanism: Mechanism, u: Array, found: Contact, stroke: int, name: str
-) -> tuple[float, float, bool]:
-    """Largest magnitude of one quantity, its u, and whether the island carries there."""
-    most = int(np.argmax(np.abs(getattr(found, name))))
-    near = np.linspace(u[max(most - 1, 0)], u[min(most + 1, u.size - 1)], _SAMPLES)
-    fine = contact(mechanism, mechanism.stroke(near), stroke)
-    values = np.abs(getattr(fine, name))
-    best = int(np.argmax(values))
-    return float(values[best]), float(near[best]), bool(fine.wall[best] == mechanism.side)
+def carried(run: Stroke, found: Contact) -> Array:
+    """Angle (...) of the wheel in the blocked zone, rad."""
+    zone = found.blocked
+    first = np.argmax(zone, axis=-1)
+    last = zone.shape[-1] - 1 - np.argmax(zone[..., ::-1], axis=-1)
+    angle: Array = np.where(zone.any(axis=-1), run.theta[last] - run.theta[first], 0.0)
+    return angle
+
+
+def peak_of(mechanism: Mechanism, found: Contact, stroke: int, name: str) -> tuple[Array, Array, Array]:
+    """Largest magnitude of one quantity, its u, and the wall that carries there, (1,) or (m, 1) each."""
+    u = np.linspace(0, 1, _SAMPLES)
+    u, values = np.broadcast_to(u, getattr(found, name).shape), np.abs(getattr(found, name))
+    share = np.linspace(0, 1, _CLOSER)
+    for _ in range(_ZOOMS):
+        most = np.argmax(values, axis=-1, keepdims=True)
+        low, high = (
+            np.take_along_axis(u, np.clip(most + step, 0, u.shape[-1] - 1), axis=-1) for step in (-1, 1)
+        )
+        u = low + (high - low) * share
+        found = contact(mechanism, mechanism.stroke(u), stroke)
+        values = np.abs(getattr(found, name))
+    most = np.argmax(values, axis=-1, keepdims=True)
+    return tuple(np.take_along_axis(one, most, axis=-1) for one in (values, u, found.wall))  # type: ignore[return-value]

@@ -1,6 +1,6 @@
 """The family ``geneva``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         ToleranceModel,
         Tolerances,
     )
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class Geneva(Family[GenevaParams]):
@@ -30,6 +31,7 @@ class Geneva(Family[GenevaParams]):
     summary = "An indexing wheel whose straight or curved slots give it a motion law, with its driver."
     Params = GenevaParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {"indexing": IndexingRequirement}
+    batch: ClassVar[int] = 100_000
 
     def check(self, params: GenevaParams) -> Sequence[Finding]:
         """Law, angles, slots, islands, locking, driver, motion against the straight slot, contact."""
@@ -84,6 +86,15 @@ class Geneva(Family[GenevaParams]):
         if not isinstance(requirement, IndexingRequirement):
             return super().synthesise(kind, requirement, progress)
         return from_indexing(requirement, progress)
+
+    def evaluate(
+        self, batch: "Batch[GenevaParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Slots, locks, studs and figures of many mechanisms by the formulas of one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_geneva.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer, chunk=self.batch)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
         """The size that is given, and the angle of the driver that the time of a move comes to."""

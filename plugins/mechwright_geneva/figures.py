@@ -1,6 +1,7 @@
 """Figures of the whole motion: peaks per power of the crank's speed, and over time, walls, shares of time."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -55,33 +56,43 @@ def _rate_peak(m: Mechanism, stroke: int, rate: int) -> float:
 
 def dwell_share(m: Mechanism) -> float:
     """Share of the time of a turn in which the wheel rests."""
+    if not m.driver.varies:
+        return 1 - m.params.rollers * 2 * m.crank_half / math.tau
     ends = np.array([[0.0, 2 * m.crank_half]]) + m.pitch * np.array([list(m.strokes)]).T
     moving = float(np.abs(np.diff(m.driver.time(ends))).sum())
     whole = m.driver.time(np.asarray(m.driver.start + m.driver.sense * math.tau))
     return 1 - moving / float(whole)
 
 
+def sizes_and_times(m: Mechanism) -> dict[str, tuple[Any, str]]:
+    """Sizes, times and peaks of the law, with their units; of many designs columns (m, 1)."""
+    peaks, straight, rates = peaks_of(m), straight_peaks(m.slots), rate_peaks(m)
+    there, back = (m.driver.time(np.asarray(angle)) for angle in (0.0, 2 * m.crank_half))
+    return {
+        "centre_distance": (m.axes, "mm"),
+        "crank_radius": (m.crank, "mm"),
+        "slot_bottom_radius": (m.bottom, "mm"),
+        "index_angle": (2 * m.wheel_half, "rad"),
+        "index_time": (abs(back - there), "s"),
+        "dwell_share": (dwell_share(m), ""),
+        "omega_w_max": (rates.v, "rad/s"),
+        "alpha_w_max": (rates.a, "rad/s^2"),
+        "jerk_w_max": (rates.j, "rad/s^3"),
+        "velocity_peak": (peaks.v, ""),
+        "acceleration_peak": (peaks.a, ""),
+        "jerk_peak": (peaks.j, ""),
+        "straight_velocity_peak": (straight.v, ""),
+        "straight_acceleration_peak": (straight.a, ""),
+        "straight_jerk_peak": (straight.j, ""),
+        "entry_acceleration_jump": (abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
+    }
+
+
 def figures(m: Mechanism) -> dict[str, Scalar]:
     """The figures by name."""
-    peaks, straight, load, rates = peaks_of(m), straight_peaks(m.slots), loads(m), rate_peaks(m)
-    ends = m.driver.time(np.array([0.0, 2 * m.crank_half]))
+    load = loads(m)
     return {
-        "centre_distance": Scalar(m.axes, "mm"),
-        "crank_radius": Scalar(m.crank, "mm"),
-        "slot_bottom_radius": Scalar(m.bottom, "mm"),
-        "index_angle": Scalar(2 * m.wheel_half, "rad"),
-        "index_time": Scalar(float(abs(ends[1] - ends[0])), "s"),
-        "dwell_share": Scalar(dwell_share(m), ""),
-        "omega_w_max": Scalar(rates.v, "rad/s"),
-        "alpha_w_max": Scalar(rates.a, "rad/s^2"),
-        "jerk_w_max": Scalar(rates.j, "rad/s^3"),
-        "velocity_peak": Scalar(peaks.v, ""),
-        "acceleration_peak": Scalar(peaks.a, ""),
-        "jerk_peak": Scalar(peaks.j, ""),
-        "straight_velocity_peak": Scalar(straight.v, ""),
-        "straight_acceleration_peak": Scalar(straight.a, ""),
-        "straight_jerk_peak": Scalar(straight.j, ""),
-        "entry_acceleration_jump": Scalar(abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
+        **{name: Scalar(float(value), unit) for name, (value, unit) in sizes_and_times(m).items()},
         "contact_force_max": Scalar(load.force, "N"),
         **({"contact_pressure_max": Scalar(load.pressure, "MPa")} if m.params.roller_length > 0 else {}),
         "crank_torque_max": Scalar(load.crank_torque, "N*m"),

@@ -1,7 +1,7 @@
 """From the parameters to the geometry of one mechanism."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -12,17 +12,12 @@ from mechwright_geneva.driver import Driver, driver_of
 from mechwright_geneva.horns import greatest_disc
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
 from mechwright_geneva.law import law_of
-from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
+from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, sharpened
 from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.sizes import sized
 from mechwright_geneva.sound import LEAST_BITE
 
-_COARSE, _ZOOMS = 65, 4
-"""Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
-parabola about the bend is flat to rounding."""
-
-
-_RIGHT = 1e-12
+RIGHT = 1e-12
 """Radians by which a right angle is off that has been through degrees."""
 
 
@@ -154,27 +149,7 @@ def measure_at(mechanism: Mechanism, radius: float, samples: int = FINE_SAMPLES)
     """The figures of a curved slot for a roller of another radius, its critical radii to rounding."""
     frame = mechanism.frame
     one = Frame.of([frame.wheel_half], [frame.crank_half], [frame.offset], [frame.entry_radius])
-    found = measure(one, mechanism.law, np.array([[radius]]), samples)
-    side = mechanism.side
-    return replace(
-        found,
-        island_limit=np.array([_critical(mechanism, side, float(found.island_limit[0]))]),
-        hub_limit=np.array([_critical(mechanism, -side, float(found.hub_limit[0]))]),
-    )
-
-
-def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
-    """The critical radius on one side, from ever finer samples about the sharpest bend."""
-    if math.isinf(sampled):
-        return sampled
-    u = samples_of(mechanism.law, _COARSE)
-    best = 0.0
-    for _ in range(_ZOOMS):
-        bend = side * stroke(mechanism.frame, mechanism.law, u).curvature
-        top = int(np.argmax(bend))
-        best = max(best, float(bend[top]))
-        u = np.linspace(u[max(top - 1, 0)], u[min(top + 1, u.size - 1)], _COARSE)
-    return 1 / best if best > 0 else math.inf
+    return sharpened(measure(one, mechanism.law, np.array([[radius]]), samples), one, mechanism.law)
 
 
 @kept
@@ -187,6 +162,6 @@ def mechanism_of(params: GenevaParams) -> Mechanism:
 def frame_of(sizes: Sizes) -> Frame:
     """The fixed geometry."""
     wheel, half = math.pi / sizes.slots, math.radians(sizes.crank_half_angle)
-    if sizes.law == "straight" and abs(half + wheel - math.pi / 2) < _RIGHT:
+    if sizes.law == "straight" and abs(half + wheel - math.pi / 2) < RIGHT:
         half = math.pi / 2 - wheel
     return Frame.of(wheel, half, math.radians(sizes.offset_angle), sizes.entry_radius)

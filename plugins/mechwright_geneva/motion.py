@@ -38,45 +38,15 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     """
     refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
-    driver = m.driver
-    theta_d = travelled(driver.sense * math.tau, samples, driver.start)
-    turning = driver.at(theta_d)
-    turn = np.floor((theta_d + _END) / m.pitch)
-    within = np.clip(theta_d - turn * m.pitch, 0, None)
-    moving = within <= 2 * m.crank_half + _END
-    u = np.clip(within / (2 * m.crank_half), 0, 1)
-    run = m.stroke(u)
-    forces = contact(m, run, turn)
-    rates = turning.carried(run.first, run.second, run.third)
-    theta_w = 2 * m.wheel_half * turn + run.theta
-
-    def still(values: Array) -> Array:
-        return np.where(moving, values, 0.0)
-
-    driven = rate_channels(turning, "_d", "the driver")
-    channels = {
-        "time": Channel(driver.time(theta_d), "s", "time"),
-        "theta_d": Channel(theta_d, "rad", "angle of the driver"),
-        "omega_d": driven["omega_d"],
-        **(driven if driver.varies else {}),
-        "theta_w": Channel(theta_w, "rad", "angle of the wheel"),
-        "omega_w": Channel(still(rates[0]), "rad/s", "angular velocity of the wheel"),
-        "alpha_w": Channel(still(rates[1]), "rad/s^2", "angular acceleration of the wheel"),
-        "jerk_w": Channel(still(rates[2]), "rad/s^3", "angular jerk of the wheel"),
-        "pressure_angle": Channel(still(forces.pressure_angle), "rad", "pressure angle of the roller"),
-        "contact_force": Channel(still(forces.force), "N", "force between roller and slot"),
-        "contact_wall": Channel(still(forces.carrier.astype(float)), "", "wall of the slot that carries"),
-        **(
-            {"contact_pressure": Channel(still(forces.pressure), "MPa", "pressure between roller and slot")}
-            if m.params.roller_length > 0
-            else {}
-        ),
-        "crank_torque": Channel(still(forces.crank_torque), "N*m", "torque of the drive"),
-    }
+    theta_d = travelled(m.driver.sense * math.tau, samples, m.driver.start)
+    turning = m.driver.at(theta_d)
+    channels = channels_of(m, theta_d)
+    theta_w = channels["theta_w"].values
+    rates = [channels[f"{name}_w"].values for name in ("omega", "alpha", "jerk")]
     # The roller stands at a - b exp(iφ): the crank line points to π + φ.
     back = turning.scaled(-1.0)
     crank = BodyMotion.about(complex(m.axes), replace(back, theta=math.pi + m.crank_half - theta_d))
-    wheel = BodyMotion.about(0j, Turning(theta_w, *(still(rate) for rate in rates)))
+    wheel = BodyMotion.about(0j, Turning(theta_w, *rates))
     poses = {
         DRIVER: crank.poses(rates=True),
         WHEEL: wheel.poses(rates=True),
@@ -92,6 +62,44 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     return Motion(
         "theta_d", channels, poses, figures(m), joints=_joints(m), curves=_outline(m), loads=_loads(m)
     )
+
+
+def channels_of(m: Mechanism, theta_d: Array) -> dict[str, Channel]:
+    """The channels at angles (n,) of the driver, rad, from that of its start on; of many designs (m, n)."""
+    driver = m.driver
+    turning = driver.at(theta_d)
+    turn = np.floor((theta_d + _END) / m.pitch)
+    within = np.clip(theta_d - turn * m.pitch, 0, None)
+    moving = within <= 2 * m.crank_half + _END
+    u = np.clip(within / (2 * m.crank_half), 0, 1)
+    run = m.stroke(u)
+    forces = contact(m, run, turn)
+    rates = turning.carried(run.first, run.second, run.third)
+    theta_w = 2 * m.wheel_half * turn + run.theta
+
+    def still(values: Array) -> Array:
+        return np.where(moving, values, 0.0)
+
+    driven = rate_channels(turning, "_d", "the driver")
+    return {
+        "time": Channel(driver.time(theta_d), "s", "time"),
+        "theta_d": Channel(theta_d, "rad", "angle of the driver"),
+        "omega_d": driven["omega_d"],
+        **(driven if driver.varies else {}),
+        "theta_w": Channel(theta_w, "rad", "angle of the wheel"),
+        "omega_w": Channel(still(rates[0]), "rad/s", "angular velocity of the wheel"),
+        "alpha_w": Channel(still(rates[1]), "rad/s^2", "angular acceleration of the wheel"),
+        "jerk_w": Channel(still(rates[2]), "rad/s^3", "angular jerk of the wheel"),
+        "pressure_angle": Channel(still(forces.pressure_angle), "rad", "pressure angle of the roller"),
+        "contact_force": Channel(still(forces.force), "N", "force between roller and slot"),
+        "contact_wall": Channel(still(forces.carrier.astype(float)), "", "wall of the slot that carries"),
+        **(
+            {"contact_pressure": Channel(still(forces.pressure), "MPa", "pressure between roller and slot")}
+            if np.any(np.asarray(m.params.roller_length) > 0)
+            else {}
+        ),
+        "crank_torque": Channel(still(forces.crank_torque), "N*m", "torque of the drive"),
+    }
 
 
 def _loads(m: Mechanism) -> dict[str, Load]:

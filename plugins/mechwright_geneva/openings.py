@@ -2,6 +2,10 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from mechwright import Finding
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
@@ -45,7 +49,13 @@ def hub_radius(params: Sizes) -> float:
 
 def driver_radius(bore: float, least_wall: float, fixing: float) -> float:
     """Radius about the crank's axis that opening (as far as it reaches), walls and dowels need, mm."""
-    return bore + (2 * least_wall + fixing if fixing > 0 else least_wall)
+    return float(around(bore, least_wall, fixing))
+
+
+def around(bore: ArrayLike, least_wall: ArrayLike, fixing: ArrayLike) -> Any:
+    """The same of many designs (...)."""
+    bore, wall, fixing = (np.asarray(one, dtype=float) for one in (bore, least_wall, fixing))
+    return bore + np.where(fixing > 0, 2 * wall + fixing, wall)
 
 
 def opening_findings(params: Sizes) -> Iterator[Finding]:

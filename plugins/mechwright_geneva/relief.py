@@ -27,6 +27,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Segment
 from mechwright.geometry.fit import fit_curves
@@ -47,9 +48,12 @@ _REST = 1e-9
 _MET = 1e-10
 """Distance, mm, at which two curves have met: far below a closure gap."""
 
-_GRID, _ZOOMS = 257, 5
-"""Samples that bracket a place on the stroke, and how often: 256 to the fifth reaches the last bit but
-one."""
+_GRID, _HALVINGS, _NEWTON = 257, 12, 4
+"""Samples that bracket a place on the stroke; halvings of the bracket, and steps of Newton's method, of
+which one or two reach the last bit."""
+
+_APART = 10 * TOLERANCES.closure
+"""Gap, mm, that no loop closes over."""
 
 _SLIVER = 1e-9
 """A share of the stroke below which a piece of the edge is not drawn."""
@@ -64,18 +68,17 @@ class _Half:
 
     def _motion(self, u: Array) -> tuple[Array, Array, Array]:
         """φ, the wheel's angle and its rate."""
-        if not self.leaving:
-            run = self.mechanism.stroke(u)
-            return run.phi, run.theta, run.first
-        run = self.mechanism.stroke(1 - u)
-        return -run.phi, 2 * self.mechanism.wheel_half - run.theta, run.first
+        m = self.mechanism
+        rates = m.law.at(1 - u if self.leaving else u)
+        phi, theta = m.crank_half * (1 - 2 * u), 2 * m.wheel_half * rates.s
+        return phi, 2 * m.wheel_half - theta if self.leaving else theta, m.wheel_half / m.crank_half * rates.v
 
     @cached_property
-    def horn_angle(self) -> float:
+    def horn_angle(self) -> Array:
         """Polar angle ψ of the grown wheel's horn from the middle of its bite."""
         m = self.mechanism
         rim = m.rim + m.params.lock_clearance
-        return math.acos((m.axes**2 + rim**2 - m.lock**2) / (2 * m.axes * rim))
+        return np.asarray(np.arccos((m.axes**2 + rim**2 - m.lock**2) / (2 * m.axes * rim)))
 
     def envelope(self, u: Array) -> Points:
         """E at u."""
@@ -98,45 +101,65 @@ class _Half:
         points: Points = (m.axes - rim * np.exp(1j * (theta - self.horn_angle))) * np.exp(-1j * phi)
         return points
 
-    def passing(self) -> float:
-        """The u at which the horn is on the line of centres."""
-        low, high = 0.0, 1.0
-        for _ in range(_ZOOMS):
-            u = np.linspace(low, high, _GRID)
-            before = int(np.searchsorted(self._motion(u)[1], self.horn_angle)) - 1
-            low, high = float(u[max(before, 0)]), float(u[min(before + 1, _GRID - 1)])
-        return (low + high) / 2
+    def passing(self) -> Array:
+        """The u (m, 1) at which the horn is on the line of centres."""
+        grid, wanted = np.linspace(0, 1, _GRID), np.reshape(self.horn_angle, (-1, 1))
+        before = np.searchsorted(self._motion(grid)[1].ravel(), wanted) - 1
+        low, high = grid[np.clip(before, 0, _GRID - 1)], grid[np.clip(before + 1, 0, _GRID - 1)]
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            short = np.asarray(self._motion(middle)[1] < wanted)
+            low, high = np.where(short, middle, low), np.where(short, high, middle)
+        at = (low + high) / 2
+        for _ in range(_NEWTON):
+            _, theta, rate = self._motion(at)
+            slope = 2 * self.mechanism.crank_half * rate
+            at = np.clip(at + (wanted - theta) / np.where(slope > 0, slope, np.inf), low, high)
+        return np.asarray(at)
 
-    def crossing(self, last: float) -> tuple[float, float]:
-        """The u of the envelope and of the horn's path, after ``last``, where the second cuts the first."""
-        u, after = np.linspace(0, last, _SAMPLES + 1), np.linspace(last, 1, _SAMPLES + 1)
+    def crossing(self, last: Array) -> tuple[Array, Array, Array]:
+        """The u of the envelope and of the horn's path, after ``last``, where the second cuts the first.
+
+        Parameters
+        ----------
+        last
+            (m, 1), as of :meth:`passing`.
+
+        Returns
+        -------
+        s, t, miss
+            (m, 1) each; the distance, mm, at which both are, infinite where the horn does not clear the disc.
+        """
+        share = np.linspace(0, 1, _SAMPLES + 1)
+        u, after = last * share, (1 - share) * last + share
         edge, path = self.envelope(u), self.horn(after)
-        turned = np.maximum.accumulate(np.angle(edge))
-        depth = np.abs(path) - np.interp(np.angle(path), turned, np.abs(edge))
-        beyond = np.flatnonzero(depth > 0)
-        if not beyond.size:
-            raise GeometryError("the horn of the wheel does not clear the locking disc")
-        t = float(after[beyond[0]])
-        s = float(np.interp(np.angle(path[beyond[0]]), turned, u))
+        turned, angle = np.maximum.accumulate(np.angle(edge), axis=-1), np.angle(path)
+        depth = np.abs(path) - _between(angle, turned, np.abs(edge))
+        first = np.argmax(depth > 0, axis=-1)[:, None]
+        t = np.take_along_axis(after, first, axis=-1)
+        s = _between(np.take_along_axis(angle, first, axis=-1), turned, u)
         step = 1e-6 * last
         for _ in range(_STEPS):
-            first = self.envelope(np.array([s, s + step, s - step]))
-            second = self.horn(np.array([t, t + step, t - step]))
-            miss = complex(first[0] - second[0])
-            if abs(miss) < _MET:
+            one = self.envelope(np.concatenate((s, s + step, s - step), axis=-1))
+            two = self.horn(np.concatenate((t, t + step, t - step), axis=-1))
+            miss = one[:, :1] - two[:, :1]
+            if (np.abs(miss) < _MET).all():
                 break
-            ds, dt = ((curve[1] - curve[2]) / (2 * step) for curve in (first, second))
-            matrix = np.array([[ds.real, -dt.real], [ds.imag, -dt.imag]])
-            if abs(np.linalg.det(matrix)) == 0:
-                break
-            change = np.linalg.solve(matrix, [miss.real, miss.imag])
-            s, t = float(np.clip(s - change[0], 0, last)), float(np.clip(t - change[1], last, 1))
-        return s, t
+            ds, dt = ((curve[:, 1:2] - curve[:, 2:]) / (2 * step) for curve in (one, two))
+            cross = (np.conj(ds) * dt).imag
+            good = (np.abs(miss) >= _MET) & (cross != 0)
+            cross = np.where(good, cross, np.inf)
+            s = np.clip(s + (np.conj(dt) * miss).imag / cross, 0, last)
+            t = np.clip(t + (np.conj(ds) * miss).imag / cross, last, 1)
+        return s, t, np.where((depth > 0).any(axis=-1, keepdims=True), np.abs(miss), np.inf)
 
     def edge(self) -> tuple[list[Segment], float]:
         """Segments from the disc to the deepest place, and their deviation."""
-        last = self.passing()
-        s, t = self.crossing(last)
+        ends = self.passing()
+        *found, miss = self.crossing(ends)
+        if math.isinf(miss.item()):
+            raise GeometryError("the horn of the wheel does not clear the locking disc")
+        last, s, t = ends.item(), *(one.item() for one in found)
         chain, one = self._along(self.envelope, 0.0, s)
         if chain is None:
             chain = self._step(s, complex(self.horn(np.array(t))))
@@ -177,6 +200,27 @@ class _Half:
         if abs(horn) - deep > TOLERANCES.closure:
             steps.append(Line(arc.end, (float(last.real), float(last.imag)), "relief"))
         return steps
+
+
+def _between(at: Array, places: Array, values: Array) -> Array:
+    """Linear interpolation (m, j) at ``at`` (m, j) of values (m, k) at rising places (m, k), row by row."""
+    apart = 4 * math.tau * np.arange(len(places))[:, None]  # angles of other rows are out of reach
+    inside = np.clip(at, places[:, :1], places[:, -1:]) + apart
+    return np.interp(inside.ravel(), (places + apart).ravel(), values.ravel()).reshape(at.shape)
+
+
+def drawn(mechanism: Mechanism) -> NDArray[np.int_]:
+    """Whether :func:`lock_loop` draws (m,) or raises, 1 or -1, or only drawing tells, 0, of a named law.
+
+    Where the horn cuts the envelope the edge closes. What is left to fail is the fit of the horn's path: the
+    jerk of a named law is bounded, so that a cubic is within the tolerance over a 256th of it. Where the horn
+    does not clear the disc, or passes the very beginning of its arc, the edge has a gap.
+    """
+    half = _Half(mechanism, leaving=False)
+    s, _, miss = half.crossing(half.passing())
+    gap = (miss > _APART) & (np.isinf(miss) | (s < _SLIVER))
+    found: NDArray[np.int_] = np.where(miss < _MET, 1, np.where(gap, -1, 0))[:, 0]
+    return found
 
 
 def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:

@@ -19,7 +19,7 @@ PINS: tuple[float, ...] = (
 )
 """Diameters of parallel pins (ISO 2338), mm; plain shafts of these diameters are in stock as well."""
 
-_SLACK = 1e-9
+SLACK = 1e-9
 """Share by which a bound may be off by rounding."""
 
 
@@ -29,7 +29,7 @@ def up_to(sizes: Sequence[float], most: float) -> Sequence[float]:
     >>> list(up_to(PINS, 1.3))
     [1.2, 1.0, 0.8, 0.6]
     """
-    return sizes[: bisect_right(sizes, most * (1 + _SLACK))][::-1]
+    return sizes[: bisect_right(sizes, most * (1 + SLACK))][::-1]
 
 
 def largest(sizes: Sequence[float], most: float) -> float:

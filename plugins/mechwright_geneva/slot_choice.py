@@ -110,7 +110,7 @@ class _Tried:
         a, b = (grid.ravel() for grid in np.meshgrid(half, offset, indexing="ij"))
         if bound and params.crank_half_angle is None:
             a = _half_between(params, b)
-        return cls(a, b, _wheels(params, a, b))
+        return cls(a, b, wheels(params, a, b))
 
     def roller(self, params: GenevaParams, radius: float) -> int | None:
         """The place of the one that is sound with this roller and nearest to the first; None if none is."""
@@ -192,10 +192,10 @@ def _radii(params: GenevaParams, wheel: float) -> list[float]:
     return able or [max(0.5, largest(ROLLERS, ROLLER * wheel) / 2)]
 
 
-def _wheels(params: GenevaParams, half: Array, offset: Array) -> Array:
+def wheels(params: GenevaParams, half: Array, offset: Array) -> Array:
     """Radius of the wheel with each pair of angles."""
     if params.entry_radius is not None:
-        return np.full(half.shape, params.entry_radius)
+        return np.broadcast_to(np.asarray(params.entry_radius, dtype=float), half.shape)
     entry = math.pi / params.slots + np.radians(offset)
     share = np.cos(entry) + np.sin(entry) / np.tan(np.radians(half))  # a/l
     if params.centre_distance is not None:

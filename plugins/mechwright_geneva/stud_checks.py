@@ -43,7 +43,12 @@ def stud_findings(m: Mechanism) -> Iterator[Finding]:
 
 def stud_stresses(params: Sizes) -> list[Stress]:
     """Bending and shear of a stud where it leaves the crank plate, and its pressure in the plate."""
-    force, d = loads(mechanism_of(params)).force, params.pin_diameter
+    return stresses_under(params, loads(mechanism_of(params)).force)
+
+
+def stresses_under(params: Sizes, force: float) -> list[Stress]:
+    """The same under a force, N."""
+    d = params.pin_diameter
     own = material(params.roller_material)
     endurance = allowed(params.roller_material).endurance
     weaker = min(own.strength, material(params.material).strength)

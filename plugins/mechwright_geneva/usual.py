@@ -1,6 +1,8 @@
 """Proportions of a Geneva mechanism whose design leaves them open; lengths in mm."""
 
-import math
+import numpy as np
+
+from mechwright import Array
 
 ANGLES = {
     3: (35.0, 5.0),
@@ -42,14 +44,25 @@ _WALL, _WALL_SHARE = 2.0, 1 / 35
 _DOWEL, _DOWEL_SHARE = 4.0, 0.06
 
 
+def walls_of(entry_radius: Array) -> Array:
+    """Thinnest walls (...): 2 mm, on wheels below 70 mm radius a 35th of it, in tenths; not below 0.2 mm."""
+    share = np.floor(10 * np.minimum(_WALL, _WALL_SHARE * entry_radius) + 1e-9) / 10
+    return np.asarray(np.maximum(0.2, share))
+
+
 def wall_of(entry_radius: float) -> float:
-    """Thinnest wall: 2 mm, on wheels below 70 mm radius a 35th of it, in tenths; not below 0.2 mm."""
-    return max(0.2, math.floor(10 * min(_WALL, _WALL_SHARE * entry_radius) + 1e-9) / 10)
+    """Of one wheel."""
+    return float(walls_of(np.asarray(entry_radius)))
+
+
+def dowels_of(entry_radius: Array) -> Array:
+    """Largest dowels (...): 4 mm, or 0.06 l."""
+    return np.asarray(np.minimum(_DOWEL, _DOWEL_SHARE * entry_radius))
 
 
 def dowel_of(entry_radius: float) -> float:
-    """Largest dowel: 4 mm, or 0.06 l."""
-    return min(_DOWEL, _DOWEL_SHARE * entry_radius)
+    """Of one wheel."""
+    return float(dowels_of(np.asarray(entry_radius)))
 
 
 def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:

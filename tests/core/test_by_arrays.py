@@ -240,3 +240,47 @@ def test_the_contract_finds_other_figures_and_other_refusals():
         contract(WrongWedge).test_evaluate()
     with pytest.raises(AssertionError, match=r"by itself by 'wedge\.flat'"):
         contract(HastyWedge).test_evaluate()
+
+
+class Sized(Parameters):
+    """A table whose size replaces another's default."""
+
+    module: float | None = Field(None, ge=1, le=5, description="A number.")
+    radius: float | None = Field(50.0, ge=1, le=99, description="Another.")
+    kind: str = Field("round", description="A name.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _replaces(cls, table):
+        return (
+            {**table, "radius": None} if table.get("module") is not None and "radius" not in table else table
+        )
+
+    @model_validator(mode="after")
+    def _one(self):
+        if (self.module is None) == (self.radius is None):
+            raise ValueError("give one of both")
+        if self.kind == "flat":
+            raise ValueError("no such kind")
+        return self
+
+
+@pytest.mark.parametrize("content", [{}, {"module": 2.0}, {"module": 2.0, "radius": None}, {"radius": 9.0}])
+@pytest.mark.parametrize("name", ["module", "radius"])
+def test_rules_that_complete_a_table_are_followed_where_they_see_no_value(content, name):
+    kinds = np.array(["round", "flat", "oval", "round"])
+    batch = Batch(Sized, content, {name: np.array([2.0, 3.0, 4.0, 200.0]), "kind": kinds})
+    told = refusals(batch)
+    for place in range(4):
+        try:
+            table = batch.one(place)
+        except ValidationError as error:
+            key = ".".join(map(str, error.errors()[0]["loc"]))
+            code = f"parameters.{key}" if key else "parameters"
+        else:
+            code = ""
+            assert not told.known[place] or {n: v for n, v in table if n not in batch.varied} == {
+                n: v for n, v in told.common if n not in batch.varied
+            }
+        assert not told.known[place] or told.codes[told.forbidden[place]] == code
+    assert told.known.all() or name == "radius" or "radius" in content

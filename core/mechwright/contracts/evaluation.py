@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
 
 P = TypeVar("P", bound=Parameters)
+V = TypeVar("V", float, Array)
 
 SAMPLES = 721
 """Samples of a motion whose figures are columns: every half degree of a turn."""
@@ -112,8 +113,9 @@ def told_unit(unit: str) -> str:
     return "deg" if unit == "rad" else unit
 
 
-def _told(value: float, unit: str) -> float:
-    return math.degrees(value) if unit == "rad" else value
+def told(value: V, unit: str) -> V:
+    """A number, or numbers, in the unit in which a column is told."""
+    return value * math.degrees(1.0) if unit == "rad" else value
 
 
 def figures(motion: "Motion") -> dict[str, tuple[float, str]]:
@@ -126,7 +128,7 @@ def figures(motion: "Motion") -> dict[str, tuple[float, str]]:
         if name != motion.input_name:
             found[f"{name}.least"] = float(channel.values.min()), channel.unit
             found[f"{name}.greatest"] = float(channel.values.max()), channel.unit
-    return {name: (_told(value, unit), told_unit(unit)) for name, (value, unit) in found.items()}
+    return {name: (told(value, unit), told_unit(unit)) for name, (value, unit) in found.items()}
 
 
 def one_by_one(

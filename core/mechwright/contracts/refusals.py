@@ -7,7 +7,7 @@ Whatever is not known here - validators of fields, rules that complete a table, 
 left to the table itself, design by design.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
@@ -21,7 +21,7 @@ from pydantic_core import PydanticCustomError
 
 from mechwright.contracts.evaluation import PARAMETERS, Batch
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.stand_in import Asked, StandIn, changed
+from mechwright.contracts.stand_in import Asked, StandIn, Unlike, changed
 from mechwright.units import Unit
 
 Bools = NDArray[np.bool_]
@@ -71,13 +71,14 @@ def refusals(batch: Batch[Any]) -> Refusals:
 
 def _told(batch: Batch[Any]) -> Refusals:
     size = len(batch)
+    content = _completed(batch)
     found: list[_Refused] = []
     values: dict[str, NDArray[Any]] = {}
     for name, given in batch.varied.items():
         field = _field(batch.model, name)
         values[name], refused = _read(field.info, given)
         found += [_Refused(field.place, f"{PARAMETERS}.{name}{key}", some) for key, some in refused.items()]
-    common = _allowed(batch, np.flatnonzero(~_any(found, size)))
+    common = _allowed(batch, content, np.flatnonzero(~_any(found, size)))
     for table in sorted({step for name in values for step in _tables(name)}, key=len, reverse=True):
         place = _field(batch.model, table).place
         beyond = _any([one for one in found if one.place[: len(place)] == place], size)
@@ -90,6 +91,30 @@ def _told(batch: Batch[Any]) -> Refusals:
     for one in found:
         forbidden[one.which & (forbidden == 0)] = codes.setdefault(one.code, len(codes))
     return Refusals(forbidden, tuple(codes), np.ones(size, bool), values, common)
+
+
+def _completed(batch: Batch[Any]) -> Mapping[str, Any]:
+    """What all have in common after the rules that complete a table before it is read.
+
+    Raises _Unknown where such a rule looks at a value that is varied.
+    """
+    rules = [
+        one
+        for one in batch.model.__pydantic_decorators__.model_validators.values()
+        if one.info.mode == "before"
+    ]
+    if any("." in name for name in batch.varied) and rules:
+        raise _Unknown
+    unlike = {name: Unlike() for name in batch.varied}
+    told: Any = {**batch.content, **unlike} if rules else batch.content
+    for rule in rules:
+        try:
+            told = getattr(batch.model, rule.cls_var_name)(told)
+        except (Asked, AttributeError, TypeError, ValueError, AssertionError, PydanticCustomError):
+            raise _Unknown from None
+        if not isinstance(told, Mapping) or any(told.get(name) is not one for name, one in unlike.items()):
+            raise _Unknown
+    return {name: value for name, value in told.items() if name not in unlike} if rules else batch.content
 
 
 @dataclass(frozen=True)
@@ -108,14 +133,14 @@ def _any(found: list[_Refused], size: int) -> Bools:
     return which
 
 
-def _allowed(batch: Batch[Any], places: NDArray[np.intp]) -> BaseModel:
+def _allowed(batch: Batch[Any], content: Mapping[str, Any], places: NDArray[np.intp]) -> BaseModel:
     """The table of a design that is allowed; raises _Unknown where none of the first is."""
     for place in places[:FEW].tolist():
         try:
             found: BaseModel = batch.one(place)
         except ValidationError:
             continue
-        if type(found) is batch.model and _as_said(found, batch.content, batch.varied):
+        if type(found) is batch.model and _as_said(found, content, batch.varied):
             return found
         break  # a rule completes the table
     raise _Unknown  # what is not varied may be refused
@@ -184,7 +209,7 @@ def _plain(model: type[BaseModel], key: str) -> None:
         for name, one in own.field_validators.items()
         if name not in known and (key in one.info.fields or "*" in one.info.fields)
     ]
-    before = [one for one in own.model_validators.values() if one.info.mode != "after"]
+    before = [one for one in own.model_validators.values() if one.info.mode == "wrap"]
     if key not in model.model_fields or strange or before or own.root_validators or own.validators:
         raise _Unknown
 
@@ -275,6 +300,7 @@ def _rules(table: BaseModel) -> list[Callable[[Any], Any]]:
     return [
         getattr(one.func, "__func__", one.func)
         for one in type(table).__pydantic_decorators__.model_validators.values()
+        if one.info.mode == "after"
     ]
 
 
@@ -289,7 +315,9 @@ def _ruled(
             if rule(stand_in) is not stand_in:
                 raise _Unknown
         except (Asked, AttributeError, TypeError):
-            refused[_each(rule, common, values, left)] = True
+            for alike, places in _alike(values, left):
+                some = _asked(rule, changed_copy(common, alike), values, alike, places)
+                refused[np.asarray(some, dtype=np.intp)] = True
             left = left[~refused[left]]
         except (ValueError, AssertionError, PydanticCustomError):
             refused[left] = True
@@ -297,11 +325,53 @@ def _ruled(
     return refused
 
 
+def _alike(
+    values: Mapping[str, NDArray[Any]], asked: NDArray[np.intp]
+) -> "Iterator[tuple[dict[str, Any], NDArray[np.intp]]]":
+    """Places of designs that are asked about with the same texts and choices, and those."""
+    names = [name for name, column in values.items() if column.dtype.kind not in "fi"]
+    kind = np.zeros(asked.size, np.int64)
+    for name in names:
+        different, which = np.unique(values[name][asked], return_inverse=True)
+        kind = kind * different.size + which.reshape(-1)
+    order = np.argsort(kind, kind="stable")
+    ends = np.flatnonzero(np.diff(kind[order])) + 1
+    for places in np.split(asked[order], ends):
+        if places.size:
+            yield {name: values[name][places[0]].item() for name in names}, places
+
+
+def changed_copy(table: BaseModel, values: Mapping[str, Any]) -> BaseModel:
+    """A copy of a table with other values, whether they are allowed or not."""
+    copied = table.model_copy(deep=True)
+    changed(copied, values)
+    return copied
+
+
+def _asked(
+    rule: Callable[[Any], Any],
+    common: BaseModel,
+    values: Mapping[str, NDArray[Any]],
+    alike: Collection[str],
+    asked: NDArray[np.intp],
+) -> Collection[int] | NDArray[np.intp]:
+    """Places of designs with some values alike that a rule refuses: all or none if it asks no other value."""
+    stand_in = StandIn(common, frozenset(values) - frozenset(alike))
+    try:
+        if rule(stand_in) is not stand_in:
+            raise _Unknown
+    except (Asked, AttributeError, TypeError):
+        return _each(rule, common, values, asked)
+    except (ValueError, AssertionError, PydanticCustomError):
+        return asked
+    return ()
+
+
 def _each(
     rule: Callable[[Any], Any], common: BaseModel, values: Mapping[str, NDArray[Any]], asked: NDArray[np.intp]
 ) -> list[int]:
     """Places of designs that a rule refuses, asked one by one."""
-    table = common.model_copy(deep=True)
+    table = changed_copy(common, {})
     refused = []
     columns = {name: column.tolist() for name, column in values.items()}
     for place in asked.tolist():

@@ -20,7 +20,7 @@ _TRIM_STEPS = 25
 _STRAIGHT = 1e12
 """mm. A curve with a greater radius is straight."""
 
-_FACTOR_SAMPLES = 33
+FACTOR_SAMPLES = 33
 """Points per flank for its least regularity factor; the curvature hardly changes on one."""
 
 
@@ -78,7 +78,7 @@ class Teeth:
     @cached_property
     def least_regularity(self) -> Array:
         """Least regularity factor (z, 2) of each flank over sin²α: 1 at the pitch curve, 0 is undercut."""
-        t = np.linspace(0, 1, _FACTOR_SAMPLES)
+        t = np.linspace(0, 1, FACTOR_SAMPLES)
         start = self.flank_arcs[..., None]
         frame = self.curve.frame_at(start + t * (self.join_arcs[..., None] - start))
         factor = self.rack.regularity(frame, start, SIDES[:, None]).min(axis=-1)

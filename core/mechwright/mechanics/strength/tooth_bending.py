@@ -56,9 +56,9 @@ def form_factors(teeth: "float | Array", rack: Rack = Rack()) -> tuple[Array, Ar
     [2.8, 1.553]
     """
     z, alpha = np.asarray(teeth, dtype=float), rack.angle
-    tan, cos, root = math.tan(alpha), math.cos(alpha), rack.tip_radius
+    tan, cos, root = np.tan(alpha), np.cos(alpha), rack.tip_radius
     g = root - rack.dedendum
-    e = math.pi / 4 - rack.dedendum * tan - (1 - math.sin(alpha)) * root / cos
+    e = math.pi / 4 - rack.dedendum * tan - (1 - np.sin(alpha)) * root / cos
     h = 2 / z * (math.pi / 2 - e) - math.pi / 3
     theta = np.full(z.shape, math.pi / 6)
     for _ in range(_ROUNDS):
