@@ -31,7 +31,7 @@ UNEVEN = 0.2
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 LAST = 250
-"""So many of the last cuts are asked first whether they have cleared the way, and then four times as many each
+"""So many of the last cuts are asked first whether they have cleared the way, then four times as many each
 time: what is near was mostly cut shortly before."""
 FEW = 16
 """So many cuts are taken off at first, and then twice as many each time, until nothing is left."""
