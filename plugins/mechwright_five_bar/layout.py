@@ -15,6 +15,7 @@ from mechwright import GeometryError, Outline, Poses, circle
 from mechwright.geometry import Loop
 from mechwright.mechanics.linkage import (
     Boss,
+    Closeness,
     Plate,
     Spindle,
     Stack,
@@ -99,6 +100,7 @@ def _dealt(
     }
     first, train = gears + 2, train_of(params)
     faults: list[GeometryError] = []
+    spindles, measured = _spindles(params), list[Closeness]()
     for top in range(first + 1, first + len(LINKS)):
         plates = []
         for name, drawn in outlines.items():
@@ -109,8 +111,17 @@ def _dealt(
             else:
                 layers = (top,) if name == "coupler" else tuple(range(first, top))
                 plates.append(Plate(name, name, outline, params.thickness + up.get(name, 0.0), layers))
+        measured = measured or [Closeness(plates, spindles, one, params.clearance) for one in phases]
         try:
-            return stack(plates, _spindles(params), phases, params.clearance, params.washer, train.meshes())
+            return stack(
+                plates,
+                spindles,
+                phases,
+                params.clearance,
+                params.washer,
+                train.meshes(),
+                measured=measured,
+            )
         except GeometryError as error:
             faults.append(error)
     raise faults[-1]

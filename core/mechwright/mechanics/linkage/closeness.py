@@ -18,6 +18,7 @@ from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
+    import shapely
     from numpy.typing import NDArray
 
 PLAN_CHORD = 0.05
@@ -91,10 +92,24 @@ class Closeness:
         self.circles = {plate.name: _circle(self.outlines[plate.name], poses[plate.body]) for plate in plates}
         self.areas: dict[str, NDArray[np.object_]] = {}
         self.axes: dict[str, tuple[Array, Array]] = {}
-        self.room: dict[tuple[str, str], float] = {}
+        self.shapes: dict[str, shapely.Polygon] = {}
+        self.found: dict[tuple[str, str, float], bool] = {}
 
     def plates(self, one: Plate, two: Plate) -> bool:
         """Whether two plates come too close in plan."""
+        asked = one.name, two.name, 0.0
+        if asked not in self.found:
+            self.found[asked] = self._meet(one, two)
+        return self.found[asked]
+
+    def spindle(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
+        """Whether a plate comes too close to a spindle of this radius."""
+        asked = spindle.name, plate.name, radius
+        if asked not in self.found:
+            self.found[asked] = self._pass(spindle, plate, radius)
+        return self.found[asked]
+
+    def _meet(self, one: Plate, two: Plate) -> bool:
         import shapely
 
         if one.body == two.body:
@@ -112,25 +127,25 @@ class Closeness:
             for some in (asked[::_SOME], asked)
         )
 
-    def spindle(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
-        """Whether a plate comes too close to a spindle of this radius."""
+    def _pass(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
         import shapely
 
-        if (spindle.name, plate.name) not in self.room:
-            if spindle.name not in self.axes:
-                centre = np.array([[spindle.centre.real, spindle.centre.imag]])
-                axis = _placed(centre, self.poses[spindle.body])
-                self.axes[spindle.name] = axis[:, 0], _step(axis)
-            axis, step = self.axes[spindle.name]
-            if spindle.body == plate.body:
-                axis, slack = axis[:1], np.zeros(1)
-            else:
-                slack = (self.steps[plate.name] + step) / 2
-            # Seen from the plate, which then is one shape.
-            points = shapely.points(_seen(axis, self.poses[plate.body]))
-            room = shapely.distance(shapely.polygons(self.outlines[plate.name]), points) - slack
-            self.room[spindle.name, plate.name] = float(room.min())
-        return self.room[spindle.name, plate.name] - radius < self.limit
+        if spindle.name not in self.axes:
+            centre = np.array([[spindle.centre.real, spindle.centre.imag]])
+            axis = _placed(centre, self.poses[spindle.body])
+            self.axes[spindle.name] = axis[:, 0], _step(axis)
+        axis, step = self.axes[spindle.name]
+        if spindle.body == plate.body:
+            axis, slack = axis[:1], np.zeros(1)
+        else:
+            slack = (self.steps[plate.name] + step) / 2
+        if plate.name not in self.shapes:
+            self.shapes[plate.name] = shapely.Polygon(self.outlines[plate.name])
+            shapely.prepare(self.shapes[plate.name])
+        # Seen from the plate, which then is one shape.
+        points = shapely.points(_seen(axis, self.poses[plate.body]))
+        near = np.nextafter(self.limit + radius + slack, 0.0)
+        return bool(shapely.dwithin(self.shapes[plate.name], points, near).any())
 
     def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
         """Bounds x0, y0, x1, y1, mm, of what these plates pass over; nothing outside comes too close."""

@@ -57,6 +57,7 @@ def stack(
     gap: float,
     neighbours: Sequence[tuple[str, str]] = (),
     together: Sequence[tuple[str, ...]] = (),
+    measured: Sequence[Closeness] = (),
 ) -> Stack:
     """Deal plates to layers.
 
@@ -76,6 +77,8 @@ def stack(
         Pairs of plates that slide along each other by design and may share a layer.
     together
         Groups of plates that have to share one.
+    measured
+        How near the same plates and spindles come in each phase, where other layers were tried before.
 
     Raises
     ------
@@ -86,8 +89,7 @@ def stack(
     phases = [poses] if isinstance(poses, Mapping) else poses
     pairs = {frozenset(pair) for pair in neighbours}
     conflicts = _Conflicts(set(), {}, {})
-    for one in phases:
-        close = Closeness(plates, spindles, one, clearance)
+    for close in measured or [Closeness(plates, spindles, one, clearance) for one in phases]:
         conflicts = conflicts.joined(_conflicts(plates, spindles, choices, close, pairs))
     layer = _flattest(plates, spindles, choices, conflicts, together)
     if layer is None:
