@@ -211,41 +211,38 @@ def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[
     return [Plate(name, name, outlines[name], params.thickness) for name in MOVING]
 
 
-def standing(
-    params: SliderCrankParams,
-) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
+def standing(params: SliderCrankParams) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
     """Plates but the base, spindles without heads, poses, and the clearance that they keep."""
     sizes = sizes_of(params)
     outlines = {"crank": crank_outline(params), "rod": rod_outline(params), "slider": _slider_outline(sizes)}
     outlines["rail"], rails, dowels = _rails(params, sizes, ends_of(params))
-    plates = _above(params, outlines, rails)
     poses = body_poses(params, course_of(params).way(TURN_SAMPLES))
-    return plates, _spindles(params, sizes, dowels, heads=False), poses, params.clearance
+    spindles = _spindles(params, sizes, dowels, heads=False)
+    return _above(params, outlines, rails), spindles, poses, params.clearance
 
 
 def _above(
     params: SliderCrankParams, outlines: Mapping[str, Outline], rails: tuple[complex, complex]
 ) -> list[Plate]:
     """The plates above the base."""
-    plates = _moving(params, outlines)
-    for number, place in enumerate(rails, start=1):
-        moved = outlines["rail"].moved(place.real, place.imag)
-        plates.append(Plate(f"rail-{number}", "base", moved, params.thickness))
-    return plates
+    return _moving(params, outlines) + [
+        Plate(f"rail-{number}", "base", outlines["rail"].moved(place.real, place.imag), params.thickness)
+        for number, place in enumerate(rails, start=1)
+    ]
 
 
 def _spindles(
     params: SliderCrankParams, sizes: Sizes, dowels: tuple[complex, ...], *, heads: bool
 ) -> list[Spindle]:
     head = sizes.head[0] / 2 if heads else 0.0
-    spindles = [
+    return [
         Spindle("shaft", "crank", 0j, sizes.shaft / 2, ("base", "crank")),
         Spindle("crank-pin", "crank", complex(params.crank), sizes.pin / 2, ("crank", "rod"), head),
         Spindle("wrist-pin", "slider", 0j, sizes.pin / 2, ("rod", "slider"), head),
-    ]
-    return spindles + [
-        Spindle(f"dowel-{number}", "base", at, sizes.spacer, ("base", f"rail-{1 + (number > 2)}"))
-        for number, at in enumerate(dowels, start=1)
+        *(
+            Spindle(f"dowel-{number}", "base", at, sizes.spacer, ("base", f"rail-{1 + (number > 2)}"))
+            for number, at in enumerate(dowels, start=1)
+        ),
     ]
 
 

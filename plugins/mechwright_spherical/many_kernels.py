@@ -1,8 +1,8 @@
 """Compiled extremes of a travel, and the room between crank and rocker, for many four-bars.
 
 A linkage is a row (5,): the arcs ground, input, coupler and output, rad, and the branch; it lies as
-:mod:`mechwright_spherical.fourbar` has it. A drive is a row (4,): start and travel, rad, whether it rocks, and
-the speed, rad/s. With a and b the pins, o and c the axes, n = c x b and m = c x n, a.b = cos α3 gives
+:mod:`mechwright_spherical.fourbar` has it. A drive is a row (4,): start and travel, rad, whether it rocks,
+and the speed, rad/s. With a and b the pins, o and c the axes, n = c x b and m = c x n, a.b = cos α3 gives
 
     ψ'   = -a'.b / a.n,                     ψ'' = -(a''.b + 2 a'.b' + ψ'² a.m) / a.n,
     ψ''' = -(a'''.b + 3 a''.b' + 3 a'.b'' + 3 ψ' ψ'' a.m - ψ'³ a.n) / a.n
@@ -104,9 +104,9 @@ def _within(px: float, py: float, pz: float, s: Array, e: Array, nx: float, ny: 
 def nearest(bars: Array, drives: Array, circle: Array) -> Array:
     """How near crank and rocker come at samples of the way (n, 3).
 
-    The greatest cosine of the angle from an end of one to the other's arc, that of the angle between ends, and
-    1 where they cross, else 0. Of two arcs that do not cross an end is nearest: the distance to a great circle
-    has no least value but where it is 0.
+    The greatest cosine of the angle from an end of one to the other's arc, that of the angle between ends,
+    and 1 where they cross, else 0. Of two arcs that do not cross an end is nearest: the distance to a great
+    circle has no least value but where it is 0.
     """
     found = np.empty((len(bars), 3))
     o, a, b, c = np.array((0.0, 0.0, 1.0)), np.empty(3), np.empty(3), np.empty(3)
