@@ -1,9 +1,9 @@
 """The family ``slider-crank``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         ToleranceModel,
         Tolerances,
     )
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -29,6 +30,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     title = "Slider-crank"
     summary = "A crank and a rod move a slider on a straight guide, central or offset, with a quick return."
     Params = SliderCrankParams
+    batch = 1 << 16
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {
         "stroke": StrokeRequirement,
         "poles": PolesRequirement,
@@ -77,6 +79,15 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.tolerances import SliderCrankTolerances
 
         return SliderCrankTolerances(params, tolerances)
+
+    def evaluate(
+        self, batch: "Batch[SliderCrankParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Many at once, where they have a disc and a straight rod; forces and masses one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_slider_crank.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -46,7 +46,7 @@ from mechwright_slider_crank.base import (
 from mechwright_slider_crank.course import course_of, ends_of
 from mechwright_slider_crank.figures import Limits
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
+from mechwright_slider_crank.sizes import Sizes, corner_of, sizes_of
 
 TURN_SAMPLES = 361
 """Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""
@@ -187,7 +187,7 @@ def _slider_outline(sizes: Sizes) -> Outline:
 
 def _corner(half: complex) -> float:
     """The corner radius, smaller on what is small."""
-    return min(CORNER, 0.4 * min(half.real, half.imag))
+    return float(corner_of(half.real, half.imag))
 
 
 def _rails(
@@ -211,6 +211,41 @@ def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[
     return [Plate(name, name, outlines[name], params.thickness) for name in MOVING]
 
 
+def standing(params: SliderCrankParams) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
+    """Plates but the base, spindles without heads, poses, and the clearance that they keep."""
+    sizes = sizes_of(params)
+    outlines = {"crank": crank_outline(params), "rod": rod_outline(params), "slider": _slider_outline(sizes)}
+    outlines["rail"], rails, dowels = _rails(params, sizes, ends_of(params))
+    poses = body_poses(params, course_of(params).way(TURN_SAMPLES))
+    spindles = _spindles(params, sizes, dowels, heads=False)
+    return _above(params, outlines, rails), spindles, poses, params.clearance
+
+
+def _above(
+    params: SliderCrankParams, outlines: Mapping[str, Outline], rails: tuple[complex, complex]
+) -> list[Plate]:
+    """The plates above the base."""
+    return _moving(params, outlines) + [
+        Plate(f"rail-{number}", "base", outlines["rail"].moved(place.real, place.imag), params.thickness)
+        for number, place in enumerate(rails, start=1)
+    ]
+
+
+def _spindles(
+    params: SliderCrankParams, sizes: Sizes, dowels: tuple[complex, ...], *, heads: bool
+) -> list[Spindle]:
+    head = sizes.head[0] / 2 if heads else 0.0
+    return [
+        Spindle("shaft", "crank", 0j, sizes.shaft / 2, ("base", "crank")),
+        Spindle("crank-pin", "crank", complex(params.crank), sizes.pin / 2, ("crank", "rod"), head),
+        Spindle("wrist-pin", "slider", 0j, sizes.pin / 2, ("rod", "slider"), head),
+        *(
+            Spindle(f"dowel-{number}", "base", at, sizes.spacer, ("base", f"rail-{1 + (number > 2)}"))
+            for number, at in enumerate(dowels, start=1)
+        ),
+    ]
+
+
 def _stack(
     params: SliderCrankParams,
     sizes: Sizes,
@@ -219,24 +254,10 @@ def _stack(
     dowels: tuple[complex, ...],
     heads: bool,
 ) -> Stack:
-    plates = [Plate("base", "base", outlines["base"], params.thickness, (0,))]
-    plates += _moving(params, outlines)
-    for number, place in enumerate(rails, start=1):
-        moved = outlines["rail"].moved(place.real, place.imag)
-        plates.append(Plate(f"rail-{number}", "base", moved, params.thickness))
-    head = sizes.head[0] / 2 if heads else 0.0
-    spindles = [
-        Spindle("shaft", "crank", 0j, sizes.shaft / 2, ("base", "crank")),
-        Spindle("crank-pin", "crank", complex(params.crank), sizes.pin / 2, ("crank", "rod"), head),
-        Spindle("wrist-pin", "slider", 0j, sizes.pin / 2, ("rod", "slider"), head),
-    ]
-    spindles += [
-        Spindle(f"dowel-{number}", "base", at, sizes.spacer, ("base", f"rail-{1 + (number > 2)}"))
-        for number, at in enumerate(dowels, start=1)
-    ]
+    base = Plate("base", "base", outlines["base"], params.thickness, (0,))
     return stack(
-        plates,
-        spindles,
+        [base, *_above(params, outlines, rails)],
+        _spindles(params, sizes, dowels, heads=heads),
         body_poses(params, course_of(params).way(TURN_SAMPLES)),
         params.clearance,
         params.gap,

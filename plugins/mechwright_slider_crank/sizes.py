@@ -1,6 +1,11 @@
 """Sizes of the plates that a design leaves open, and those that follow from others."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
 
 from mechwright_slider_crank.params import SliderCrankParams
 
@@ -41,7 +46,8 @@ class Sizes:
     @property
     def dowel(self) -> float:
         """Diameter of the rails' dowels: whole millimetres, as they are sold, but for the thinnest."""
-        return dowel_of(self.pin)
+        found: float = dowel_of(self.pin)
+        return found
 
     @property
     def rod_bore(self) -> float:
@@ -66,7 +72,8 @@ class Sizes:
     @property
     def spacer(self) -> float:
         """Radius of the spacers under rails that stand high."""
-        return min(self.dowel / 2 + self.wall, self.rail / 2)
+        found: float = _smaller(self.dowel / 2 + self.wall, self.rail / 2)
+        return found
 
     @property
     def head(self) -> tuple[float, float]:
@@ -74,31 +81,55 @@ class Sizes:
         return HEAD_SHARE * self.pin, HEAD_HEIGHT_SHARE * self.pin
 
 
-def dowel_of(pin: float) -> float:
+def dowel_of(pin: Any) -> Any:
     """Diameter of the dowels beside a pin.
 
     >>> dowel_of(6.0), dowel_of(1.5)
     (4.0, 1.5)
     """
-    return max(LEAST_DOWEL, float(round(DOWEL_SHARE * pin)))
+    return _larger(LEAST_DOWEL, 1.0 * _whole(DOWEL_SHARE * pin))
+
+
+def _whole(value: Any) -> Any:
+    return np.rint(value) if isinstance(value, np.ndarray) else round(value)
+
+
+def _larger(one: Any, two: Any) -> Any:
+    return np.maximum(one, two) if isinstance(two, np.ndarray) else max(one, two)
+
+
+def _smaller(one: Any, two: Any) -> Any:
+    arrays = isinstance(one, np.ndarray) or isinstance(two, np.ndarray)
+    return np.minimum(one, two) if arrays else min(one, two)
+
+
+def corner_of(half_length: Any, half_width: Any) -> Any:
+    """Corner radius of a plate, smaller on what is small."""
+    return _smaller(CORNER, 0.4 * _smaller(half_length, half_width))
 
 
 def sizes_of(params: SliderCrankParams) -> Sizes:
     """The sizes, those left out filled in."""
+    return filled_in(partial(getattr, params))
 
-    def given(value: float | None, default: float) -> float:
+
+def filled_in(table: Callable[[str], Any]) -> Sizes:
+    """The same from parameters by their names, which may be arrays over many designs."""
+
+    def given(name: str, default: Any) -> Any:
+        value = table(name)
         return default if value is None else value
 
     least, most = PIN_RANGE
-    pin = given(params.pin, min(max(round(PIN_SHARE * params.crank), least), most))
-    wall = given(params.wall, max(LEAST_WALL, WALL_SHARE * pin))
-    width = given(params.slider_width, pin + 4 * wall)
+    pin = given("pin", _smaller(_larger(least, _whole(PIN_SHARE * table("crank"))), most))
+    wall = given("wall", _larger(LEAST_WALL, WALL_SHARE * pin))
+    width = given("slider_width", pin + 4 * wall)
     return Sizes(
         pin,
-        given(params.shaft, SHAFT_SHARE * pin),
+        given("shaft", SHAFT_SHARE * pin),
         wall,
-        params.bushing,
-        given(params.slider_length, 1.5 * width),
+        table("bushing"),
+        given("slider_length", 1.5 * width),
         width,
-        given(params.rail, dowel_of(pin) + 2 * wall),
+        given("rail", dowel_of(pin) + 2 * wall),
     )

@@ -1,14 +1,15 @@
 """The family ``spherical``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
+from mechwright import Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
     from mechwright import AsMade, Flange, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class Spherical(Family[SphericalParams]):
@@ -18,6 +19,7 @@ class Spherical(Family[SphericalParams]):
     title = "Spherical linkages"
     summary = "Spherical four-bars, and geared five-bars, set to another path on the sphere in each phase."
     Params = SphericalParams
+    batch = 1 << 16
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,
         "four-bar-path": FourBarPathRequirement,
@@ -73,6 +75,15 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.tolerances import SphericalTolerances
 
         return SphericalTolerances(params, tolerances)
+
+    def evaluate(
+        self, batch: "Batch[SphericalParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Many at once, where they are four-bars with the ground outside; the path point one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_spherical.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress

@@ -37,6 +37,7 @@ class Table(Parameters):
     end: Annotated[float, Field(ge=-5, le=5), Unit("deg")] | None = Field(None, description="An angle.")
     ratio: Ratio = Field(1.0, ge=0, le=2, description="A number.")
     shape: Literal["round", "square"] = Field("round", description="A name.")
+    sense: Literal[1, -1] = Field(1, description="A way.")
     hollow: bool = Field(False, description="Whether it is hollow.")
 
     @model_validator(mode="after")
@@ -73,6 +74,7 @@ def by_itself(batch):
         ({}, {"ratio": some(-1, 3), "first": some(0, 11), "teeth": RANDOM.integers(3, 23, 200)}),
         ({}, {"teeth": np.round(some(4, 8), 1), "end": some(-6, 6)}),
         ({"shape": "square"}, {"end": np.append(some(-6, 6), np.nan), "first": some(0, 11, 201)}),
+        ({}, {"sense": RANDOM.integers(-2, 3, 200), "first": some(0, 11)}),
         ({}, {"shape": RANDOM.choice(["round", "square", "oval"], 200), "first": some(0, 11)}),
         ({}, {"first": RANDOM.choice(["2 mm", "2 cm", "0.1 in", "3 kg"], 200), "ratio": some(-1, 3)}),
         ({}, {"inner.low": some(-1, 51), "inner.high": some(-1, 51), "teeth": RANDOM.integers(3, 23, 200)}),

@@ -225,9 +225,15 @@ def _read(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str,
         return values, {"": refused}
     if kind is bool and given.dtype.kind == "b":
         return given, {}
-    if given.dtype.kind not in "OU" or kind is None:
+    if given.dtype.kind not in "OUi" or kind is None:
         raise _Unknown
-    return _texts(info, given)
+    return _choices(info, given if given.dtype.kind == "i" else _as_text(given))
+
+
+def _as_text(given: NDArray[Any]) -> NDArray[Any]:
+    if not all(isinstance(one, str) for one in given.tolist()):
+        raise _Unknown
+    return given.astype(str)
 
 
 def _kind(info: FieldInfo) -> tuple[Any, list[Any]]:
@@ -270,10 +276,10 @@ def _beyond(metadata: list[Any], given: NDArray[Any]) -> Bools:
     return refused
 
 
-def _texts(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str, Bools]]:
-    """The same of texts, each different one read once."""
-    different, which = np.unique(given.astype(str), return_inverse=True)
-    if different.size > FEW or not all(isinstance(one, str) for one in given.tolist()):
+def _choices(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str, Bools]]:
+    """The same of texts and whole numbers to choose from, each different one read once."""
+    different, which = np.unique(given, return_inverse=True)
+    if different.size > FEW:
         raise _Unknown
     adapter = _adapter(info)
     read: list[Any] = []
