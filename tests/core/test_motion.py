@@ -1,8 +1,10 @@
+import copy
 import math
 
 import numpy as np
 import pytest
 
+from mechwright.contracts import motion
 from mechwright.contracts.motion import Channel, Motion, Poses, Trace
 from mechwright.errors import KinematicsError
 from mechwright.testing import assert_points_close, assert_rotations
@@ -22,6 +24,23 @@ def test_planar_poses_turn_about_z_and_shift():
     wanted = np.column_stack((10 + 2 * np.cos(ANGLE), np.arange(9) + 2 * np.sin(ANGLE), np.full(9, 3.0)))
     assert_points_close(seen[:, 0], wanted, 1e-14)
     assert_points_close(seen[:, 1], np.column_stack((np.full(9, 10.0), np.arange(9), np.full(9, 4.0))), 1e-14)
+
+
+def test_poses_of_many_samples_are_the_same_and_are_not_kept(monkeypatch):
+    angle = np.linspace(0, math.tau, 50)
+    x, y = np.cos(angle), 2.0
+    few = Poses.planar(x, y, angle, 3.0)
+    monkeypatch.setattr(motion, "_KEPT", 10)
+    many = Poses.planar(x, y, angle, 3.0)
+    for one in (many, copy.deepcopy(many)):
+        np.testing.assert_array_equal(one.position, few.position)
+        np.testing.assert_array_equal(one.rotation, few.rotation)
+        np.testing.assert_array_equal(one.frames, few.frames)
+        assert one.shapes == few.shapes
+        assert one.rates is None
+    assert many.rotation is not many.rotation
+    with pytest.raises(KinematicsError, match="positions of body b"):
+        Motion("t", {"t": Channel(angle[:20], "rad")}, {"b": many})
 
 
 def test_samples_are_those_of_the_input():

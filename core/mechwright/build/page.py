@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from mechwright.build.build import Build
 from mechwright.contracts.plugin import Plugin
+from mechwright.output.folder import Content
 
 
 class Page(Plugin):
@@ -42,8 +43,8 @@ class Page(Plugin):
         return False
 
     @abstractmethod
-    def files(self, build: Build) -> Mapping[str, str | bytes]:
-        """File name to content.
+    def files(self, build: Build) -> Mapping[str, Content]:
+        """File name to content; a long one may come in pieces of bytes, which are asked for as it is written.
 
         Raises
         ------

@@ -22,6 +22,9 @@ TIME = "time"
 """Name of the channel of time, s, of a motion whose input goes there and back."""
 
 
+_KEPT = 100_000
+"""Poses of more samples than this are worked out when they are asked for: 100 bytes each, for every body."""
+
 NOTHING = 1e-12
 """A single figure below this is the rounding of sums, in whatever unit: people are told 0."""
 
@@ -104,19 +107,66 @@ class Poses:
     def planar(cls, x: Array | float, y: Array | float, angle: Array, z: float = 0.0) -> "Poses":
         """Poses of a body that turns about z; ``angle`` (n,) rad, ``x`` and ``y`` (n,) or a constant, mm."""
         angle = np.asarray(angle, dtype=float)
-        c, s = np.cos(angle), np.sin(angle)
-        position = np.empty((angle.size, 3))
-        position[:, 0], position[:, 1], position[:, 2] = x, y, z
-        rotation = np.zeros((angle.size, 3, 3))
-        rotation[:, 0, 0], rotation[:, 0, 1] = c, -s
-        rotation[:, 1, 0], rotation[:, 1, 1] = s, c
-        rotation[:, 2, 2] = 1.0
-        return cls(position, rotation)
+        if angle.size > _KEPT:
+            return _Planar(x, y, angle, z)
+        return cls(_in_plane(x, y, angle.size, z), _about_z(angle))
+
+    @property
+    def shapes(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Those of positions and rotations."""
+        return self.position.shape, self.rotation.shape
 
     def transform(self, points: Array) -> Array:
         """Move body points (k, 3), mm, to every pose: (n, k, 3), mm."""
         moved: Array = np.einsum("nij,kj->nki", self.rotation, points) + self.position[:, None, :]
         return moved
+
+
+class _Planar(Poses):
+    """Poses about z of so many samples that they are worked out each time they are asked for."""
+
+    __slots__ = ("_angle", "_x", "_y", "_z")
+    _x: Array | float
+    _y: Array | float
+    _angle: Array
+    _z: float
+
+    def __init__(self, x: Array | float, y: Array | float, angle: Array, z: float) -> None:
+        for name, value in (("_x", x), ("_y", y), ("_angle", angle), ("_z", z), ("rates", None)):
+            object.__setattr__(self, name, value)
+
+    @property
+    def position(self) -> Array:
+        """As of any poses."""
+        return _in_plane(self._x, self._y, self._angle.size, self._z)
+
+    @property
+    def rotation(self) -> Array:
+        """As of any poses."""
+        return _about_z(self._angle)
+
+    @property
+    def shapes(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Those of positions and rotations."""
+        return (self._angle.size, 3), (self._angle.size, 3, 3)
+
+    def __reduce__(self) -> tuple[type[Poses], tuple[Array, Array]]:
+        return Poses, (self.position, self.rotation)
+
+
+def _in_plane(x: Array | float, y: Array | float, count: int, z: float) -> Array:
+    position = np.empty((count, 3))
+    position[:, 0], position[:, 1], position[:, 2] = x, y, z
+    return position
+
+
+def _about_z(angle: Array) -> Array:
+    c, s = np.cos(angle), np.sin(angle)
+    rotation = np.zeros((angle.size, 3, 3))
+    rotation[:, 0, 0], rotation[:, 0, 1] = c, -s
+    rotation[:, 1, 0], rotation[:, 1, 1] = s, c
+    rotation[:, 2, 2] = 1.0
+    return rotation
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,8 +245,9 @@ class Motion:
             f"channel {name}": (channel.values.shape, (n,)) for name, channel in self.channels.items()
         }
         for body, poses in self.poses.items():
-            shapes[f"positions of body {body}"] = (poses.position.shape, (n, 3))
-            shapes[f"rotations of body {body}"] = (poses.rotation.shape, (n, 3, 3))
+            position, rotation = poses.shapes
+            shapes[f"positions of body {body}"] = (position, (n, 3))
+            shapes[f"rotations of body {body}"] = (rotation, (n, 3, 3))
             for which in () if poses.rates is None else (poses.rates.first, poses.rates.second):
                 shapes[f"rates of body {body}"] = (which.shape, (n, 3, 4))
         for what, (shape, wanted) in shapes.items():

@@ -8,7 +8,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,17 +16,20 @@ from typing import Any
 from mechwright.errors import OutputError
 
 MANIFEST = "manifest.json"
+Content = str | bytes | Iterable[bytes]
+"""Of a file: text, bytes, or bytes in pieces."""
+
 _AT_FDCWD, _RENAME_EXCHANGE = -100, 2
 
 
 @dataclass
 class Output:
-    """The files of one run, kept in memory until all of them are there."""
+    """The files of one run, in memory until all are there; long ones are made as they are written."""
 
-    files: dict[str, bytes] = field(default_factory=dict)
+    files: dict[str, bytes | Iterable[bytes]] = field(default_factory=dict)
 
-    def add(self, name: str, content: str | bytes) -> None:
-        """Add a file; ``name`` is a plain file name."""
+    def add(self, name: str, content: Content) -> None:
+        """Add a file; ``name`` is a plain file name. What comes in pieces is asked for once."""
         if name != Path(name).name or name in {"", ".", ".."}:
             raise OutputError(f"{name!r} is no plain file name")
         if name in self.files:
@@ -55,8 +58,7 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
             _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
         entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
         for name, content in output.files.items():
-            (staging / name).write_bytes(content)
-            entries[name] = {"command": command, "sha256": hashlib.sha256(content).hexdigest()}
+            entries[name] = {"command": command, "sha256": _written(staging / name, content)}
         manifest = {**facts, "outputs": dict(sorted(entries.items()))}
         (staging / MANIFEST).write_text(
             json.dumps(manifest, indent=2, sort_keys=True) + "\n", encoding="utf-8"
@@ -66,6 +68,16 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
         raise _refusal(target, error) from error
     finally:
         shutil.rmtree(staging, ignore_errors=True)
+
+
+def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
+    """Write a file, and give its digest."""
+    digest = hashlib.sha256()
+    with path.open("wb") as file:
+        for piece in (content,) if isinstance(content, bytes) else content:
+            file.write(piece)
+            digest.update(piece)
+    return digest.hexdigest()
 
 
 def check_folder(target: Path) -> None:

@@ -104,7 +104,9 @@ class Mechanism(Build):
         with self._as("solve") as build:
             files = found.files(build)
         content = next(iter(files.values()))
-        return content if isinstance(content, str) else content.decode()
+        if isinstance(content, str):
+            return content
+        return (content if isinstance(content, bytes) else b"".join(content)).decode()
 
     def _as(self, command: str) -> Build:
         return Build(self.design, self.host, replace(self.wanted, command=command))
