@@ -115,13 +115,16 @@ def outcome(design: Design) -> str:
             machine = design.content["machine"]
             kept = "framed" if machine["frame"] != "none" else "left without a frame"
             return kept if machine["motor"] != "none" else f"{kept}, without a motor"
-        step = next(
-            (better for change in told[0].proposed if (better := changed(design, told[0], change))), None
-        )
-        if step is None:
+        steps = [better for change in told[0].proposed if (better := changed(design, told[0], change))]
+        if not steps:
             return f"left with {told[0].code}"
-        design = step
+        design = min(steps, key=own_errors)
     return "not framed within so many remedies"
+
+
+def own_errors(design: Design) -> int:
+    """How many errors the mechanism has without its frame: the first change that makes none is taken."""
+    return len(errors(design.family.check(design.params), Stage.PARTS))
 
 
 def changed(design: Design, finding: Finding, change: Change) -> Design | None:

@@ -13,6 +13,7 @@ import numpy as np
 from accelerating_crank import accelerating_crank
 from pole_figures import draw, figures
 from signed_distances import of_four_bar, of_slider_crank
+from six_bar_poles import six_bars
 
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
@@ -339,7 +340,7 @@ def errata() -> list[str]:
     ]
 
 
-PARTS: list[Callable[[], list[str]]] = [figures, slider_crank, four_bar, accelerating_crank]
+PARTS: list[Callable[[], list[str]]] = [figures, slider_crank, four_bar, accelerating_crank, six_bars]
 """In the order of the page."""
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import six_bar_poles
 from signed_distances import SignedDistances, of_four_bar, of_slider_crank
 
 from mechwright.build.figures.sheet import INK, Window, linkage
@@ -105,6 +106,8 @@ DRAWN: dict[str, Callable[[], str]] = {
     "poles-accelerating-four-bar-coupler": lambda: planes.moving(four_bar(FOUR), RATIOS),
     "poles-circles-slider-crank": lambda: planes.position(slider(SLIDER), 0.5, math.radians(150)),
     "poles-circles-four-bar": lambda: planes.position(four_bar(FOUR), 0.5, math.radians(240)),
+    "poles-six-bar-stephenson": lambda: six_bar_poles.picture("Stephenson"),
+    "poles-six-bar-watt": lambda: six_bar_poles.picture("Watt"),
 }
 """Picture to what draws it."""
 
