@@ -31,6 +31,7 @@ Every array has the design axis first and the sample axis last.
 """
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,7 +63,7 @@ class Frame:
         values = (np.asarray(v, dtype=float) for v in (wheel_half, crank_half, offset, entry_radius))
         return cls(*(v[:, None] if v.ndim else v for v in values))
 
-    def rows(self, chosen: slice | NDArray[np.bool_]) -> "Frame":
+    def rows(self, chosen: "slice | NDArray[Any]") -> "Frame":
         """Some of many designs."""
         values = (getattr(self, field.name) for field in fields(self))
         return Frame(*(value[chosen] if value.ndim else value for value in values))

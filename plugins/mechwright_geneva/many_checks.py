@@ -1,6 +1,7 @@
 """What forbids each of many designs first: the errors of the checks, in their order, without their words."""
 
 import math
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from mechwright_geneva.assembly import BINDING, LEAST_GROOVE, LEAST_LOCK
 from mechwright_geneva.body_checks import ROLLER_WALL
 from mechwright_geneva.contact import carried, peak_of, sampled
 from mechwright_geneva.feasible import ANGLE_SLACK, FLATTEST, LEAST_FLOOR, LENGTH_SLACK
-from mechwright_geneva.limits import FINE_SAMPLES, bends, measure, sharpened
+from mechwright_geneva.limits import FINE_SAMPLES, Measures, bends, measure, sharpened
 from mechwright_geneva.many import Mechanisms
 from mechwright_geneva.openings import around
 from mechwright_geneva.relief import drawn
@@ -134,7 +135,8 @@ def _walls(m: Mechanisms, told: Verdicts) -> Mechanisms:
     if m.straight:
         return m
     groove, least = np.broadcast_to(m.groove, (len(m), 1)), m.params.least_wall
-    found: Any = sharpened(measure(m.frame, m.law, groove, FINE_SAMPLES), m.frame, m.law)
+    found: Any = measure(m.frame, m.law, groove, FINE_SAMPLES)
+    found = _decided(m, found, groove)
     island = found.island_limit[:, None]
     told.forbid("undercut", (groove >= island) | (groove >= found.hub_limit[:, None]))
     told.forbid("loop", ~(found.width[:, None] > 0))
@@ -146,6 +148,24 @@ def _walls(m: Mechanisms, told: Verdicts) -> Mechanisms:
 
 SURE = 1e-9
 """Share by which a wall is undercut beyond rounding."""
+
+
+def _decided(m: Mechanisms, found: Measures, groove: Array) -> Measures:
+    """The same with critical radii to rounding where one is next to what it is compared with."""
+    island, hub, half = found.island_limit, found.hub_limit, groove[:, 0]
+    close = (np.abs(island - half) < NEXT * island) | (np.abs(island - half - LEAST_TIP) < NEXT * island)
+    rows = np.flatnonzero(close | (np.abs(hub - half) < NEXT * hub))
+    if not rows.size:
+        return found
+    part = Measures(*(getattr(found, field.name)[rows] for field in fields(Measures)))
+    sharp = sharpened(part, m.frame.rows(rows), m.law)
+    limits = island.copy(), hub.copy()
+    limits[0][rows], limits[1][rows] = sharp.island_limit, sharp.hub_limit
+    return replace(found, island_limit=limits[0], hub_limit=limits[1])
+
+
+NEXT = 0.01
+"""Share of a critical radius by which its samples are surely nearer to it: they are within 1e-9."""
 
 
 def _openings(m: Mechanisms, told: Verdicts) -> Mechanisms:

@@ -37,7 +37,10 @@ from mechwright_geneva.mirror import mirrored
 from mechwright_geneva.slot import FIT
 
 _SAMPLES = 400
-"""Samples of envelope and horn path that find their crossing; Newton's method does the rest."""
+"""Samples of the envelope that find how deep it is."""
+
+_SOUGHT = 120
+"""Samples that find the crossing of envelope and horn path; Newton's method does the rest."""
 
 _STEPS = 12
 """Steps of Newton's method: from a sample's distance to rounding in five, the rest to spare."""
@@ -130,7 +133,7 @@ class _Half:
         s, t, miss
             (m, 1) each; the distance, mm, at which both are, infinite where the horn does not clear the disc.
         """
-        share = np.linspace(0, 1, _SAMPLES + 1)
+        share = np.linspace(0, 1, _SOUGHT + 1)
         u, after = last * share, (1 - share) * last + share
         edge, path = self.envelope(u), self.horn(after)
         turned, angle = np.maximum.accumulate(np.angle(edge), axis=-1), np.angle(path)

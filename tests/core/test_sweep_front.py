@@ -1,15 +1,22 @@
 """Studies: what is best of what was tried, and what is tried near it."""
 
+import math
+from pathlib import Path
+
 import numpy as np
+import pytest
 from bowl_family import BowlParams, study
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mechwright.contracts.evaluation import Batch
+from mechwright.plugins.host import host
 from mechwright.sweep.draw import drawn
 from mechwright.sweep.front import Front, around
 from mechwright.sweep.pareto import front_of, spread
+from mechwright.sweep.shard import read, shard_of
+from mechwright.sweep.study import study_of
 
 
 @given(arrays(float, st.tuples(st.integers(0, 60), st.integers(1, 4)), elements=st.integers(0, 6).map(float)))
@@ -69,3 +76,45 @@ def test_refinement_stays_in_its_ranges_and_finds_what_is_known_to_be_best():
     assert x.min() < 0.02
     assert x.max() > 1.98
     assert np.allclose(np.sqrt(front.costs).sum(axis=1), 2.0, atol=0.03)
+
+
+def test_texts_that_are_varied_come_to_the_front():
+    pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
+    asked = study(ranges={"x": {"least": -4, "greatest": 6}, "shape": {"values": ["round", "flat"]}})
+    table = read(shard_of(asked, drawn(asked, 0), 0))
+    front = Front(asked)
+    front.take(table)
+    assert {front.design(place)["shape"] for place in range(len(front))} <= {"round", "flat"}
+    assert set(table["shape"].tolist()) == {"round", "flat"}
+    values = around(front, 0, list(range(len(front))))
+    assert Batch(BowlParams, {}, values).one(0).shape in {"round", "flat"}
+
+
+def test_the_front_of_a_study_contains_the_known_optimum():
+    """A pair's acceleration grows with its eccentricity, its size with the semi-major axis: one corner is best."""
+    pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
+    content = {
+        "family": "elliptic-gears",
+        "study": {
+            "method": "grid",
+            "count": 20000,
+            "ranges": {
+                "eccentricity": {"least": 0.2, "greatest": 0.5, "count": 16},
+                "semi_major": {"least": 40, "greatest": 60, "count": 11},
+                "teeth": {"values": [25, 27, 29]},
+            },
+            "constraints": {"ratio_max": {"at_least": 2.0}},
+            "objectives": {"alpha4_max": "least", "centre_distance": "least"},
+        },
+    }
+    asked = study_of(content, Path("pairs.toml"), host())
+    front = Front(asked)
+    for number in range(asked.batches):
+        front.take(read(shard_of(asked, drawn(asked, number), number * asked.batch)))
+    # (1 + e)/(1 - e) is at least 2 from e = 1/3 on; 0.34 is the next of the grid
+    assert {round(front.design(place)["eccentricity"], 9) for place in range(len(front))} == {0.34}
+    assert {front.design(place)["semi_major"] for place in range(len(front))} == {40.0}
+    e = 0.34
+    cos = (-(1 + e * e) + math.sqrt((1 + e * e) ** 2 + 32 * e * e)) / (4 * e)
+    ratio = 2 * e * (1 - e * e) * math.sqrt(1 - cos * cos) / (1 + e * e - 2 * e * cos) ** 2
+    assert np.allclose(front.columns["alpha4_max"], ratio * (60 * math.tau / 60) ** 2, rtol=1e-12)

@@ -105,4 +105,5 @@ def read(content: bytes | Path, columns: Sequence[str] | None = None) -> dict[st
     """Columns of a shard by name."""
     source = io.BytesIO(content) if isinstance(content, bytes) else content
     table = optional("pyarrow.parquet").read_table(source, columns=columns)
-    return {name: table.column(name).to_numpy() for name in table.column_names}
+    found = {name: table.column(name).to_numpy() for name in table.column_names}
+    return {name: values.astype(str) if values.dtype == object else values for name, values in found.items()}
