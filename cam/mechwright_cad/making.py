@@ -66,7 +66,7 @@ class Work:
                 raise GeometryError(
                     f"{exporter.name} holds whole mechanisms, and no part of this design has a place in one"
                 )
-        return made.files
+        return {name: content for name, content in made.files.items() if isinstance(content, bytes)}
 
     def _assembly(self, exporter: Exporter) -> bytes | None:
         if not any(part.instances for part in self.parts):
