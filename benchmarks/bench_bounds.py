@@ -141,6 +141,43 @@ def _arcs_where_cleared() -> list[str]:
     return [*_pocket(), "G1 X-7 Y0", "F8000", *arcs]
 
 
+def _radius_arcs() -> list[str]:
+    arcs = (f"G{2 + k % 2} {_in(9)} R{_RNG.choice((20, -15))}" for k in range(MANY))
+    return ["G0 X0 Y0", "G1 Z-.5 F1000", *arcs]
+
+
+def _distances() -> list[str]:
+    arcs = ["G2 X1 Y1 I1 J0", "G3 X-1 Y-1 R1", "G1 X.5 F900 Y.2", "G1 X-.5 Y-.2"] * (MANY // 4)
+    return ["G0 X0 Y0", "G1 Z-.5 F1000", "G91", *arcs, "G90"]
+
+
+def _surface() -> list[str]:
+    """Rows of short moves over a wavy floor."""
+    out = ["G0 X-15 Y-15", "G1 Z-1 F1000"]
+    for k in range(MANY):
+        row, at = divmod(k, 1000)
+        x, y = (at * 0.03 - 15) * (-1) ** row, row * 0.3 - 15
+        out.append(f"X{x:.3f} Y{y:.3f} Z{-1 - math.sin(x / 3) * math.cos(y / 3) / 2:.4f}")
+    return out
+
+
+def _rapids_beside_walls() -> list[str]:
+    """Rapids all over a pocket from places at less than two tenths of a millimetre off its walls."""
+    out = _pocket()
+    while len(out) < MANY:
+        along, off = f"{_RNG.uniform(-15, 15):.3f}", f"{_RNG.choice((-1, 1)) * _RNG.uniform(14.81, 15):.3f}"
+        out.append(_RNG.choice((f"G0 X{along} Y{off}", f"G0 X{off} Y{along}")))
+    return out
+
+
+def _expressions() -> list[str]:
+    return ["G0 X0 Y0", "G1 Z-.5 F1000", "#31=.5", *(f"G1 X[#31*{k % 10}] Y[{k % 7}/7]" for k in range(MANY))]
+
+
+def _on_and_off() -> list[str]:
+    return ["G0 X60 Y0", "G1 Z1 F1000", *["G41 D23 G1 X50", "X45", "Y5", "G40 X60", "Y0"] * (MANY // 5)]
+
+
 def _one_sub() -> list[str]:
     sub = ["O100 sub", "G91 G1 X.01 Y.001 F500", "G1 X-.01", "G90", "O100 endsub"]
     return [*sub, "G0 X0 Y0", "G1 Z-.5 F100", *["O100 call"] * (MANY // 2)]
@@ -178,6 +215,12 @@ CASES: dict[str, Callable[[], list[str]]] = {
     "99,400 fast arcs where cleared": _arcs_where_cleared,
     "99,400 rapids under a holder": _rapids_where_cleared,
     "99,400 arcs under a holder": _arcs_where_cleared,
+    "100,000 arcs with R": _radius_arcs,
+    "100,000 distances": _distances,
+    "100,000 moves over a surface": _surface,
+    "99,400 rapids beside walls": _rapids_beside_walls,
+    "20,000 times compensation on and off": _on_and_off,
+    "100,000 expressions": _expressions,
     "100,000 moves in the bore": lambda: ["G0 X0 Y0", *_up_and_down()],
     "100,000 changes of speed": lambda: [f"S{k % 9000} M3" for k in range(MANY)],
     "100,000 dwells": lambda: ["G4 P0.1"] * MANY,

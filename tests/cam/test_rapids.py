@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+import shapely
 from by_control import BY_NAME
 from shop import plate_job
 
@@ -10,6 +11,7 @@ from mechwright_cam.proof import Check, Scene
 from mechwright_cam.proof.entry_rules import rapid_height, rapids_in_stock
 from mechwright_cam.proof.held import clamp
 from mechwright_cam.proof.machine_moves import positions
+from mechwright_cam.proof.plane import SNAP, overlay
 from mechwright_cam.setup.holding import Clamp
 from mechwright_cam.setup.job import Job
 
@@ -121,3 +123,19 @@ def test_what_is_clear_later_was_not_clear_before() -> None:
     along = [step for step in stock.paths.rapids.tolist() if stock.paths.low[step] == -1]
     early, late = along[1], along[-1]
     assert [stock.meets(step) for step in (late, early, late)] == [False, True, False]
+
+
+def test_shapes_that_geos_cannot_put_together_are_put_on_a_grid() -> None:
+    """What GEOS refuses as it is goes with its corners on a grid, and all else without one."""
+    asked: list[dict[str, float]] = []
+
+    def operation(one: shapely.Polygon, other: shapely.Polygon, **how: float) -> shapely.Geometry:
+        asked.append(how)
+        if not how:
+            raise shapely.errors.GEOSException("TopologyException: found non-noded intersection")
+        return shapely.difference(one, other, **how)
+
+    found = overlay(operation, shapely.box(0, 0, 3, 1), shapely.box(1, 0, 3, 1))
+    assert found.equals(shapely.box(0, 0, 1, 1))
+    assert asked == [{}, {"grid_size": SNAP}]
+    assert overlay(shapely.union, shapely.box(0, 0, 3, 1), shapely.box(1, 0, 4, 1)).area == 4.0

@@ -1,5 +1,6 @@
 """Polygons: buffers of known accuracy, the closing, and distances to a boundary."""
 
+from collections.abc import Callable
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -15,10 +16,26 @@ from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.setup.views import ROUND, Shape, quarter
 
+SNAP = 1e-6
+"""Grid for shapes that GEOS cannot put together without one, mm: far below a program's last decimal."""
+
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
     """The shape and all within ``distance`` of it; shrunk if that is negative."""
     return buffered(shape, distance, quarter(distance, error))
+
+
+def overlay(operation: Callable[..., Any], one: Any, other: Any) -> Shape:
+    """What an operation of shapely makes of two shapes.
+
+    Shapes that have been put together many times may have edges so nearly in line that GEOS 3.14 finds no
+    place where they cross; with all corners on a grid of :data:`SNAP` it does.
+    """
+    try:
+        found: Shape = operation(one, other)
+    except shapely.errors.GEOSException:
+        found = operation(one, other, grid_size=SNAP)
+    return found
 
 
 def closing(keep: Shape, radius: float) -> Shape:

@@ -17,7 +17,7 @@ from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.cleared import left
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
-from mechwright_cam.proof.plane import Shape, grow
+from mechwright_cam.proof.plane import Shape, grow, overlay
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import quarter
 from mechwright_cam.shop.cutter import cutter
@@ -26,13 +26,15 @@ TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
 MOST_TOLD = 20
 """So many rapids that meet material are enough to know of."""
+FIRST = 2000
+"""So many rapids are asked about first; if those meet enough, no others are."""
 UNEVEN = 0.2
 """Plates are uneven and are set up to tenths, mm: a rapid keeps so far off a side or a face not yet cut."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 LAST = 250
-"""So many of the last cuts are asked first whether they have cleared the way, then four times as many each
-time: what is near was mostly cut shortly before."""
+"""So many of the last cuts are asked first whether they have cleared the way, and then four times as many
+each time: what is near was mostly cut shortly before."""
 FEW = 16
 """So many cuts are taken off at first, and then twice as many each time, until nothing is left."""
 ASKED, COMPARED, GROWN = 500, 20, 150
@@ -117,8 +119,9 @@ class Stock:
         paths, rapid = self.paths, self.paths.rapids
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
-        low = self.suspects(low[~self.in_own_hole(low, paths.low[low])])
-        return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
+        low = low[~self.in_own_hole(low, paths.low[low])]
+        lots = (self.suspects(lot) for lot in (low[:FIRST], low[FIRST:]))
+        return list(islice((step for lot in lots for step in lot.tolist() if self.meets(step)), MOST_TOLD))
 
     def in_own_hole(self, rapids: Ints, z: Array) -> NDArray[np.bool_]:
         """(n,) whether a rapid is straight down, where the same tool was fed to ``z`` (n,), as pecks do."""
@@ -228,15 +231,15 @@ class Stock:
         if since > step:
             cleared = shapely.Point()
         self._count(step, ASKED + int(shapely.get_num_coordinates(cleared)))
-        body = shapely.difference(body, cleared)
+        body = overlay(shapely.difference, body, cleared)
         if body.is_empty:
             return False
         rest = self._left(step, z, body)
         for air in self.air:  # over a recess of the other side it is enough to have cut down to that
             if air.top > z + NEAR and shapely.intersects(rest, air.shape):
-                over = self._left(step, air.top, shapely.intersection(rest, air.shape))
-                rest = shapely.union(shapely.difference(rest, air.shape), over)
-        cleared = shapely.union(cleared, shapely.difference(body, rest))
+                over = self._left(step, air.top, overlay(shapely.intersection, rest, air.shape))
+                rest = overlay(shapely.union, overlay(shapely.difference, rest, air.shape), over)
+        cleared = overlay(shapely.union, cleared, overlay(shapely.difference, body, rest))
         if shapely.get_num_coordinates(cleared) < MOST_CORNERS:
             self._cleared[key] = step, cleared
         return not _is_nothing(rest)
@@ -269,7 +272,8 @@ class Stock:
             now[np.argsort(away, kind="stable")[:count]] = True
             now[:: -(-lines.size // count)] = True
             self._count(step, int(GROWN * now.sum() + shapely.get_num_coordinates(lines[now]).sum()))
-            body = shapely.difference(body, shapely.union_all(_discs(lines[now], radius[now])))
+            gone = shapely.union_all(_discs(lines[now], radius[now]))
+            body = overlay(shapely.difference, body, gone)
             lines, radius, count = lines[~now], radius[~now], 2 * count
             if lines.size > count:
                 near = shapely.dwithin(prepared(body), lines, float(radius.max()))

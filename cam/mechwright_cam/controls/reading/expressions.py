@@ -48,6 +48,8 @@ _BINARY: tuple[dict[str, Callable[[float, float], float]], ...] = (
 )
 """Operators by precedence, the loosest first; those of one row are worked out from left to right. MOD is
 never negative, whatever its divisor."""
+_ROW = {name: row for row, names in enumerate(_BINARY) for name in names}
+_OPERATOR = re.compile("|".join(re.escape(name) for name in sorted(_ROW, key=len, reverse=True)))
 
 
 class Reader:
@@ -111,27 +113,20 @@ class Reader:
         return result
 
     def _level(self, level: int) -> float:
-        if level == len(_BINARY):
-            return self.real()
-        result = self._level(level + 1)
-        while True:
-            found = next(
-                (
-                    name
-                    for name in _BINARY[level]
-                    if self.text.startswith(name, self.at)
-                    and not (name == "*" and self.text.startswith("**", self.at))
-                ),
-                None,
-            )
-            if found is None:
-                return result
-            self.at += len(found)
-            other = self._level(level + 1)
+        """What operators of a row of :data:`_BINARY`, and of those that bind more, make of values."""
+        result = self.real()
+        while match := _OPERATOR.match(self.text, self.at):
+            found = match[0]
+            own = _ROW[found]
+            if own < level:
+                break
+            self.at = match.end()
+            other = self._level(own + 1)
             try:
-                result = float(_BINARY[level][found](result, other))
+                result = float(_BINARY[own][found](result, other))
             except (ZeroDivisionError, OverflowError, TypeError) as error:
                 raise ValueError(f"{result:g} {found} {other:g} has no value ({error})") from None
+        return result
 
     def _exists(self) -> float:
         self.at += len("exists")
