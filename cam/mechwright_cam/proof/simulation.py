@@ -41,6 +41,8 @@ MOST_LOWERED = 100_000_000
 """Cells under the cutter at all of these places, about 10 ns each: the same holds."""
 MOST_TRIED = 200_000
 """Places at which a cutter may take something, beyond which a program is refused: two seconds."""
+FINER = 3.0
+"""So many times as many where a large plate has finer cells for its cutters."""
 COARSEST = 1 / 3
 """That share: with wider cells a cutter has no shape."""
 
@@ -150,11 +152,13 @@ def _cut(
     met = (rows >= -half) & (rows < ny + half) & (columns >= -half) & (columns < nx + half)
     low = np.flatnonzero((taken.z < -NEAR) & met)
     low = low[_deeper(rows[low] * (nx + 2 * half) + columns[low], taken.z[low])]
-    if low.size > MOST_TRIED:
-        line = int(paths.run.line[taken.step[low[MOST_TRIED]]])
+    usual = math.sqrt(ny * nx * cell**2 / CELLS)  # the cell of so large a plate, were its cutters wide
+    most_tried = int(MOST_TRIED * min(max(usual / cell, 1.0), FINER))
+    if low.size > most_tried:
+        line = int(paths.run.line[taken.step[low[most_tried]]])
         raise ProgramError(
             f"line {line}: so long a path in material, each time deeper, is set onto the stock at more than "
-            f"{MOST_TRIED:,} places; split the program"
+            f"{most_tried:,} places; split the program"
         )
     if np.count_nonzero(np.isfinite(disc)) <= FEW_CELLS:
         tip = taken.z[low].astype(np.float32)
