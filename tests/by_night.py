@@ -12,6 +12,10 @@ NIGHT = bool(os.environ.get("MECHWRIGHT_NIGHT"))
 by_night = pytest.mark.skipif(not NIGHT, reason="by night, with MECHWRIGHT_NIGHT=1")
 """For a test that shows on more cases what another shows on a few."""
 
+in_ci = pytest.mark.skipif(not NIGHT, reason="in CI besides, with MECHWRIGHT_NIGHT=1")
+"""For tests with whole programs around ours, as an installed plugin or another one's planner: CI runs their files
+besides the README's command."""
+
 
 def examples(day: int, night: int) -> int:
     """Random examples of a property whose examples take up to seconds each."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import in_ci
 from planner_path import compared, times
 from planner_witness import MARK, NOBODY, Mill, Sampled, WitnessError, needs_linuxcnc, sample, scaled
 from planning_parts import bore, job, plate
@@ -15,7 +16,7 @@ from mechwright_cam.controls.lookahead import USUAL
 from mechwright_cam.machining import machine
 from mechwright_cam.shop.machine import Machine
 
-pytestmark = needs_linuxcnc
+pytestmark = [in_ci, needs_linuxcnc]
 CLOSE = 0.02
 HEAD = "G17 G21 G40 G49 G80 G90 G94\nG54\n"
 BEND = 0.0136

@@ -3,8 +3,10 @@
 import re
 
 import pytest
-from by_night import by_night
+from by_night import by_night, in_ci
 from templates import EXAMPLES, answer, copied, installed_into, passed, run
+
+pytestmark = in_ci
 
 ASK = """
 import json

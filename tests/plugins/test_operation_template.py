@@ -6,6 +6,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+from by_night import in_ci
+
+pytestmark = in_ci
+
 TEMPLATE = Path(__file__).parents[2] / "examples" / "operation-template"
 
 

@@ -5,8 +5,10 @@ import io
 import json
 
 import pytest
-from by_night import NIGHT, by_night
+from by_night import NIGHT, by_night, in_ci
 from templates import EXAMPLES, copied, installed_into, passed, run
+
+pytestmark = in_ci
 
 NAMES = {"saw-list.csv", "saw-list.html"}
 DESIGN = EXAMPLES / "elliptic-pair.toml"

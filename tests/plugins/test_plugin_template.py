@@ -1,7 +1,10 @@
 """The template as a third party would use it: installed, found by the host, tested by its own tests."""
 
 import pytest
+from by_night import in_ci
 from templates import answer, copied, installed_into, passed, run
+
+pytestmark = in_ci
 
 ASK = """
 import json

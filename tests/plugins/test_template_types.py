@@ -3,8 +3,10 @@
 import os
 
 import pytest
+from by_night import in_ci
 from templates import EXAMPLES, copied, run
 
+pytestmark = in_ci
 TEMPLATES = sorted(path.name for path in EXAMPLES.glob("*-template"))
 
 
