@@ -23,8 +23,8 @@ def squared(item: int, progress: Progress) -> tuple[int, int]:
 
 def slept(folder: str, progress: Progress) -> None:
     """Says that it has begun, and whether it could tidy up."""
-    progress(0.1, "sleeping")
     try:
+        progress(0.1, "sleeping")
         time.sleep(60)
     finally:
         (Path(folder) / "tidy").write_text("")
