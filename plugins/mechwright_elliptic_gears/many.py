@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from mechwright import Array
 from mechwright.mechanics.gearing.teeth import FACTOR_SAMPLES
 
-_ROUGH, _EXACT = 2, 9
+_ROUGH, _EXACT = 1, 9
 """Steps of Newton's method on the arc: for a place to start from, and to rounding."""
 
 _SETTLED = 1e-9
@@ -212,7 +212,7 @@ def _flank_end(gears: Gears, arcs: Arcs, middles: Array, side: float) -> _End:
     sin, cos = np.sin(gears.angle), np.cos(gears.angle)
     crossing = middles + side * (gears.pitch / 2 - gears.half_space)
     own = -side  # of the space beside it
-    near = arcs.parameter(crossing, _ROUGH)
+    near = arcs.parameter(crossing, 0)
     radius = np.sqrt(1 - (e * np.cos(near)) ** 2) ** 3 / arcs.semi_minor
     half, square = sin * cos, cos**4 / (2 * radius)
     u = own * 2 * high / (half + np.sqrt(half**2 + 4 * square * high))
