@@ -5,6 +5,8 @@ import zipfile
 
 import pytest
 from cribs import bit, freecad, fusion, fusion_tool, preset
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Said, slug
@@ -187,7 +189,7 @@ def test_a_bit_that_cannot_be_used_is_left_out_by_name(tmp_path, content, reason
 def test_a_bit_outside_of_its_folders_is_not_read(tmp_path):
     path = freecad(tmp_path, bit("Endmill", Diameter="6 mm", CuttingEdgeHeight="9 mm"))
     path.write_text(json.dumps({"version": 1, "tools": [{"nr": 1, "path": "../Bit/bit1.fctb"}]}))
-    with pytest.raises(DesignError, match=r"there is no ../Bit/bit1\.fctb in"):
+    with pytest.raises(DesignError, match=r"'../Bit/bit1' \(T1\) is left out: its \.fctb is"):
         load_library(path)
 
 
@@ -288,3 +290,44 @@ def test_names_are_made_of_any_text():
     assert slug("  Ø6 / 2-Flute ") == "6-2-flute"
     assert slug("***") == ""
     assert Said("a").called == "'a'"
+
+
+STRANGE = st.sampled_from(
+    [None, True, -1, 0, 2.5, 1e300, 10**400, "", "6", "x\ny", "\ud800", "é" * 500, [], [1], {}, {"unit": []}]
+)
+
+
+@settings(max_examples=150)
+@given(places=st.lists(st.integers(0, 200), min_size=1, max_size=3), values=st.lists(STRANGE, min_size=3))
+def test_whatever_stands_in_a_file_is_taken_over_or_told_in_one_line(tmp_path_factory, places, values):
+    folder = tmp_path_factory.mktemp("strange")
+    cone = bit("Chamfer", {"Chipload": "1 mm"}, Diameter="6 mm", CuttingEdgeHeight="3 mm", Flutes="3")
+    rows = [fusion_tool(1, type="chamfer mill", geometry={"TA": 45}), fusion_tool(2)]
+    for content in (rows[0], cone):
+        for place, value in zip(places, values, strict=False):
+            _replace(content, place, value)
+    for path in (fusion(folder / "a.json", *rows), freecad(folder, cone, cone)):
+        try:
+            library = load_library(path)
+        except DesignError as error:
+            lines = str(error).splitlines()
+            assert all(line.startswith(f"{path}: ") for line in lines)
+            continue
+        assert all("\n" not in line for line in library.told)
+        assert len(library.tools) >= 1
+
+
+def _replace(content, place, value):
+    """Put a value in the place of one that lies somewhere in nested tables and lists."""
+    found = []
+
+    def seek(within):
+        items = within.items() if isinstance(within, dict) else enumerate(within)
+        for key, inner in list(items):
+            found.append((within, key))
+            if isinstance(inner, (dict, list)):
+                seek(inner)
+
+    seek(content)
+    within, key = found[place % len(found)]
+    within[key] = value

@@ -70,6 +70,7 @@ def _name(said: Said, known: dict[str, Tool]) -> str:
     plain = unicodedata.normalize("NFKD", said.label).encode("ascii", "ignore").decode()
     number = f"t{said.keys['number']}"
     name = slug(plain) or number
-    if name in known:
+    while name in known:  # a name may end so by itself
         name = f"{name[: LONGEST - len(number) - 1].rstrip('-_.')}-{number}"
+        number += "x"
     return name

@@ -34,9 +34,9 @@ class Said:
 
     @property
     def called(self) -> str:
-        """Its name and T number for messages."""
-        number = self.keys.get("number")
-        return repr(self.label) if number is None else f"{self.label!r} (T{number})"
+        """Its name, or how that begins, and T number for messages."""
+        name, number = repr(self.label[: 2 * LONGEST].strip()), self.keys.get("number")
+        return name if number is None else f"{name} (T{number})"
 
     def take(self, key: str, value: Any) -> None:
         """Set a key that the file does not say, and tell so."""

@@ -108,7 +108,7 @@ def _bit(path: Path, row: object) -> Path | None:
     name = row.get("path") if isinstance(row, Mapping) else None
     if (
         not isinstance(name, str)
-        or not name
+        or not 0 < len(name) <= 200
         or PurePosixPath(name).name != name
         or "\\" in name
         or "\0" in name
@@ -129,14 +129,10 @@ def _said(path: Path, row: object, place: int) -> Said:
         said.keys["number"] = tool_number(row.get("nr"))
         bit = _bit(path, row)
         if bit is None:
-            raise LeftOutError(
-                f"there is no {said.label}.fctb in ../Bit, in Bit or beside the library; copy it"
-            )
+            raise LeftOutError("its .fctb is neither in ../Bit nor in Bit nor beside the library; copy it")
         data = parsed(read_text(bit)[0], bit, BIT_VERSION, _NEWER)
         _shape(said, data)
-    except LeftOutError as error:
-        said.fault = str(error)
-    except MechwrightError as error:
+    except (LeftOutError, MechwrightError) as error:
         said.fault = str(error)
     return said
 
@@ -145,7 +141,7 @@ def _kind(data: Mapping[str, Any]) -> ToolKind:
     shape = str(data.get("shape-type") or Path(str(data.get("shape", ""))).stem)
     kind = KINDS.get(re.sub(r"[^a-z]", "", shape.lower()))
     if kind is None:
-        raise LeftOutError(f"there is no {shape!r} among our kinds of tools; leave it to other programs")
+        raise LeftOutError(f"there is no {shape!r:.40} among our kinds of tools; leave it to other programs")
     return kind
 
 
@@ -188,7 +184,9 @@ def _shape(said: Said, data: Mapping[str, Any]) -> None:
         said.take("substrate", "hss")
     chip = values.get("Chipload")
     if isinstance(chip, str) and _QUANTITY.fullmatch(chip) and _quantity(values, "Chipload"):
-        said.dropped.append(f"Chipload {chip}: it says no cutting speed and no material; write [cam.cutting]")
+        said.dropped.append(
+            f"Chipload {chip!r:.40}: it says no cutting speed and no material; write [cam.cutting]"
+        )
 
 
 def _corner(values: Mapping[str, Any], wide: float) -> float:

@@ -6,6 +6,7 @@ tool has its own unit.
 
 import io
 import json
+import lzma
 import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
@@ -13,8 +14,8 @@ from pathlib import Path
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
-from mechwright.designs.files import INPUT_LIMIT, read_text
-from mechwright.errors import DesignError, OutputError
+from mechwright.designs.files import INPUT_LIMIT, read_bytes, read_text
+from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
 from mechwright_cam.shop.formats.fusion_presets import presets_of, read_presets
 from mechwright_cam.shop.formats.jsons import parsed
@@ -39,6 +40,8 @@ NOSE = 20.0
 plate and its clamps stands."""
 MOST_OFF = 0.01
 """By this share two statements of one size may differ."""
+BROKEN = (zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError, RuntimeError, ValueError)
+"""What a ZIP that is broken, locked or packed in a strange way makes the library raise."""
 DRILLS = (ToolKind.DRILL, ToolKind.SPOT_DRILL)
 
 
@@ -85,20 +88,18 @@ class FusionLibrary(Format):
 
 def _text(path: Path) -> str:
     """The JSON of a file, packed or not, whatever it is called."""
+    packed = read_bytes(path)
+    if not packed.startswith(b"PK"):
+        return read_text(path, INPUT_LIMIT)[0]
     try:
-        with path.open("rb") as file:
-            if file.read(2) != b"PK":
-                return read_text(path, INPUT_LIMIT)[0]
-        with zipfile.ZipFile(path) as archive, archive.open(MEMBER) as member:
+        with zipfile.ZipFile(io.BytesIO(packed)) as archive, archive.open(MEMBER) as member:
             data = member.read(INPUT_LIMIT + 1)
     except KeyError as error:
         raise DesignError(
             f"{path}: is a ZIP without {MEMBER}; export the library from Fusion anew"
         ) from error
-    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError) as error:
+    except BROKEN as error:
         raise DesignError(f"{path}: is no ZIP that can be read ({error}); export it anew") from error
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
     if len(data) > INPUT_LIMIT:
         raise DesignError(
             f"{path}: {MEMBER} in it is larger than {INPUT_LIMIT:,} bytes; is it the right file?"
@@ -114,7 +115,7 @@ def _said(row: object, place: int) -> Said:
     try:
         if not isinstance(row, Mapping):
             raise LeftOutError(f"is {row!r:.40} and no tool; delete it")
-        said.label = str(row.get("description") or row.get("product-id") or said.label).strip()
+        said.label = str(row.get("description") or row.get("product-id") or said.label)
         post = _table(row, "post-process")
         said.keys["number"] = tool_number(post.get("number"))
         _offsets(said, post)
@@ -133,10 +134,10 @@ def _table(row: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 def _scale(row: Mapping[str, Any]) -> float:
     """Millimetres in a unit of the tool; old exports say it with quotes in ``expressions``."""
-    unit = row.get("unit") or str(_table(row, "expressions").get("tool_unit", "")).strip("'\" ")
+    unit = str(row.get("unit") or _table(row, "expressions").get("tool_unit", "")).strip("'\" ")
     if unit not in UNITS:
-        raise LeftOutError(f"its unit is {unit!r}; set it to millimeters or inches")
-    return UNITS[str(unit)]
+        raise LeftOutError(f"its unit is {unit!r:.40}; set it to millimeters or inches")
+    return UNITS[unit]
 
 
 def _offsets(said: Said, post: Mapping[str, Any]) -> None:
@@ -152,7 +153,7 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
     geometry, keys, kind = _table(row, "geometry"), said.keys, KINDS.get(str(row.get("type")))
     if kind is None:
         raise LeftOutError(
-            f"there is no {row.get('type')!r} among our kinds of tools; leave it to other programs"
+            f"there is no {row.get('type')!r:.40} among our kinds of tools; leave it to other programs"
         )
     if geometry.get("HAND") is False:
         raise LeftOutError("it turns left (HAND false), and programs start the spindle with M3")
@@ -179,7 +180,7 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
         keys["flutes"] = teeth
     else:
         said.take("flutes", 2)
-    material = row.get("BMC")
+    material = str(row.get("BMC"))
     if material in {"hss", "carbide"}:
         keys["substrate"] = material
     else:

@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from mechwright.contracts.materials import MATERIALS
-from mechwright_cam.shop.formats.contract import Said, number
+from mechwright_cam.shop.formats.contract import LONGEST, Said, number
 from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
 WORDS = {name: name for name in MATERIALS} | {
@@ -38,7 +38,7 @@ def read_presets(said: Said, row: Mapping[str, Any], scale: float) -> None:
     for preset in presets if isinstance(presets, list) else []:
         if not isinstance(preset, Mapping):
             continue
-        name = str(preset.get("name", "")).strip() or "without a name"
+        name = str(preset.get("name", "")).strip()[:LONGEST] or "without a name"
         materials = _materials(preset)
         if len(materials) != 1:
             said.dropped.append(f"preset {name!r}: {_unclear(materials)}")

@@ -29,6 +29,8 @@ LENGTHS = (
 )
 OTHERS = ("flutes", "point_angle", "ramp_angle", "life", "diameter_offset", "centre_cutting", "substrate")
 """Keys that a remark may say besides lengths, which are in the units of the table."""
+LETTERS = frozenset("TPXYZABCUVWDIJQ")
+"""Words of a line; offsets of other axes than Z are not taken over."""
 LINE = 250
 """Characters of a line that LinuxCNC reads."""
 _WORD = re.compile(r"([A-Za-z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
@@ -65,7 +67,7 @@ class LinuxCncTable(Format):
 def _said(path: Path, place: int, line: str, scale: float) -> Said:
     body, _, remark = line.partition(";")
     words = {letter.upper(): value for letter, value in _WORD.findall(body)}
-    if _WORD.sub("", body).strip() or "T" not in words:
+    if _WORD.sub("", body).strip() or "T" not in words or not words.keys() <= LETTERS:
         raise DesignError(f"{path}: line {place}: {line[:60]!r} is no tool; write T1 P1 Z0 D6 ;remark")
     said = Said(remark.strip() or f"line {place}")
     try:
