@@ -137,16 +137,24 @@ def test_freecad_bits_lie_in_a_folder_beside_the_library(tmp_path):
         bit(
             "V-Bit", Diameter="6 mm", TipDiameter="1 mm", CuttingEdgeHeight="2.5 mm", CuttingEdgeAngle="90 °"
         ),
-        bit("Drill", Diameter="5 mm", CuttingEdgeHeight="40 mm", TipAngle="119.0000 °"),
+        bit(
+            "Drill",
+            {"Chipload": "25,0 \u03bcm"},
+            Diameter="5000 \u03bcm",
+            CuttingEdgeHeight="40 mm",
+            TipAngle="119.0000 °",
+        ),
         bit("ThreadMill", Diameter="4 mm", NeckLength="9 mm", NeckDiameter="3 mm", Crest="0.1 mm"),
     )
-    mill, bull, cone, drill, thread = load_library(path)
+    library = load_library(path)
+    (mill, bull, cone, drill, thread), told = library, library.told
     assert (mill.diameter, mill.flute_length) == (pytest.approx(6.35), 20.5)
     assert (mill.shank_diameter, mill.flutes, mill.number) == (pytest.approx(6.35), 3, 1)
     assert (bull.kind, bull.corner_radius, bull.substrate) == (ToolKind.BULL_NOSE, 1, "carbide")
     assert (cone.kind, cone.point_angle, cone.tip_diameter) == (ToolKind.CHAMFER, 90, 1)
     assert (drill.point_angle, drill.name) == (119, "a-drill")
     assert (thread.flute_length, thread.neck_diameter) == (9, 3)
+    assert "(T4): not taken over: Chipload '25,0 \u03bcm': it says no cutting speed" in "\n".join(told)
     assert not any(tool.cutting for tool in (mill, bull, cone, drill, thread))
 
 
@@ -156,6 +164,7 @@ def test_freecad_bits_lie_in_a_folder_beside_the_library(tmp_path):
         (bit("Tap", Diameter="9 mm"), "there is no 'Tap' among our kinds"),
         (bit("Endmill", CuttingEdgeHeight="9 mm"), "has no diameter (Diameter)"),
         (bit("Endmill", Diameter="6"), "Diameter is '6'; write a number and a unit"),
+        (bit("Drill", Diameter="6 mm", Length="90 mm"), "add a CuttingEdgeHeight to its .fctb"),
         (bit("Endmill", Diameter="6 mm"), "the file does not say its flute_length"),
         (
             bit("Endmill", {"SpindleDirection": "Reverse"}, Diameter="6 mm", CuttingEdgeHeight="9 mm"),
