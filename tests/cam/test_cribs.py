@@ -340,3 +340,10 @@ def _replace(content, place, value):
     seek(content)
     within, key = found[place % len(found)]
     within[key] = value
+
+
+def test_what_is_the_same_of_many_tools_is_one_line(tmp_path):
+    rows = [fusion_tool(number, **{"start-values": {"presets": [preset("Default")]}}) for number in (1, 2, 3)]
+    (line,) = load_library(fusion(tmp_path / "a.json", *rows)).told
+    assert all(f"(T{number})" in line for number in (1, 2, 3))
+    assert line.endswith("into its name")

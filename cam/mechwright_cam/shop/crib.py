@@ -17,7 +17,8 @@ class Crib:
 
     tools: tuple[Tool, ...]
     told: tuple[str, ...]
-    """A line for each tool that is left out, completed or taken over in part: which one, what, what to do."""
+    """A line for each tool that is left out, and for each thing that is completed or not taken over of some:
+    which ones, what, what to do."""
 
 
 def read_crib(path: Path, form: Format) -> Crib:
@@ -26,23 +27,25 @@ def read_crib(path: Path, form: Format) -> Crib:
     Raises OutputError or DesignError, with a line for each tool if none can be used.
     """
     tools: dict[str, Tool] = {}
-    told: list[str] = []
-    left = 0
+    left: list[str] = []
+    same: dict[str, list[str]] = {}
     for said in form.read(path):
         tool = None if said.fault else _made(said, form, tools)
         if said.fault or tool is None:
-            left += 1
-            told.append(f"{said.called} is left out: {said.fault}")
+            left.append(f"{said.called} is left out: {said.fault}")
             continue
         tools[tool.name] = tool
         if said.taken:
-            told.append(f"{said.called} is taken with {', '.join(said.taken)}: the file does not say it")
-        told += [f"{said.called}: not taken over: {one}" for one in said.dropped]
+            what = f"taken with {', '.join(said.taken)}, which the file does not say"
+            same.setdefault(what, []).append(said.called)
+        for one in said.dropped:
+            same.setdefault(f"not taken over: {one}", []).append(said.called)
     if not tools and not left:
         raise DesignError(f"{path}: holds no tool; is it the right file?")
     if not tools:
-        raise DesignError("\n".join(f"{path}: {line}" for line in told))
-    return Crib(tuple(tools.values()), tuple(told))
+        raise DesignError("\n".join(f"{path}: {line}" for line in left))
+    told = (f"{', '.join(called)}: {what}" for what, called in same.items())
+    return Crib(tuple(tools.values()), (*left, *told))
 
 
 def _made(said: Said, form: Format, known: dict[str, Tool]) -> Tool | None:
