@@ -48,6 +48,13 @@ def cam_settings(incomplete: str) -> list[tuple[str, str]]:
     return completing.keys(CamSettings, incomplete, SAID_ELSEWHERE)
 
 
+def tool_files(incomplete: str) -> list[str]:
+    """Tool libraries, here and in the folders that the line has begun."""
+    from mechwright_cam.shop.formats.known import suffixes
+
+    return completing.files_ending(incomplete, suffixes())
+
+
 class Verify(Command):
     """``mechwright verify``."""
 
@@ -94,7 +101,10 @@ class Verify(Command):
         library: Annotated[
             Path | None,
             typer.Option(
-                metavar="FILE", help="With --dxf: a tool library with cutters of yours.", show_default=False
+                metavar="FILE",
+                help="With --dxf: a tool library with cutters of yours.",
+                show_default=False,
+                autocompletion=tool_files,
             ),
         ] = None,
         material: Annotated[
@@ -171,7 +181,57 @@ class Verify(Command):
             verify.verify_drawing(program, dxf, report, control=control, **drawn)
 
 
+class Tools(Command):
+    """``mechwright tools``."""
+
+    name = "tools"
+    order = 85
+
+    def run(
+        self,
+        design: Annotated[
+            Path | None,
+            typer.Argument(
+                metavar="DESIGN",
+                help="A design file (TOML).",
+                show_default=False,
+                autocompletion=completing.design_files,
+            ),
+        ] = None,
+        library: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE",
+                help="A tool library in the place of the design's: .toml, .tbl, .json, .tools or .fctl.",
+                show_default=False,
+                autocompletion=tool_files,
+            ),
+        ] = None,
+        export: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE",
+                help="Write the tools as .toml, .tbl, .json, .tools or .fctl.",
+                show_default=False,
+                autocompletion=tool_files,
+            ),
+        ] = None,
+        force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+        as_json: AsJson = False,
+    ) -> None:
+        """List the cutters, and what each does in a design.
+
+        Of the built-in library, of FILE or of a design; with a design also what each does in which part, and
+        which are not needed. FILE may be a library of LinuxCNC, Fusion or FreeCAD.
+        """
+        from mechwright_cam.commands import tools
+
+        if force and export is None:
+            raise DesignError("--force: only with --export; leave it out")
+        tools.tools(design, library, as_json, export, force=force)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The commands that make and prove programs."""
-    return [Cam, Verify]
+    """The commands that make and prove programs, and list tools."""
+    return [Cam, Verify, Tools]

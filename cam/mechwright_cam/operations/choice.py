@@ -64,7 +64,8 @@ def usable_mills(
     material = job.part.material
     knows = [tool for tool in job.mills if material in tool.cutting]
     if not knows:
-        what = f"none has cutting data for {material}" if job.mills else "there is none"
+        cure = "give one its cutting_speed and chip_load in [cam.cutting.NAME]"
+        what = f"none has cutting data for {material}; {cure}" if job.mills else "there is none"
         raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
     through = depth >= job.thickness - TOLERANCES.noise
     mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]

@@ -49,7 +49,8 @@ def cutting_data(tool: Tool, material: str) -> CuttingData:
         known = ", ".join(sorted(tool.cutting)) or "no material"
         raise ToolError(
             f"cam.tools: tool {tool.name} has no cutting data for {material}, only for {known}; "
-            f"add [tool.cutting] {material} to the tool library"
+            f"add [tool.cutting] {material} to the tool library, or give cutting_speed and chip_load in "
+            f"[cam.cutting.{tool.name}]"
         ) from None
 
 

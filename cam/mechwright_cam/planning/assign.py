@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.operations.contract import Operation, Task
+from mechwright_cam.operations.drilling import spot_drill
 from mechwright_cam.operations.table import asked
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,15 @@ class Assigned:
         if self.refused:
             raise self.refused[0]
         return self.tasks
+
+    @property
+    def inside(self) -> tuple[Task, ...]:
+        """Those about openings and recesses, which are cut first."""
+        return tuple(task for task in self.tasks if not task.is_outside and not task.is_detail)
+
+    def spot(self, job: Job) -> Tool | None:
+        """What spots the holes of the job; None if nothing is drilled, or it has no spot drill."""
+        return spot_drill(job) if any(task.hole is not None for task in self.inside) else None
 
     def depths(self) -> dict[str, float]:
         """How deep below the top of the stock each mill cuts, mm, by its name."""

@@ -9,7 +9,7 @@ import shapely
 from mechwright.errors import DesignError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Hole, Task
-from mechwright_cam.operations.drilling import drill_moves, spot_drill, spot_moves
+from mechwright_cam.operations.drilling import drill_moves, spot_moves
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
@@ -43,10 +43,10 @@ class _Planner:
         self.job = job
         self.steps: list[Step] = []
         self.clearance = clearance_height(job)
-        assigned = assignments.of(job)
-        self.tasks = assigned.every()
+        self.assigned = assignments.of(job)
+        self.tasks = self.assigned.every()
         self.operations = assignments.operations(job.settings)
-        self.cuts = Steps(job, self.clearance, assigned.depths())
+        self.cuts = Steps(job, self.clearance, self.assigned.depths())
 
     def program(self) -> Program:
         job = self.job
@@ -101,8 +101,9 @@ class _Planner:
         return [step.tool for step in self.steps if step.tool.nose > 0 and _lowest(step.moves) < lowest]
 
     def _inner(self) -> frozenset[int]:
-        inside = [task for task in self.tasks if not task.is_outside and not task.is_detail]
-        inside.sort(key=lambda task: (-task.top, self.operations.index(task.operation)))
+        inside = sorted(
+            self.assigned.inside, key=lambda task: (-task.top, self.operations.index(task.operation))
+        )
         after = self._drilled([task.hole for task in inside if task.hole is not None])
         # What starts on the floor of a recess waits until all recesses above are cut.
         for _, level in groupby(inside, key=lambda task: task.top):
@@ -115,8 +116,8 @@ class _Planner:
     def _drilled(self, holes: list[Hole]) -> frozenset[int]:
         job = self.job
         after: frozenset[int] = frozenset()
-        spot = spot_drill(job)
-        if spot is not None and holes:
+        spot = self.assigned.spot(job)
+        if spot is not None:
             places = [(hole.place, hole.drill.diameter) for hole in holes]
             after = self._step("spot drill", spot, spot_moves(job, spot, places, self.clearance), after)
         done = after

@@ -69,7 +69,7 @@ def prepare(
     assignments = assignments or Assignments()
     library = library_of(design)
     cut = cut_plates(design, parts, library, assignments)
-    findings: list[Finding] = []
+    findings: list[Finding] = [*_incomplete(library, design)]
     jobs: list[Job] = []
     for part in cut:
         cam = settings_of(design).of(part.name)
@@ -85,6 +85,16 @@ def prepare(
         findings += _as_cut(design, tops, assignments)
         findings += _unused_data(design, jobs)
     return at_stage(Stage.MACHINING, findings), jobs
+
+
+def _incomplete(library: Library, design: Design) -> Iterator[Finding]:
+    """That a library of another program is not taken over as it is."""
+    if library.told:
+        message = (
+            f"of the library not all is taken over as it stands ({len(library.told)} remarks); "
+            f"mechwright tools {design.path} lists them"
+        )
+        yield Finding("cam.tool-library", Severity.NOTE, "cam.tool_library", message)
 
 
 def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> list[Finding]:

@@ -111,7 +111,10 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> Iterator[Finding]:
     material = job.part.material
     for tool in job.tools:
         if material not in tool.cutting:
-            remedy = f"add {material} to its table in the tool library"
+            remedy = (
+                f"add {material} to its table in the tool library, or give cutting_speed and chip_load in "
+                f"[cam.cutting.{tool.name}]"
+            )
             yield _unused(f"{tool.name} has no cutting data for {material} and is not used", remedy)
             continue
         yield from _speeds(job, tool)

@@ -1,8 +1,8 @@
-"""The tool library: cutters in a TOML file that a person can extend."""
+"""The tool library: cutters in a TOML file that a person can extend, or in a file of another program."""
 
 import difflib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +10,8 @@ from mechwright.contracts.materials import MATERIALS
 from mechwright.designs.files import read_toml
 from mechwright.designs.tables import read_table
 from mechwright.errors import DesignError, ToolError
+from mechwright_cam.shop.crib import read_crib
+from mechwright_cam.shop.formats.known import format_of
 from mechwright_cam.shop.tool import CuttingChange, CuttingData, Tool, ToolKind
 
 BUILT_IN = Path(__file__).with_name("tools.toml")
@@ -21,6 +23,8 @@ class Library:
     """Cutters by name, each with its own T number; a DesignError names two that share one."""
 
     tools: tuple[Tool, ...]
+    told: tuple[str, ...] = ()
+    """What was left out or completed when a file of another program was read, a line each."""
 
     def __post_init__(self) -> None:
         _check_apart("number", "T number", [(tool.number, tool) for tool in self.tools])
@@ -45,7 +49,7 @@ class Library:
     def extended(self, tools: tuple[Tool, ...]) -> "Library":
         """The library with more cutters; one of a known name replaces the known one."""
         merged = {tool.name: tool for tool in self.tools} | {tool.name: tool for tool in tools}
-        return Library(tuple(merged.values()))
+        return replace(self, tools=tuple(merged.values()))
 
     def cutting(self, changes: Mapping[str, CuttingChange]) -> "Library":
         """The library with cutting data of a design over its own, by the name of the tool.
@@ -89,26 +93,46 @@ def built_in() -> Library:
 def load_library(path: Path | None = None) -> Library:
     """Give the built-in library, extended and overridden by the cutters in ``path``.
 
-    Raises OutputError where that cannot be read; DesignError that names file, tool, key, value and limit, a
-    line for each wrong key.
+    A library of another program is a whole crib, and so is one of ours that says ``built_in = false``: then
+    the built-in cutters are not at hand. Raises OutputError where the file cannot be read; DesignError that
+    names file, tool, key, value and limit, a line for each wrong key.
     """
     if path is None:
         return built_in()
-    tools = read_tools(path)
+    form = format_of(path)
+    if path.exists() and not path.is_file():
+        raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
+    if form is not None:
+        crib = read_crib(path, form)
+        tools, told, base = crib.tools, crib.told, Library(())
+    else:
+        tools, more = _read(path)
+        told, base = (), built_in() if more else Library(())
     try:
-        return built_in().extended(tools)
+        return replace(base.extended(tools), told=told)
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from error
 
 
+def library_files(path: Path) -> tuple[Path, ...]:
+    """The files that a library consists of, itself first; raises as :func:`load_library` does."""
+    form = format_of(path)
+    return (path, *(form.beside(path) if form is not None else ()))
+
+
 def read_tools(path: Path) -> tuple[Tool, ...]:
     """Read the ``[[tool]]`` tables of one file; raises OutputError or DesignError."""
-    if path.exists() and not path.is_file():
-        raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
+    return _read(path)[0]
+
+
+def _read(path: Path) -> tuple[tuple[Tool, ...], bool]:
+    """The cutters of a file of ours, and whether the built-in ones are at hand besides."""
     data = read_toml(path)[0]
-    rows = data.pop("tool", None)
+    rows, more = data.pop("tool", None), data.pop("built_in", True)
     if data:
         raise DesignError(f"{path}: unknown key {next(iter(data))!r}; a tool library holds [[tool]] tables")
+    if not isinstance(more, bool):
+        raise DesignError(f"{path}: built_in: is {more!r}; write true or false")
     if not isinstance(rows, list) or not rows:
         raise DesignError(f"{path}: holds no tool; add a [[tool]] table")
     tools: dict[str, Tool] = {}
@@ -117,7 +141,7 @@ def read_tools(path: Path) -> tuple[Tool, ...]:
         if tool.name in tools:
             raise DesignError(f"{path}: two tools are called {tool.name!r}; rename one")
         tools[tool.name] = tool
-    return tuple(tools.values())
+    return tuple(tools.values()), more
 
 
 def _read_tool(path: Path, position: int, row: object) -> Tool:

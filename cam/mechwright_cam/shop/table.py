@@ -14,6 +14,7 @@ from mechwright.designs.files import beside
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
+from mechwright_cam.shop.library import library_files
 from mechwright_cam.shop.machine import Machine, machine_figures
 from mechwright_cam.shop.part_settings import says_how, split
 from mechwright_cam.shop.settings import CamSettings, PartSettings
@@ -102,7 +103,10 @@ class CamTable(Table[JobSettings]):
 
     def inputs(self, value: JobSettings, path: Path) -> dict[str, Path]:
         """The tool library, and machine files."""
-        named = {} if value.tool_library is None else {value.cam.tool_library: value.tool_library}
+        named = {}
+        if value.tool_library is not None:
+            first, *more = library_files(value.tool_library)
+            named = {value.cam.tool_library: first, **{file.name: file for file in more}}
         for cam in (value.cam, *value.parts.values()):
             if cam.machine.model.endswith(".toml"):
                 named[cam.machine.model] = beside(path, cam.machine.model, "cam.machine.model")
@@ -119,7 +123,7 @@ class CamTable(Table[JobSettings]):
         files: dict[str, Path] = {}
         if value.tool_library is not None:
             changes["tool_library"] = value.tool_library.name
-            files[value.tool_library.name] = value.tool_library
+            files |= {file.name: file for file in library_files(value.tool_library)}
         if value.cam.machine.model.endswith(".toml"):
             file = beside(path, value.cam.machine.model, "cam.machine.model")
             changes["machine"] = value.cam.machine.model_copy(update={"model": file.name})

@@ -1,7 +1,7 @@
 """What shells complete: names that are installed, and files. Whatever takes long to import waits."""
 
 import os
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,17 +72,22 @@ def stages(incomplete: str) -> list[str]:
 
 def design_files(incomplete: str) -> list[str]:
     """TOML files, here and in the folders that the line has begun."""
-    return _files(incomplete, requirement=False)
+    return _files(incomplete, lambda path: _holds(path, requirement=False))
 
 
 def requirement_files(incomplete: str) -> list[str]:
     """TOML files that hold a requirement."""
-    return _files(incomplete, requirement=True)
+    return _files(incomplete, lambda path: _holds(path, requirement=True))
 
 
 def any_files(incomplete: str) -> list[str]:
     """Design files and requirement files."""
-    return sorted(_files(incomplete, requirement=False) + _files(incomplete, requirement=True))
+    return sorted(design_files(incomplete) + requirement_files(incomplete))
+
+
+def files_ending(incomplete: str, suffixes: Container[str]) -> list[str]:
+    """Files whose names end so, with the dot."""
+    return _files(incomplete, lambda path: path.suffix.lower() in suffixes and path.is_file())
 
 
 def keys(model: "type[BaseModel]", incomplete: str, without: Container[str] = ()) -> list[tuple[str, str]]:
@@ -130,7 +135,7 @@ def _begun(names: Iterable[str], incomplete: str) -> list[str]:
     return sorted(name for name in names if name.startswith(incomplete))
 
 
-def _files(incomplete: str, *, requirement: bool) -> list[str]:
+def _files(incomplete: str, fits: Callable[[Path], bool]) -> list[str]:
     """Paths that begin so, as they are typed; a folder that is named whole or in part is looked into."""
     folder, _, begun = incomplete.rpartition("/")
     root = Path(f"{folder}/" if folder or incomplete.startswith("/") else ".")
@@ -144,7 +149,7 @@ def _files(incomplete: str, *, requirement: bool) -> list[str]:
         for entry in entries:
             if entry.name.startswith(".") or (depth == 0 and not entry.name.startswith(begun)):
                 continue
-            if entry.suffix == ".toml" and _holds(entry, requirement=requirement):
+            if fits(entry):
                 found.append(str(entry))
             elif depth < DEEP and (begun or depth or folder) and entry.is_dir():
                 waiting.append((entry, depth + 1))
@@ -153,6 +158,8 @@ def _files(incomplete: str, *, requirement: bool) -> list[str]:
 
 def _holds(path: Path, *, requirement: bool) -> bool:
     """Whether a file looks like one of ours, of the kind that is wanted."""
+    if path.suffix != ".toml":
+        return False
     try:
         with path.open(encoding="utf-8") as file:
             text = file.read(100_000)

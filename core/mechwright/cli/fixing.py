@@ -14,7 +14,7 @@ from mechwright.cli.telling import tell
 from mechwright.contracts.finding import Change, Stage
 from mechwright.designs.change import changed, rewritten
 from mechwright.designs.design import Design, design_of, load
-from mechwright.designs.files import read_text
+from mechwright.designs.files import read_bytes, read_text
 from mechwright.errors import DesignError, OutputError
 from mechwright.output.folder import rewrite
 from mechwright.plugins.host import Host
@@ -73,7 +73,7 @@ def _reads(design: Design, change: Change, target: Path, host: Host) -> None:
     new = design_of(changed(design.content, change), target, design.digest, host)
     for reader in new.readers:
         for file in reader.inputs(new.tables[reader.name], target).values():
-            read_text(file)
+            read_bytes(file)
 
 
 def _data(design: Design, repair: Repair) -> dict[str, object]:

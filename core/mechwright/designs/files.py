@@ -11,6 +11,9 @@ from mechwright.errors import DesignError, OutputError
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
 
+INPUT_LIMIT = 20_000_000
+"""Bytes: files of other programs that a design names, such as libraries of thousands of tools."""
+
 
 def beside(path: Path, name: str, key: str) -> Path:
     """A file in or below the folder of the design file ``path``; raises DesignError if it leads out of it."""
@@ -26,6 +29,18 @@ def beside(path: Path, name: str, key: str) -> Path:
     return found
 
 
+def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
+    """Content of a file of any kind; raises OutputError or DesignError that names it."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(limit + 1)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
+    if len(data) > limit:
+        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    return data
+
+
 def read_text(
     path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None, mark: bool = False
 ) -> tuple[str, str]:
@@ -34,13 +49,7 @@ def read_text(
     The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
     without null bytes. A byte order mark is taken off, unless ``mark`` asks for it.
     """
-    try:
-        with path.open("rb") as file:
-            data = file.read(limit + 1)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
-    if len(data) > limit:
-        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    data = read_bytes(path, limit)
     digest = hashlib.sha256(data).hexdigest()
     try:
         return data.decode("utf-8" if mark else "utf-8-sig"), digest
@@ -50,9 +59,9 @@ def read_text(
         raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
 
 
-def digest_of(text: str) -> str:
-    """SHA-256 of the file that holds a text."""
-    return hashlib.sha256(text.encode()).hexdigest()
+def digest_of(content: str | bytes) -> str:
+    """SHA-256 of the file that holds a text, or these bytes."""
+    return hashlib.sha256(content.encode() if isinstance(content, str) else content).hexdigest()
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:

@@ -168,13 +168,13 @@ def _exchange(one: Path, two: Path) -> bool:
     return done == 0
 
 
-def write_new(path: Path, text: str, *, replace: bool = False) -> None:
+def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
     """Write ``text`` to ``path`` in one step; refuses to replace a file unless told to."""
     if path.exists() and not replace:
         raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_bytes(text.encode() if isinstance(text, str) else text)
         temporary.replace(path)
     except OSError as error:
         with contextlib.suppress(OSError):

@@ -8,7 +8,7 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
-from mechwright.designs.files import digest_of, read_text
+from mechwright.designs.files import digest_of, read_bytes
 from mechwright.plugins.host import Host
 
 
@@ -17,7 +17,7 @@ def facts(design: Design, found: Host) -> dict[str, Any]:
     inputs = {design.path.name: design.digest or digest_of(design.text)}
     for name, value in design.tables.items():
         named = found.get(Table, name).inputs(value, design.path)
-        inputs |= {name: read_text(file)[1] for name, file in named.items()}
+        inputs |= {name: digest_of(read_bytes(file)) for name, file in named.items()}
     return run_facts(design.name, design.family, inputs, found)
 
 

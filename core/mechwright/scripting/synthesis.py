@@ -17,7 +17,7 @@ from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.shown import html_table
 from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis, unheard
 from mechwright.designs.change import changed
-from mechwright.designs.files import digest_of, read_text
+from mechwright.designs.files import digest_of, read_bytes
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
 from mechwright.designs.schema import FORMAT
 from mechwright.designs.text import design_text
@@ -127,9 +127,9 @@ class Found:
         """
         self.require()
         asked, output = self.asked, Output()
-        inputs = {name: read_text(file)[1] for name, file in asked.inputs.items()}
+        inputs = {name: digest_of(read_bytes(file)) for name, file in asked.inputs.items()}
         for name, file in asked.files.items():
-            output.add(name, read_text(file)[0])
+            output.add(name, read_bytes(file))
         for name, text in self.texts:
             output.add(f"{name}.toml", text)
         output.add("synthesis.json", json.dumps(self.summary, indent=2) + "\n")

@@ -1,0 +1,126 @@
+"""The tool table of LinuxCNC, ``tool.tbl``.
+
+It has T, pocket, Z and D, in the units of the machine, which it does not name; what a tool is stands nowhere.
+So the remark of a line says it, in the words of our own tables: its name, its kind, and ``key=value``::
+
+    ;units=mm
+    T24 P24 Z77.05 D6 ;mill-6 end-mill flutes=3 flute_length=24
+"""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from mechwright.designs.files import read_text
+from mechwright.errors import DesignError
+from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
+from mechwright_cam.shop.tool import Tool, ToolKind
+
+UNITS = {"mm": 1.0, "in": 25.4, "inch": 25.4}
+"""What ``;units=`` may say, to mm."""
+LENGTHS = (
+    "flute_length",
+    "corner_radius",
+    "tip_diameter",
+    "neck_diameter",
+    "shank_diameter",
+    "stick_out",
+    "holder_diameter",
+)
+OTHERS = ("flutes", "point_angle", "ramp_angle", "life", "diameter_offset", "centre_cutting", "substrate")
+"""Keys that a remark may say besides lengths, which are in the units of the table."""
+LETTERS = frozenset("TPXYZABCUVWDIJQ")
+"""Words of a line; offsets of other axes than Z are not taken over."""
+LINE = 250
+"""Characters of a line that LinuxCNC reads."""
+_WORD = re.compile(r"([A-Za-z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
+_CURE = "write behind its semicolon what it is, such as ;mill-6 end-mill flutes=3 flute_length=24"
+
+
+class LinuxCncTable(Format):
+    """``tool.tbl``."""
+
+    title = "a LinuxCNC tool table"
+    suffixes = (".tbl",)
+    fields = {"number": "T", "diameter": "D", "length": "Z"}  # noqa: RUF012 - as the contract has it
+
+    def read(self, path: Path) -> list[Said]:
+        """A tool for each line; raises DesignError where the table says no units."""
+        text = read_text(path, older="latin-1")[0]
+        lines = [(n, line.strip()) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
+        heads = "\n".join(line for _, line in lines if line.startswith(";"))
+        units = re.search(r"^;\s*units\s*=\s*(\S+)", heads, re.I | re.M)
+        if units is None or units[1].lower() not in UNITS:
+            raise DesignError(
+                f"{path}: the table does not say its units, which are those of the machine; write ;units=mm "
+                "or ;units=in as its first line"
+            )
+        scale = UNITS[units[1].lower()]
+        return [_said(path, n, line, scale) for n, line in lines if not line.startswith(";")]
+
+    def files(self, tools: Sequence[Tool], path: Path) -> dict[Path, bytes]:
+        """One table in mm, with the pocket of every tool's own number."""
+        lines = [";units=mm", *(_line(tool) for tool in sorted(tools, key=lambda tool: tool.number))]
+        return {path: "".join(line + "\n" for line in lines).encode()}
+
+
+def _said(path: Path, place: int, line: str, scale: float) -> Said:
+    body, _, remark = line.partition(";")
+    words = {letter.upper(): value for letter, value in _WORD.findall(body)}
+    if _WORD.sub("", body).strip() or "T" not in words or not words.keys() <= LETTERS:
+        raise DesignError(f"{path}: line {place}: {line[:60]!r} is no tool; write T1 P1 Z0 D6 ;remark")
+    said = Said(remark.strip() or f"line {place}")
+    try:
+        said.keys["number"] = tool_number(words["T"])
+        if float(words.get("D", 0)) <= 0:
+            raise LeftOutError("has no diameter (D); write it into its line")
+        said.keys["diameter"] = float(words["D"]) * scale
+        if float(words.get("Z", 0)):
+            said.keys["length"] = float(words["Z"]) * scale
+        _remark(said, remark.split(), scale)
+    except LeftOutError as error:
+        said.fault = str(error)
+    return said
+
+
+def _remark(said: Said, words: list[str], scale: float) -> None:
+    """What a remark says: a name, a kind, and ``key=value``; other words are for people."""
+    named = dict(word.split("=", 1) for word in words if "=" in word)
+    plain = [word for word in words if "=" not in word]
+    kind = next((word for word in plain if word in set(ToolKind)), None)
+    if kind is None or "flute_length" not in named:
+        raise LeftOutError(
+            f"the table does not say its {'kind' if kind is None else 'flute_length'}; {_CURE}"
+        )
+    said.keys["kind"] = kind
+    if plain[0] != kind:
+        said.label = plain[0]
+    for key, value in named.items():
+        if key in LENGTHS:
+            said.keys[key] = (number(value) or 0.0) * scale if number(value) is not None else value
+        elif key == "centre_cutting":
+            said.keys[key] = {"true": True, "false": False}.get(value, value)
+        elif key in OTHERS:
+            said.keys[key] = value
+        else:
+            raise LeftOutError(f"unknown key {key!r}; one of {', '.join((*LENGTHS, *OTHERS))}")
+
+
+def _line(tool: Tool) -> str:
+    said = tool.model_dump(exclude_none=True)
+    usual = {name: field.default for name, field in Tool.model_fields.items()}
+    usual["centre_cutting"] = tool.kind not in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}
+    line = f"T{tool.number} P{tool.number} Z{_word(tool.length or 0.0)} D{_word(tool.diameter)}"
+    line += f" ;{tool.name} {tool.kind}"
+    for key in (*LENGTHS, *OTHERS):
+        if key in said and said[key] != usual[key]:
+            value = said[key]
+            word = f" {key}={str(value).lower() if isinstance(value, (bool, str)) else _word(value)}"
+            if len(line) + len(word) <= LINE:
+                line += word
+    return line
+
+
+def _word(value: float) -> str:
+    """A number without an exponent, which LinuxCNC would not read, to a millionth of a millimetre."""
+    return f"{value:.6f}".rstrip("0").rstrip(".")
