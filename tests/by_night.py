@@ -13,8 +13,8 @@ by_night = pytest.mark.skipif(not NIGHT, reason="by night, with MECHWRIGHT_NIGHT
 """For a test that shows on more cases what another shows on a few."""
 
 in_ci = pytest.mark.skipif(not NIGHT, reason="in CI besides, with MECHWRIGHT_NIGHT=1")
-"""For tests with whole programs around ours, as an installed plugin or another one's planner: CI runs their files
-besides the README's command."""
+"""For tests with whole programs around ours, as an installed plugin or another one's planner, and for those that
+compile many kernels: CI runs their files besides the README's command."""
 
 
 def examples(day: int, night: int) -> int:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from by_night import in_ci
 
 from mechwright import Stage
 from mechwright.contracts import by_arrays
@@ -11,6 +12,8 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
+
+pytestmark = in_ci
 
 FAMILY = FourBars()
 POINT = [

@@ -96,7 +96,7 @@ def test_a_design_without_a_frame_is_as_its_family_gives_it():
     ("name", "parameters", "code", "words"),
     [
         ("crank-rocker-three-poles", {}, "frame.own-ground", "no bearing plates go around it"),
-        ("double-crank", {}, "frame.mounting", "the links stand between two ground plates"),
+        ("double-crank", {}, "frame.mounting", "the bolts of both ground plates have no threaded ends"),
         ("slider-crank-quick-return", {}, "frame.mounting", "the base has no holes for the screws of legs"),
         ("spherical-crank-rocker", {}, "frame.mounting", "the ground link has no flange for a motor"),
         (

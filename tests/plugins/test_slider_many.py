@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from by_night import in_ci
 
 from mechwright import Stage
 from mechwright.contracts import by_arrays
@@ -13,6 +14,8 @@ from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.rooms import bounds_of, decided, measure
 from mechwright_slider_crank.sizes import filled_in
+
+pytestmark = in_ci
 
 FAMILY = SliderCrankFamily()
 ENDS = ("least", "greatest")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from by_night import in_ci
 
 from mechwright import Stage
 from mechwright.contracts import by_arrays
@@ -9,6 +10,8 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.params import SphericalParams
+
+pytestmark = in_ci
 
 FAMILY = Spherical()
 ENDS = ("least", "greatest")
