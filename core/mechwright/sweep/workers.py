@@ -125,21 +125,22 @@ class Cluster:
         threads = max(sum(client.nthreads().values()), 1)
         waiting = iter(tasks)
         running: dict[str, tuple[Any, Task]] = {}
-        results = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
+        # With results it would fetch them by itself, and wait for ever if the scheduler ended meanwhile.
+        ended = distributed.as_completed(loop=client.loop)
         while True:
             for task in _some(waiting, AHEAD * threads - len(running)):
                 future = client.submit(source.done, task, pure=False)
                 running[future.key] = future, task
-                results.add(future)
+                ended.add(future)
             if not running:
                 return
-            future, content = next(results)
+            future = next(ended)
             _, task = running.pop(future.key)
             if future.status == "cancelled":
                 raise distributed.comm.CommClosedError("the scheduler has ended")
             if future.status == "error":
-                raise PluginError(f"--scheduler: a worker failed at {task.name}: {content[1]}")
-            yield task, content
+                raise PluginError(f"--scheduler: a worker failed at {task.name}: {future.exception(BACK)}")
+            yield task, future.result(BACK)
 
     def _connected(self, seconds: float, why: str = "") -> Any:
         distributed = optional("distributed")
