@@ -12,7 +12,7 @@ span
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -285,7 +285,10 @@ class BSpline:
         first = np.flatnonzero(knots[:-1] < knots[1:])
         if k == 1:
             return [(float(knots[i]), float(knots[i + 1]), 0.0) for i in first]
-        second = _hodograph(k - 1, knots[1:-1], _hodograph(k, knots, self._net))
+        if self.is_bezier:
+            second = (k - 1) * np.diff(k * np.diff(self._net, axis=0), axis=0)
+        else:
+            second = _hodograph(k - 1, knots[1:-1], _hodograph(k, knots, self._net))
         size = np.hypot(second[:, 0], second[:, 1])
         # Over knots[i] to knots[i + 1] the curve of degree k - 2 depends on k - 1 of its points.
         return [(float(knots[i]), float(knots[i + 1]), float(size[i - k : i - 1].max())) for i in first]
@@ -309,10 +312,16 @@ Segment = Line | Arc | BSpline
 
 def bernstein(degree: int, t: Array) -> Array:
     """Bernstein polynomials of one degree at t (...): (..., degree + 1)."""
-    k = np.arange(degree + 1)
-    binomial = np.array([math.comb(degree, i) for i in range(degree + 1)], dtype=float)
+    k, binomial = _binomials(degree)
     values: Array = binomial * t[..., None] ** k * (1 - t[..., None]) ** (degree - k)
     return values
+
+
+@cache
+def _binomials(degree: int) -> tuple[Array, Array]:
+    """0 to the degree, and the binomial coefficients of each."""
+    k = np.arange(degree + 1)
+    return k, np.array([math.comb(degree, i) for i in k.tolist()], dtype=float)
 
 
 def _de_boor(degree: int, knots: Array, net: Array, t: Array) -> Array:
