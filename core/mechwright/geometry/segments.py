@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
@@ -318,7 +318,7 @@ def bernstein(degree: int, t: Array) -> Array:
 
 
 @cache
-def _binomials(degree: int) -> tuple[Array, Array]:
+def _binomials(degree: int) -> tuple[NDArray[np.int_], Array]:
     """0 to the degree, and the binomial coefficients of each."""
     k = np.arange(degree + 1)
     return k, np.array([math.comb(degree, i) for i in k.tolist()], dtype=float)
