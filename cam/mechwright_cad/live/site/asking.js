@@ -36,3 +36,7 @@ function say(words, wrong) {
   banner.className = wrong ? "banner error" : "banner";
   banner.textContent = words || "";
 }
+// What went well takes back what was wrong; news stay until somebody changes something.
+function mended() {
+  if (banner.classList.contains("error")) say("");
+}

@@ -13,7 +13,7 @@ function draw(scene, more) {
 }
 const parts = newest("parts", (found, asked) => {
   if (found.scene) draw(found.scene);
-  say(found.unmade || "", true);
+  found.unmade ? say(found.unmade, true) : mended();
   findings(found.findings, false, follow);
   remedies(asked);
 }, failed);
@@ -24,7 +24,7 @@ const remedies = newest("remedies", (found, asked) => {
 const motion = newest("motion", (found, asked) => {
   // While plates are drawn, links go over them; what the plates are comes a moment later.
   draw(ghost || !picture || !picture.layers || picture.bare ? found.scene : { ...found.scene, ghost: picture });
-  say("");
+  mended();
   parts(asked);
 }, failed);
 function failed(error) {
@@ -46,6 +46,7 @@ function shows() {
   document.title = `${clean ? "" : "• "}${known ? known.name : "Mechwright"}: live`;
 }
 function take(next, done) {
+  say("");
   change = next;
   if (done && !same(change, settled)) {
     past.push(settled);
@@ -97,7 +98,7 @@ async function open(words) {
   settled = change;
   for (const one of document.querySelectorAll("[data-of]")) one.hidden = one.dataset.of !== (known.seeks ? "requirement" : "design");
   shows();
-  say(words);
+  words ? say(words) : mended();
   look();
   return true;
 }

@@ -27,7 +27,7 @@ const wishes = newest("targets", (found) => {
   const scene = { ...found.scene, targets: found.targets };
   if (!handles || handles.known().length !== found.targets.length) { handles = null; drawWished(scene); }
   else if (!handles.held()) handles.show(found.targets);
-  say("");
+  mended();
   clearTimeout(resting);
   resting = setTimeout(seek, REST);
 }, (error) => { clearTimeout(resting); failed(error); });
