@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.schema import FORMAT, schema_line
@@ -83,7 +84,7 @@ def table_lines(
     such as the name of a machine, is not barred by defaults that nobody asked for.
     """
     lines, tables = [f"[{where}]"], []
-    schema = model.model_json_schema()["properties"]
+    schema = model_schema(model)["properties"]
     chosen = first_fields(model) if first else tuple(model.model_fields)
     for key in chosen:
         field = model.model_fields[key]
