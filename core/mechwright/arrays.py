@@ -6,9 +6,10 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 _FACTORS = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 _SHIFTS = np.uint64(30), np.uint64(27)
-"""Those of the mixing function of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators,
-2014): each bit of a number goes into all bits of the mixed one. A weighted sum would not do. Coordinates of a
-program are multiples of its last decimal, so that a little more of one is often as much less of another."""
+"""Those of the mixing function of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number
+generators, 2014): each bit of a number goes into all bits of the mixed one. A weighted sum would not do:
+coordinates of a program are multiples of its last decimal, and a little more of one is often as much less of
+another."""
 
 
 def first_of_each(rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
