@@ -25,7 +25,7 @@ DIGITS = 6
 def rounded(values: Array, decimals: int) -> list[Any]:
     """Nested lists of numbers, whole ones as integers, without a negative zero."""
     near = np.round(values, decimals)
-    flat = [int(value) if value.is_integer() else value for value in near.ravel().tolist()]
+    flat: list[Any] = [int(value) if value.is_integer() else value for value in near.ravel().tolist()]
     for width in near.shape[:0:-1]:
         flat = [flat[i : i + width] for i in range(0, len(flat), width)]
     return flat

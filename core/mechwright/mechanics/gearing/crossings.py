@@ -79,7 +79,7 @@ def turns_to_edges(
     mx, my, dx, dy, dd, turn = (values[closest] for values in (mx, my, dx, dy, dd, turn))
     distance = np.full(len(queries), np.inf)
     np.minimum.at(distance, query[closest], np.abs(turn * (mx * dx + my * dy)) / np.sqrt(dd))
-    return Free(*kinds, distance=distance)
+    return Free(kinds[0], kinds[1], kinds[2], kinds[3], distance)
 
 
 def _monotone(starts: Array, ends: Array, group: Ints) -> tuple[Array, Array, Ints]:
