@@ -73,4 +73,5 @@ class PlateParams(Parameters):
     def asked(self) -> Asked:
         """How the drawing is to be read."""
         holes = tuple((convert(diameter, "mm"), meant) for diameter, meant in self.holes.items())
-        return Asked(self.units, self.scale, self.join, self.origin, tuple(self.layers.items()), holes)
+        layers = tuple(self.layers.items())
+        return Asked(self.units, self.scale, self.join, self.origin, layers, holes=holes)

@@ -51,8 +51,8 @@ class InputFile:
     r"""A file beside a design file, as the type of a field of the parameters.
 
     The design file says its name; whoever reads the table reads the file as well, so that a family gets what
-    it holds, and two designs are equal only where their files are. The manifest of a build has its hash. Nothing
-    is read for an empty name: the family says what that stands for.
+    it holds, and two designs are equal only where their files are. The manifest of a build has its hash.
+    Nothing is read for an empty name: the family says what that stands for.
 
     Examples
     --------

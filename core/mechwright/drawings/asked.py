@@ -1,5 +1,6 @@
 """How a drawing is to be read: what a design file says of it."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -12,8 +13,17 @@ from mechwright.errors import DesignError
 Origin = Literal["drawing", "corner", "centre"]
 """Where the part's origin lies: where the drawing has it, at its lower left corner, or in its middle."""
 
-COLOURS = ("colour ", "color ")
-"""Keys of colours begin so; AutoCAD's numbers follow."""
+_COLOUR = re.compile(r"colou?r (\d{1,3})", re.IGNORECASE)
+"""Keys of colours, by AutoCAD's numbers."""
+
+
+def is_colour(name: str) -> bool:
+    """Whether a key of the layers stands for a colour.
+
+    >>> is_colour("colour 3"), is_colour("Layer 3")
+    (True, False)
+    """
+    return _COLOUR.fullmatch(name) is not None
 
 
 @dataclass(frozen=True)
@@ -32,6 +42,8 @@ class Asked:
         Where the part's origin lies.
     layers
         Names of layers, or colours as ``colour 3``, and what they mean.
+    only
+        Whether nothing but those layers is read.
     holes
         Diameters of circles as they are drawn, mm, and what they mean: a fit, a thread, a bore, ignore.
     """
@@ -41,6 +53,7 @@ class Asked:
     join: float = 0.01
     origin: Origin = "drawing"
     layers: tuple[tuple[str, str], ...] = ()
+    only: bool = False
     holes: tuple[tuple[float, str], ...] = ()
 
     def key(self, layer: str, colour: int) -> str | None:
@@ -49,7 +62,8 @@ class Asked:
             if name.lower() == layer.lower():
                 return name
         for name, _ in self.layers:
-            if any(name.lower() == f"{word}{colour}" for word in COLOURS):
+            number = _COLOUR.fullmatch(name)
+            if number and int(number[1]) == colour:
                 return name
         return None
 
@@ -61,13 +75,17 @@ class Meanings:
         self._asked, self._unit, self._told = asked, unit, told
         self._said: dict[str, Meaning | None] = {}
 
-    def named(self, layer: str, colour: int) -> bool:
-        """Whether the design names it."""
-        return self._asked.key(layer, colour) is not None
+    def named(self, layer: str, colour: int) -> str:
+        """Who says what it means: the ``design``, its ``name``, or nobody."""
+        if self._asked.key(layer, colour) is not None:
+            return "design"
+        return "" if self.of(layer, colour) is None else "name"
 
     def of(self, layer: str, colour: int) -> Meaning | None:
         """What contours on a layer, in a colour, are; None where nobody says it."""
         key = self._asked.key(layer, colour)
+        if key is None and self._asked.only:
+            return Meaning("ignore")
         text = layer if key is None else dict(self._asked.layers)[key]
         where = "" if key is None else f"{key} = "
         if (found := where + text) not in self._said:
@@ -105,7 +123,7 @@ def sorted_out(
     """The strokes by what they mean.
 
     One layer that nobody says the meaning of is the plate, where no other is: its outline and its openings.
-    More of them are faults, unless ``others`` says what they are.
+    More of them are faults, unless ``others`` says what they are where no layer is the outline.
     """
     found: dict[Meaning, list[Stroke]] = {}
     open_: dict[str, list[Stroke]] = {}
@@ -116,6 +134,9 @@ def sorted_out(
         else:
             found.setdefault(meant, []).append(stroke)
     if others is not None:
+        if any(meant.kind == "outline" for meant in found):
+            told.notes += [f"left out: layer {layer}" for layer in open_]
+            return found
         for rest in open_.values():
             found.setdefault(others, []).extend(rest)
         return found

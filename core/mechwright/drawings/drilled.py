@@ -37,6 +37,8 @@ class Hole:
     diameter: float
     meant: Meaning
     name: str
+    bored: float | None = None
+    """How deep the bore of a thread is, where that is drawn as well, mm."""
 
 
 def circles(meant: Meaning, contours: Sequence[Contour], told: Told) -> list[Hole]:
@@ -170,6 +172,7 @@ def _stepped(value: float, step: float) -> bool:
 def bore(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore, Thread | None] | None:
     """The bore of a hole from the top face on, and its thread; None, and a fault, where it cannot be had."""
     meant = hole.meant
+    top = meant.top or 0.0
     deep = thickness if meant.depth is None else meant.depth
     if deep > thickness + TOLERANCES.closure:
         told.fault(
@@ -179,17 +182,21 @@ def bore(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore, Thr
             "thickness",
         )
         return None
+    if deep <= top:
+        said = f"the hole of {hole.name} begins {top:g} mm deep and ends {deep:g} mm deep"
+        told.fault("layer", said, "let it end deeper", "layers")
+        return None
     if meant.kind == "thread":
         return _threaded(hole, name, thickness, told)
     if not meant.fit:
-        return Bore(name, hole.centre, hole.diameter, 0.0, deep), None
+        return Bore(name, hole.centre, hole.diameter, top, deep - top), None
     fit_name = cast("HoleClass", meant.fit)  # a class of the table: the layer's words matched its pattern
     try:
         limits = hole_fit(nominal(hole.diameter, fit_name), fit_name)
     except GeometryError as error:
         told.fault("feature", f"the hole of {hole.name}: {error}", "leave the fit out", "layers")
         return None
-    return Bore(name, hole.centre, limits.middle, 0.0, deep, limits), None
+    return Bore(name, hole.centre, limits.middle, top, deep - top, limits), None
 
 
 def _threaded(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore, Thread] | None:
@@ -206,4 +213,6 @@ def _threaded(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore
         return None
     # One pitch below the last full turn, as everywhere; what comes out below goes through.
     deep = thickness if depth is None or depth + pitch >= thickness else depth + pitch
+    if hole.bored is not None:
+        deep = min(hole.bored, thickness)
     return Bore(name, hole.centre, round(thread.core, 6), 0.0, deep), thread

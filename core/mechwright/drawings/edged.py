@@ -34,12 +34,11 @@ def engraving(
     lines = [shapely.LineString(segment.flatten(CHORD)) for segment, _ in pieces]
     rim = plate.shape
     for line, (segment, stroke) in zip(lines, pieces, strict=True):
-        if not shapely.covers(rim, line):
-            told.fault(
-                "feature",
-                f"the engraved line of {stroke.name} at {at(segment.start)} leaves the plate",
-                "engrave on the plate",
-            )
+        if not shapely.intersects(rim, line):
+            said = f"the engraved line of {stroke.name} at {at(segment.start)} lies beside the plate"
+            told.fault("feature", said, "engrave on the plate")
+        elif not shapely.covers(rim, line):
+            told.note(f"the engraved line of {stroke.name} at {at(segment.start)} leaves the plate")
     merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(lines)))
     made = tuple(tuple((float(x), float(y)) for x, y in line.coords) for line in merged)
     return Engraving(name, made, depth, width)

@@ -7,6 +7,7 @@ Words are parted by spaces, ``_`` or ``-``; capitals do not matter. The first sa
     BORE_H7             circles to a fit; BORE_8, BORE_H7_8: 8 deep
     POCKET_3.5          a recess, its floor 3.5 below the top face; POCKET_3.5_R1: a fillet of 1 round it
     POCKET_10_FROM_7    one that begins 7 below the top face
+    POCKET_3.5_OPEN     the same as POCKET_3.5: where its contour runs beyond the rim, and no wall is left
     M5, M5X0.5_12       circles, threaded, 12 deep; also THREAD_M5
     ENGRAVE_0.2         lines engraved so deep; ENGRAVE_0.2_W0.5: at most 0.5 wide
     CHAMFER_0.5         edges broken so wide: the edge itself, or the line where the chamfer ends
@@ -26,8 +27,8 @@ from mechwright.errors import DesignError, GeometryError
 Kind = Literal["outline", "through", "bore", "pocket", "thread", "engrave", "chamfer", "ignore"]
 
 _WORDS: dict[str, Kind] = {
-    **dict.fromkeys(("OUTLINE", "OUTSIDE"), "outline"),
-    **dict.fromkeys(("THROUGH", "OPENING", "OPENINGS", "CUT", "CUTOUT"), "through"),
+    **dict.fromkeys(("OUTLINE", "OUTSIDE", "PERIMETER"), "outline"),
+    **dict.fromkeys(("THROUGH", "OPENING", "OPENINGS", "CUT", "CUTOUT", "CUTOUTS", "EDGE.CUTS"), "through"),
     **dict.fromkeys(("BORE", "BORES", "HOLE", "HOLES", "DRILL", "REAM"), "bore"),
     **dict.fromkeys(("POCKET", "POCKETS", "RECESS"), "pocket"),
     **dict.fromkeys(("THREAD", "TAP"), "thread"),
@@ -38,6 +39,12 @@ _WORDS: dict[str, Kind] = {
          "DEFPOINTS", "CONSTRUCTION", "FRAME", "BORDER", "TITLE", "HATCH"), "ignore",
     ),
 }  # fmt: skip
+_NAMES = {
+    **dict.fromkeys(("IV OUTER PROFILE", "OUTER PROFILE", "OUTER PROFILES"), "OUTLINE"),
+    **dict.fromkeys(("IV INTERIOR PROFILES", "INTERIOR PROFILES", "INNER PROFILES"), "THROUGH"),
+    "IV ARC CENTERS": "IGNORE",
+}
+"""Whole names of layers of other programs."""
 _FIT = re.compile(HOLE_CLASS)
 _THREAD = re.compile(r"M\d+(?:\.\d+)?(?:X\d+(?:\.\d+)?)?")
 _NUMBER = re.compile(r"(\d+(?:\.\d*)?|\.\d+)(MM|IN)?")
@@ -91,6 +98,7 @@ def meaning(text: str, unit: float) -> Meaning | None:
     (Meaning(kind='pocket', depth=3.5, top=None, fit='', thread='', floor_radius=0.0, width=None), None)
     """
     words = [word for word in re.split(r"[\s_\-]+", text.upper().replace(",", ".").replace("×", "X")) if word]
+    words = [_NAMES[" ".join(words)]] if " ".join(words) in _NAMES else words
     if not words:
         return None
     if words[0] in _WORDS:
@@ -124,7 +132,7 @@ def _said(text: str, kind: Kind, words: list[str], unit: float) -> Meaning:
             waiting = ""
         elif key in {"R", "W"} and _NUMBER.fullmatch(rest):
             _set(text, said, {"R": "floor_radius", "W": "width"}[key], _length(rest, unit))
-        elif word not in {"DEEP", "THROUGH"} and not (kind in {"outline", "through"} and not said):
+        elif word not in {"DEEP", "THROUGH", "OPEN"} and not (kind in {"outline", "through"} and not said):
             raise DesignError(f"{text!r}: {word!r} is not understood after {kind}")
     if waiting:
         raise DesignError(f"{text!r}: a number is missing after {words[-1]}")
@@ -146,7 +154,7 @@ def _length(word: str, unit: float) -> float:
 _MAY: dict[Kind, set[str]] = {
     "outline": set(),
     "through": set(),
-    "bore": {"depth", "fit"},
+    "bore": {"depth", "fit", "top"},
     "pocket": {"depth", "top", "floor_radius"},
     "thread": {"depth", "thread"},
     "engrave": {"depth", "width"},

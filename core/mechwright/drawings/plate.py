@@ -1,5 +1,6 @@
 """A plate part of what a drawing shows."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -97,8 +98,10 @@ class _Maker:
             if hole.meant.kind == "thread" and not other.meant.thread and not other.meant.fit:
                 # The narrower circle is the core, the other the thread's nominal one.
                 size = min(hole.diameter, other.diameter)
-                depth = other.meant.depth if hole.meant.depth is None else hole.meant.depth
-                found[twin] = Hole(hole.centre, size, _deep(hole.meant, depth, other.meant), hole.name)
+                bored = math.inf if other.meant.depth is None else other.meant.depth
+                found[twin] = Hole(hole.centre, size, _deep(hole.meant, other.meant), hole.name, bored)
+            elif _stepped(hole, other):
+                found.append(hole)
             elif same and (not other.meant.fit or other.meant == hole.meant):
                 found[twin] = hole
             else:
@@ -127,7 +130,14 @@ class _Maker:
             if made is None:
                 continue
             drilled, thread = made
-            drilled = self._sunk(drilled, thread, disc, shapes)
+            drilled = self._sunk(
+                drilled,
+                thread,
+                [
+                    *self._floors(hole, holes),
+                    *(one.depth for one, shape in shapes if not one.meant.top and lies_in(disc, shape)),
+                ],
+            )
             features.append(drilled)
             if thread is not None:
                 details.append(thread)
@@ -155,13 +165,9 @@ class _Maker:
         details += self._details(part, plate)
         return self._placed(outline, features, details)
 
-    def _sunk(
-        self, drilled: Bore, thread: Thread | None, disc: shapely.Polygon,
-        found: Sequence[tuple[Recess, shapely.Polygon]],
-    ) -> Bore:  # fmt: skip
+    def _sunk(self, drilled: Bore, thread: Thread | None, floors: Sequence[float]) -> Bore:
         """The bore, from the floor of the recess that it stands in on."""
-        floors = [one.depth for one, shape in found if not one.meant.top and lies_in(disc, shape)]
-        if not floors:
+        if not floors or drilled.top:
             return drilled
         top = max(floors)
         bottom = drilled.top + drilled.depth
@@ -179,6 +185,17 @@ class _Maker:
                 "thread it by hand, and draw a bore",
             )
         return replace(drilled, top=top, depth=bottom - top)
+
+    def _floors(self, hole: Hole, holes: Sequence[Hole]) -> list[float]:
+        """Depths of the wider blind bores about the axis of a hole."""
+        return [
+            one.meant.depth
+            for one in holes
+            if coaxial(one, hole.centre)
+            and one.diameter > hole.diameter
+            and one.meant.depth
+            and not one.meant.top
+        ]
 
     def _recesses(self, found: Sequence[Recess]) -> list[Feature]:
         made: list[Feature] = []
@@ -230,11 +247,20 @@ class _Maker:
         return 0.0, 0.0
 
 
-def _deep(meant: Meaning, depth: float | None, other: Meaning) -> Meaning:
+def _deep(meant: Meaning, bore: Meaning) -> Meaning:
     """A thread in a bore that is drawn: as deep as it says, or one pitch less than a blind bore."""
-    if meant.depth is None and other.depth is not None:
-        depth = other.depth - metric(meant.thread)[1]
-    return replace(meant, depth=depth)
+    if meant.depth is not None or bore.depth is None:
+        return meant
+    return replace(meant, depth=bore.depth - metric(meant.thread)[1])
+
+
+def _stepped(one: Hole, two: Hole) -> bool:
+    """Whether two holes about one axis are a stepped bore: the wider one is less deep."""
+    wide, narrow = (one, two) if one.diameter > two.diameter else (two, one)
+    deep = math.inf if narrow.meant.depth is None else narrow.meant.depth
+    if wide.meant.top:  # from below
+        return wide.diameter > narrow.diameter
+    return wide.diameter > narrow.diameter and wide.meant.depth is not None and wide.meant.depth < deep
 
 
 def _corner(contour: Contour) -> Point:

@@ -1,15 +1,18 @@
 """A drawing from its bytes to contours with their meanings."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from mechwright.drawings.asked import Asked, Meanings, sorted_out
+from mechwright.drawings.asked import Asked, Meanings, is_colour, sorted_out
 from mechwright.drawings.fault import Told
 from mechwright.drawings.meaning import Meaning
 from mechwright.drawings.strokes import Stroke
 from mechwright.errors import DesignError
 
 if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+
     from mechwright.drawings.contours import Contour
 
 
@@ -57,10 +60,11 @@ def read(data: bytes, asked: Asked, others: Meaning | None = None) -> Drawn:
         return found
     unit = unit_of(document, asked.units, told)
     meanings = Meanings(asked, unit, told)
+    _unknown_layers(asked, document, told)
     if told.faults:
         return found
     shown = strokes(document, unit * asked.scale, meanings.named, meanings.ignored, told)
-    _unknown_keys(asked, {(one.layer, one.colour) for one in shown}, document, told)
+    _unknown_colours(asked, shown, told)
     by_meaning = sorted_out(shown, meanings, told, others)
     for meant, some in sorted(by_meaning.items(), key=lambda item: repr(item[0])):
         if meant.kind in OPEN:
@@ -70,23 +74,20 @@ def read(data: bytes, asked: Asked, others: Meaning | None = None) -> Drawn:
     return found
 
 
-def _unknown_keys(asked: Asked, seen: set[tuple[str, int]], document: object, told: Told) -> None:
-    """Refuse a layer or colour that is named and is not there: a slip of the pen would cut it otherwise."""
-    layers = {str(one.dxf.name) for one in document.layers} | {layer for layer, _ in seen}  # type: ignore[attr-defined]
+def _unknown_layers(asked: Asked, document: "Drawing", told: Told) -> None:
+    """Refuse a layer that is named and is not there: a slip of the pen would cut it otherwise."""
+    drawn = {str(one.dxf.layer) for one in document.entitydb.values() if one.dxf.hasattr("layer")}
+    layers = drawn | {str(one.dxf.name) for one in document.layers}
     known = {name.lower() for name in layers}
-    colours = {colour for _, colour in seen}
     for name, _ in asked.layers:
-        word, _, number = name.rpartition(" ")
-        if word.lower() in {"colour", "color"} and number.isdecimal():
-            if int(number) not in colours:
-                has = ", ".join(map(str, sorted(colours))) or "none"
-                told.fault(
-                    "layer", f"nothing is drawn in {name}; there is: {has}", "correct layers", "layers"
-                )
-        elif name.lower() not in known:
-            told.fault(
-                "layer",
-                f"there is no layer {name!r}; it has: {', '.join(sorted(layers))}",
-                "correct layers",
-                "layers",
-            )
+        if not is_colour(name) and name.lower() not in known:
+            said = f"there is no layer {name!r}; it has: {', '.join(sorted(layers))}"
+            told.fault("layer", said, "correct layers", "layers")
+
+
+def _unknown_colours(asked: Asked, shown: Sequence[Stroke], told: Told) -> None:
+    colours = {stroke.colour for stroke in shown}
+    for name, _ in asked.layers:
+        if is_colour(name) and int(name.split()[-1]) not in colours:
+            has = ", ".join(map(str, sorted(colours))) or "none"
+            told.fault("layer", f"nothing is drawn in {name}; there is: {has}", "correct layers", "layers")

@@ -43,7 +43,7 @@ class _Look:
 def strokes(
     document: "Drawing",
     scale: float,
-    named: Callable[[str, int], bool],
+    named: Callable[[str, int], str],
     ignored: Callable[[str, int], bool],
     told: Told,
 ) -> list[Stroke]:
@@ -54,7 +54,8 @@ def strokes(
     scale
         Length of a unit, mm.
     named
-        Whether the design names a layer and colour: they are read even where hidden or not drawn through.
+        Who says what a layer and colour mean: ``design``, then it is read even where it is hidden, or
+        ``name``, then dashed lines are edges as well; empty where nobody does.
     ignored
         Whether what stands on a layer, in a colour, is left out.
     """
@@ -66,7 +67,7 @@ def strokes(
             kind = entity.dxftype()
             if ignored(look.layer, look.colour):
                 told.left_out[f"layer {look.layer}"] += 1
-            elif not named(look.layer, look.colour) and (why := _hidden(document, entity, look)):
+            elif why := _hidden(document, entity, look, named):
                 told.left_out[why] += 1
             elif kind in NO_CURVES:
                 told.left_out[kind] += 1
@@ -175,8 +176,12 @@ class _Walk:
                 said = f"{entity.dxftype()} in {name} cannot be placed: {reason}"
                 self.told.fault("entity", said, "explode the block")
 
-        found: Iterator[Any] = insert.virtual_entities(skipped_entity_callback=skipped)
-        return found
+        if insert.dxf.get("zscale", 1.0) == 0:
+            insert.dxf.zscale = 1.0  # what is flat may say so
+        try:
+            yield from insert.virtual_entities(skipped_entity_callback=skipped)
+        except (ArithmeticError, ValueError, TypeError) as error:  # a scale of 0, a broken entity
+            self.told.fault("entity", f"{name} cannot be placed: {error}", "explode the block")
 
 
 def _look(document: "Drawing", entity: Any, outer: _Look | None) -> _Look:
@@ -199,8 +204,11 @@ def _look(document: "Drawing", entity: Any, outer: _Look | None) -> _Look:
     return _Look(layer, colour, linetype, handle or (outer.handle if outer is not None else ""))
 
 
-def _hidden(document: "Drawing", entity: Any, look: _Look) -> str:
+def _hidden(document: "Drawing", entity: Any, look: _Look, named: Callable[[str, int], str]) -> str:
     """Why an entity is not taken for an edge that one sees; empty if it is."""
+    said = named(look.layer, look.colour)
+    if said == "design":
+        return ""
     if look.layer.lower() == "defpoints":
         return "layer Defpoints"
     own = document.layers.get(look.layer) if document.layers.has_entry(look.layer) else None
@@ -208,7 +216,7 @@ def _hidden(document: "Drawing", entity: Any, look: _Look) -> str:
         return f"layer {look.layer}, which is {'frozen' if own.is_frozen() else 'off'}"
     if entity.dxf.get("invisible", 0):
         return "invisible entities"
-    if look.linetype not in THROUGH:
+    if look.linetype not in THROUGH and not said:
         return f"lines of type {look.linetype.upper()}"
     return ""
 

@@ -7,7 +7,7 @@ from mechwright.drawings.fault import Told
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-UnitName = Literal["drawing", "mm", "cm", "m", "um", "inch", "foot", "mil"]
+UnitName = Literal["drawing", "mm", "cm", "inch", "m", "foot", "mil", "um"]
 """What may be said of a drawing; ``drawing``: as it says itself."""
 
 LENGTHS: dict[str, float] = {
