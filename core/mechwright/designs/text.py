@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.inputs import InputFile
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
@@ -138,6 +139,6 @@ def toml(value: Any) -> str:
         return "[" + ", ".join(toml(item) for item in value) + "]"
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{json.dumps(key)} = {toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, str):
+    if isinstance(value, str | InputFile):
         return json.dumps(str(value), ensure_ascii=False)
     return repr(value)
