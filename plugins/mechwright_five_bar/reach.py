@@ -44,13 +44,15 @@ def bar_of(params: FiveBarParams) -> FiveBar:
 
 def square(bar: FiveBar, theta: Array) -> Array:
     """D² (...), mm²."""
-    return np.abs(bar.gap(theta)[0]) ** 2
+    one, two = bar.levers(theta)
+    found: Array = np.abs(bar.pivot + two - one) ** 2
+    return found
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
     """Derivative of D² (...) by the crank's angle."""
-    d, rate, _, _ = bar.gap(theta)
-    slope: Array = 2 * (np.conj(d) * rate).real
+    one, two = bar.levers(theta)
+    slope: Array = 2 * (np.conj(bar.pivot + two - one) * (1j * (bar.ratio * two - one))).real
     return slope
 
 
@@ -72,11 +74,14 @@ def _halved(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
     sign = function(low) > 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
+        if ((middle == low) | (middle == high)).all():
+            break  # neighbours
         same = (function(middle) > 0) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return np.asarray((low + high) / 2)
 
 
+@kept
 def reach(bar: FiveBar, least: float = 0.0) -> tuple[Interval, ...]:
     """Crank angles between which the transmission angle is at least ``least``, rad, in one period from 0.
 
