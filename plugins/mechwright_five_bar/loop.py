@@ -85,16 +85,12 @@ class FiveBar:
             np.asarray(self.arm * np.exp(1j * (self.offset + self.ratio * theta)), dtype=np.complex128),
         )
 
-    def gap(self, theta: ArrayLike) -> tuple[Plane, Plane, Plane, Plane]:
-        """The vector d (...) and its first three derivatives by the crank's angle, mm/rad and so on."""
+    def gap(self, theta: ArrayLike, order: int = 3) -> tuple[Plane, ...]:
+        """The vector d (...) and its first derivatives by the crank's angle, so many, mm/rad and so on."""
         one, two = self.levers(theta)
         r = self.ratio
-        return (
-            np.asarray(self.pivot + two - one, dtype=np.complex128),
-            1j * (r * two - one),
-            one - r**2 * two,
-            1j * (one - r**3 * two),
-        )
+        rates = (1j**k * (r**k * two - one) for k in range(1, order + 1))
+        return (np.asarray(self.pivot + two - one, dtype=np.complex128), *rates)
 
 
 @dataclass(frozen=True, slots=True)

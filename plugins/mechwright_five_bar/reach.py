@@ -44,12 +44,12 @@ def bar_of(params: FiveBarParams) -> FiveBar:
 
 def square(bar: FiveBar, theta: Array) -> Array:
     """D² (...), mm²."""
-    return np.abs(bar.gap(theta)[0]) ** 2
+    return np.abs(bar.gap(theta, 0)[0]) ** 2
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
     """Derivative of D² (...) by the crank's angle."""
-    d, rate, _, _ = bar.gap(theta)
+    d, rate = bar.gap(theta, 1)
     slope: Array = 2 * (np.conj(d) * rate).real
     return slope
 
@@ -77,6 +77,7 @@ def _halved(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
     return np.asarray((low + high) / 2)
 
 
+@kept
 def reach(bar: FiveBar, least: float = 0.0) -> tuple[Interval, ...]:
     """Crank angles between which the transmission angle is at least ``least``, rad, in one period from 0.
 
@@ -162,6 +163,7 @@ def ways_about(params: FiveBarParams) -> list[Interval]:
     return sorted((math.degrees(low), math.degrees(high)) for low, high in found)
 
 
+@kept
 def transmission_range(bar: FiveBar, one: float, two: float) -> Interval:
     """Smallest and largest acute transmission angle, rad, while the crank goes from one angle to another."""
     squares = square(bar, turning_points(bar, one, two))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import ProgramError
-from mechwright.geometry.prepared import prepared
+from mechwright.geometry.prepared import gridded
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
@@ -224,7 +224,7 @@ def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: floa
         west, south, east, north = shape.bounds
         i, k = np.searchsorted(y, south), np.searchsorted(y, north, side="right")
         j, n = np.searchsorted(x, west), np.searchsorted(x, east, side="right")
-        inside[i:k, j:n] = shapely.contains_xy(prepared(shape), *np.meshgrid(x[j:n], y[i:k]))
+        inside[i:k, j:n] = gridded(shape, x[j:n], y[i:k])
     return inside
 
 

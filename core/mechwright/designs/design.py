@@ -136,7 +136,8 @@ class Design:
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)
-        params = read_table(self.family.Params, content.get("parameters", {}), str(self.path), "parameters")
+        own = content.get("parameters", {})
+        params = read_table(self.family.Params, own, str(self.path), "parameters", self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = {
             reader.name: reader.read(content.get(reader.name, {}), self.path)
@@ -179,7 +180,7 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
             f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
         )
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
-    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters", path)
     readers = tuple(entry.item for entry in tables.values())
     return Design(name, family, params, path, digest, read_tables(content, path, host), readers, content)
 
