@@ -245,7 +245,7 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
     # Synthesis
 
     def test_synthesis(self) -> None:
-        """Every kind gives distinct designs without an error, and the same ones for the same requirement."""
+        """Every kind gives distinct designs without an error, within its limits, the same each time."""
         if not self.family.requirements:
             pytest.skip("the family has no synthesis")
         unknown = set(self.requirements) - set(self.family.requirements)
@@ -268,6 +268,8 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
             assert isinstance(design, self.family.Params)
             assert design not in designs[:number], f"{kind}: a design is given twice"
             assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
+        for number, candidate in enumerate(result.candidates, start=1):
+            assert limits_broken(requirement, candidate) == [], f"{kind}: design {number} breaks a limit"
 
     # All designs
 
