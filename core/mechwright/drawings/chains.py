@@ -37,7 +37,7 @@ def loops(pieces: Sequence[Piece], join: float, told: Told) -> list[tuple[Loop, 
         closed = math.dist(segment.start, segment.end) <= TOLERANCES.closure
         (found if closed else rest).append([piece])
     shortest = min((_reach(chain) for chain in rest), default=1.0)
-    for tolerance in (min(MEETS, shortest / 4, join), join):
+    for tolerance in (min(MEETS, shortest / 4, join), join + TOLERANCES.noise):
         rest, closed_now = _joined(rest, tolerance, told)
         found += closed_now
     if not told.faults:
@@ -120,7 +120,7 @@ def _open(chain: Chain, others: list[Chain], join: float, told: Told) -> None:
     gap, place = apart[0]
     said = f"the contour is open at {at(end)}, where {stroke.name} ends"
     if gap <= MOST_JOIN:
-        wide = math.ceil(gap * 1000) / 1000
+        wide = math.ceil(gap * 1000 - TOLERANCES.noise) / 1000
         told.fault(
             "contour",
             f"{said}, {gap:.3g} mm from the next end at {at(place)}",

@@ -26,6 +26,9 @@ Piece = tuple[Segment, Stroke]
 
 def single(pieces: Sequence[Piece], told: Told) -> list[Piece]:
     """The pieces of one layer without what is drawn twice; what was drawn over is noted with its place."""
+    given, pieces = pieces, _different(pieces)
+    if len(given) > len(pieces):
+        told.note(f"drawn twice, to the last digit: {len(given) - len(pieces)} curves; each is taken once")
     left: dict[int, Piece] = dict(enumerate(pieces))
     shapes = [shapely.LineString(segment.flatten(CHORD)) for segment, _ in pieces]
     tree = shapely.STRtree(shapes)
@@ -60,6 +63,27 @@ def single(pieces: Sequence[Piece], told: Told) -> list[Piece]:
     if count > 3:
         told.note(f"drawn twice, or over each other: {count} curves in all; each is taken once")
     return list(left.values())
+
+
+def _different(pieces: Sequence[Piece]) -> list[Piece]:
+    """The pieces without copies, also those drawn the other way: found at once, however many there are."""
+    found: dict[object, Piece] = {}
+    for piece in pieces:
+        ends = [tuple(round(v, _DIGITS) + 0.0 for v in row) for row in piece[0].at([0.0, 1.0]).tolist()]
+        middle = tuple(round(v, _DIGITS) + 0.0 for v in _middle(piece[0]))
+        found.setdefault((type(piece[0]), *sorted(ends), middle, _form(piece[0])), piece)
+    return list(found.values())
+
+
+_DIGITS = 6
+"""Decimals of mm to which copies are alike."""
+
+
+def _form(segment: Segment) -> object:
+    """What else tells curves apart that share their ends and their middle."""
+    if isinstance(segment, BSpline):
+        return frozenset((round(x, _DIGITS), round(y, _DIGITS)) for x, y in segment.points)
+    return round(segment.radius, _DIGITS) if isinstance(segment, Arc) else None
 
 
 def _middle(segment: Segment) -> tuple[float, float]:

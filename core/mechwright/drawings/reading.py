@@ -64,6 +64,8 @@ def read(data: bytes, asked: Asked, others: Meaning | None = None) -> Drawn:
     if told.faults:
         return found
     shown = strokes(document, unit * asked.scale, meanings.named, meanings.ignored, told)
+    if any(fault.code == "entity" for fault in told.faults):
+        return found
     _unknown_colours(asked, shown, told)
     by_meaning = sorted_out(shown, meanings, told, others)
     for meant, some in sorted(by_meaning.items(), key=lambda item: repr(item[0])):

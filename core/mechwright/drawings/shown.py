@@ -12,7 +12,7 @@ from mechwright.tolerances import TOLERANCES
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-MOST = 100_000
+MOST = 50_000
 """Entities of a drawing: a plate has hundreds. Blocks within blocks can make more of a small file."""
 DEEPEST = 16
 """Blocks within blocks."""
