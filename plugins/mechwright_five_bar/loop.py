@@ -85,12 +85,17 @@ class FiveBar:
             np.asarray(self.arm * np.exp(1j * (self.offset + self.ratio * theta)), dtype=np.complex128),
         )
 
-    def gap(self, theta: ArrayLike, order: int = 3) -> tuple[Plane, ...]:
-        """The vector d (...) and its first derivatives by the crank's angle, so many, mm/rad and so on."""
+    def gap(self, theta: ArrayLike) -> tuple[Plane, Plane, Plane, Plane]:
+        """The vector d (...) and its first three derivatives by the crank's angle, mm/rad and so on."""
+        gap, first, second, third = self.gap_and_rates(theta, 3)
+        return gap, first, second, third
+
+    def gap_and_rates(self, theta: ArrayLike, order: int) -> list[Plane]:
+        """The same with so many derivatives."""
         one, two = self.levers(theta)
         r = self.ratio
-        rates = (1j**k * (r**k * two - one) for k in range(1, order + 1))
-        return (np.asarray(self.pivot + two - one, dtype=np.complex128), *rates)
+        gap = np.asarray(self.pivot + two - one, dtype=np.complex128)
+        return [gap, *(1j**k * (r**k * two - one) for k in range(1, order + 1))]
 
 
 @dataclass(frozen=True, slots=True)

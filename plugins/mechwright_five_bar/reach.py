@@ -44,12 +44,12 @@ def bar_of(params: FiveBarParams) -> FiveBar:
 
 def square(bar: FiveBar, theta: Array) -> Array:
     """D² (...), mm²."""
-    return np.abs(bar.gap(theta, 0)[0]) ** 2
+    return np.abs(bar.gap_and_rates(theta, 0)[0]) ** 2
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
     """Derivative of D² (...) by the crank's angle."""
-    d, rate = bar.gap(theta, 1)
+    d, rate = bar.gap_and_rates(theta, 1)
     slope: Array = 2 * (np.conj(d) * rate).real
     return slope
 
