@@ -8,6 +8,7 @@ from mechwright.contracts.finding import Finding
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
 from mechwright_cam.shop.machine import Machine
@@ -63,7 +64,7 @@ class Grbl(GcodeControl):
     forbidden = "%$;" + _REALTIME
     highest_tool = 255
     by_hand = "files"
-    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+    modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:
         """A file for each change of tool, or the program with a stop for each."""
@@ -132,7 +133,7 @@ class Grbl(GcodeControl):
         if section.tool.length is None:
             out.line("G49")
         else:
-            out.line(self.offsets.length_word, "Z" + out.length(section.tool.length))
+            out.line(self.offsets.length_word, "Z" + out.length(section.tool.worn_length))
         out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
 
     def drill(self, out: Writer, hole: Drill) -> None:

@@ -1,5 +1,6 @@
 """Cutters, machines, stock and holding: the tables under ``[cam]`` of a design file, and the tool library."""
 
+import datetime as dt
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -67,6 +68,13 @@ class PathSettings(Parameters):
         return (self.outer_tolerance + self.inner_tolerance) / 2 - TOLERANCES.flatten
 
 
+class Sheet(Parameters):
+    """What the setup sheets say of themselves."""
+
+    revision: str = Field("", max_length=20, description="Revision of the drawing or program, such as B.")
+    date: dt.date | None = Field(None, description="Date on the sheets; none by default.")
+
+
 class CamSettings(Parameters):
     """The table ``[cam]`` of a design file."""
 
@@ -101,6 +109,7 @@ class CamSettings(Parameters):
     )
     machine: Machine = Field(Machine(), description="The mill.")
     post: Posting = Field(Posting(), description="How the program is written.")
+    sheet: Sheet = Field(Sheet(), description="Revision and date on the setup sheets.")
     second_side: SecondSide = Field(SecondSide(), description="The second side.")
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")

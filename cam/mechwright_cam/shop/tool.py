@@ -103,6 +103,14 @@ class Tool(Parameters):
     holder_diameter: Millimetres = Field(
         40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
     )
+    holder: str = Field("", max_length=40, description="Its holder, as the setup sheet names it.")
+    purpose: str = Field("", max_length=80, description="What it is for, as lists and sheets say it.")
+    wear_length: Millimetres = Field(
+        0.0, ge=-2, le=2, description="Wear of its length, below 0 for one that is shorter than measured."
+    )
+    wear_diameter: Millimetres = Field(
+        0.0, ge=-2, le=2, description="Wear of its diameter, below 0 for one that has become thinner."
+    )
     life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
         None, description="Minutes in cut after which an edge is worn."
     )
@@ -152,6 +160,11 @@ class Tool(Parameters):
     def d_number(self) -> int:
         """D number of its cutter compensation."""
         return self.number if self.diameter_offset is None else self.diameter_offset
+
+    @property
+    def worn_length(self) -> float:
+        """Length offset with its wear, mm, for tables of one column; that of an unmeasured tool is 0."""
+        return 0.0 if self.length is None else self.length + self.wear_length
 
     @property
     def nose(self) -> float:
