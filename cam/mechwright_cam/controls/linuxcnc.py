@@ -94,7 +94,8 @@ class LinuxCnc(GcodeControl):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``tool.tbl``: pocket, length, diameter and what it is; a length not measured yet stands at 0."""
-        return TABLE, table_text((Row(tool.number, tool, tool.diameter) for tool in tools), self.units)
+        each = {tool.number: tool for tool in tools}.values()
+        return TABLE, table_text((Row(tool.number, tool, tool.diameter) for tool in each), self.units)
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""

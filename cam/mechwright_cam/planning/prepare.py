@@ -14,6 +14,7 @@ from mechwright_cam.planning.in_hand import from_hand
 from mechwright_cam.planning.nesting import arranged
 from mechwright_cam.planning.remarks import judged_together
 from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.planning.to_buy import to_buy
 from mechwright_cam.planning.uses import uses
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.limits import check_machine
@@ -87,6 +88,9 @@ def prepare(
                 laid, found = lay_out_setups(part, cam, own, assignments)
             found += more
         found += [finding for job in laid for finding in check_machine(job)]
+        if shop is not None and errors(found):
+            buy = to_buy(part, cam, own, assignments, shop)
+            found += [] if buy is None else [buy]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid

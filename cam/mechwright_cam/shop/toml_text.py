@@ -5,7 +5,7 @@ from typing import Any
 
 from mechwright.designs.inches import Units, written
 from mechwright.designs.text import toml
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import HOLLOW, Tool
 
 HEAD = "# A tool library: the whole crib, so the built-in cutters are not at hand.\nbuilt_in = false\n"
 
@@ -19,7 +19,7 @@ def tool_table(tool: Tool, units: Units = "mm") -> str:
     """A tool as a table of a file in these units; in an inch file millimetres stand with their unit."""
     said = tool.model_dump(mode="json", exclude={"cutting", "centre_cutting"}, exclude_defaults=True)
     lines = ["[[tool]]", *(f"{key} = {toml(value)}" for key, value in _in(units, said).items())]
-    if tool.centre_cutting == (tool.kind in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}):
+    if tool.centre_cutting == (tool.kind in HOLLOW):
         lines.append(f"centre_cutting = {toml(tool.centre_cutting)}")
     if tool.cutting:
         lines.append("[tool.cutting]")

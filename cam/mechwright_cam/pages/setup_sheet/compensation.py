@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mechwright_cam.controls.offsets import DOffset, OffsetTables
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
+from mechwright_cam.shop.lengths import Lengths
 
 MILLIMETRES = Lengths()
 OVERSIZE = 0.5

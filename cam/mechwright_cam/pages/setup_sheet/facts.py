@@ -8,10 +8,10 @@ from typing import Any
 from mechwright.geometry.segments import Point
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.pages.picture import tool_colours
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
 from mechwright_cam.pages.trace import Stroke, Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 MILLIMETRES = Lengths()

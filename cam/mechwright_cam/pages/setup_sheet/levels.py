@@ -1,9 +1,9 @@
 """A side view of the job: which height is which, and where the Z setter stands. Not to scale."""
 
 from mechwright.output import svg
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 
 _WIDTH, _SIZE = 132.0, 4.2
 """Width of the picture and height of its letters, in units of the picture."""

@@ -14,9 +14,9 @@ from mechwright.contracts.part import Bore
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.lengths import Lengths
 
 TO_SIZE = "Set D, and bring the part to size"
 CHECK_HEIGHT = 50.0

@@ -15,12 +15,12 @@ from mechwright_cam.pages.picture.isometric import isometric_view
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.inspection import inspection
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 
 
 def setup_html(

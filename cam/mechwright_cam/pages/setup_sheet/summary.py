@@ -6,12 +6,12 @@ from typing import Any
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.setup_sheet import facts
-from mechwright_cam.pages.setup_sheet.lengths import Lengths
 from mechwright_cam.pages.setup_sheet.procedure import quantity
 from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span, words
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.settings import Sheet
 from mechwright_cam.shop.tool import Tool
 

@@ -17,7 +17,7 @@ from mechwright.designs.files import read_text
 from mechwright.designs.inches import FACTORS, Units, scaled
 from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import HOLLOW, Tool, ToolKind
 
 UNITS = {"mm": 1.0, "in": 25.4, "inch": 25.4}
 """What ``;units=`` may say, to mm."""
@@ -148,7 +148,7 @@ def _line(row: Row, scale: float) -> str:
         return f"{line} {ROW_OF}={tool.number}"
     said = tool.model_dump(exclude_none=True)
     usual = {name: field.default for name, field in Tool.model_fields.items()}
-    usual["centre_cutting"] = tool.kind not in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}
+    usual["centre_cutting"] = tool.kind not in HOLLOW
     if value == tool.diameter:
         usual["diameter"] = value
     if not tool.wear_length:
