@@ -175,6 +175,10 @@ class Control(Plugin):
         """What goes to the upper end of a machine."""
         return f"G53 G0 Z{machine.retract_z / self.scale:.{self.decimals}g}"
 
+    def needs(self, settings: "CamSettings") -> "Sequence[str]":  # noqa: ARG002 - for controls that rely on settings
+        """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""
+        return ()
+
     def table_words(self, table: str) -> str:
         """What to do with the file of the tool table."""
         return f"{table} lists the tools: enter the measured lengths there."

@@ -91,6 +91,15 @@ class Fanuc(GcodeControl):
         """The same, and the D offsets: geometry (L12) as planned, wear (L13) 0."""
         return self._offsets_file(tools, self.offsets.of_tools(tools, settings))
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Offsets that were typed in under the other units may be taken as they stand."""
+        if self.units == "mm":
+            return []
+        return [
+            "The offsets are typed in inches: whether those of metric jobs are converted, a parameter of the "
+            "machine says (5006, bit 0)."
+        ]
+
     def table_words(self, table: str) -> str:
         """What to do with the file of offsets."""
         return (

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
@@ -83,13 +83,27 @@ class Grbl(GcodeControl):
         return files
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
-        """Also: the retract must stay off the homing switch."""
+        """Also: the retract must stay off the homing switch, and mist is an option of the build."""
         found, height = list(super().check(settings)), settings.machine.retract_z
         if height >= 0:
             where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
             remedy = "retract below it, by more than the pull-off ($27), such as -2"
             found.append(Finding.warning("cam.retract", where, message, height, 0.0, "mm", remedy))
+        if settings.coolant == "mist":
+            message = "M7 is read by a Grbl built with ENABLE_M7 alone; others stop with error 20"
+            remedy = 'use coolant = "flood" (M8) or "off", if yours is not'
+            found.append(Finding("cam.coolant", Severity.NOTE, "cam.coolant", message, remedy=remedy))
         return found
+
+    def needs(self, settings: CamSettings) -> Sequence[str]:
+        """Homing, for machine coordinates, and a build with mist."""
+        said = [
+            "Home the machine first ($22=1, then $H): G53 goes to machine coordinates, which without homing "
+            "are those of where it was switched on."
+        ]
+        if settings.coolant == "mist":
+            said.append("Mist (M7) takes a Grbl that was built with ENABLE_M7; others stop with error 20.")
+        return said
 
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
         """A tool that is loaded at a stop has to have a known length."""

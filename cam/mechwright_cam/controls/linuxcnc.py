@@ -92,6 +92,11 @@ class LinuxCnc(GcodeControl):
         for line in comment_lines(text):
             out.line(f"(MSG, {line})")
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Tables are in the units of the machine, whatever those of the program."""
+        inch = f"{TABLE} is in inches, for a machine with LINEAR_UNITS = inch in its INI file."
+        return [inch] if self.units == "inch" else []
+
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``tool.tbl``: pocket, length, diameter and what it is; a length not measured yet stands at 0."""
         each = {tool.number: tool for tool in tools}.values()

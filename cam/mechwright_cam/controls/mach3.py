@@ -38,6 +38,11 @@ class Mach3(GcodeControl):
         if _waits(out.program):
             self.comment(out, "dwells are in seconds: G04 dwell in ms must be off")
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Its tool table is in the units that it was set up with."""
+        said = "The lengths in the table are in inches: so have to be the native units of the profile."
+        return [said] if self.units == "inch" else []
+
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
         return self._table({tool.number: (tool, tool.diameter, "") for tool in tools})

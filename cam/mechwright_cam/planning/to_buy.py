@@ -18,24 +18,27 @@ from mechwright_cam.shop.workshop_file import Shop
 def to_buy(
     part: Part, cam: CamSettings, library: Library, assignments: Assignments, shop: Shop
 ) -> Finding | None:
-    """The built-in tools that are to be added to those of a shop so that a part can be cut.
-
-    Each has been tried: with all of them the part is laid out without an error, and without one of them it is
-    not. None where the design names its tools, or no tool helps.
-    """
-    if cam.tools:
-        return None
-    more = _others(library)
-    wanted = _used(part, cam, library, more, assignments)
+    """What is to be bought so that a part can be cut, see :func:`lacking`; None where nothing helps."""
+    wanted = lacking(part, cam, library, assignments)
     if not wanted:
         return None
+    told = ", ".join(_described(tool) for tool in wanted)
+    message = f"{part.name} can be cut with what {shop.path.name} has and {told} besides: buy {_it(wanted)}"
+    return Finding("shop.buy", Severity.NOTE, "shop", message)
+
+
+def lacking(part: Part, cam: CamSettings, library: Library, assignments: Assignments) -> list[Tool]:
+    """The built-in tools that are to be added to those of a crib so that a part can be cut.
+
+    Each has been tried: with all of them the part is laid out without an error, and without one of them it is
+    not. Empty where the design names its tools, or no tool helps.
+    """
+    wanted = [] if cam.tools else _used(part, cam, library, _others(library), assignments) or []
     for tool in list(wanted):
         fewer = [one for one in wanted if one is not tool]
         if fewer and _used(part, cam, library, fewer, assignments) is not None:
             wanted = fewer
-    told = ", ".join(_described(tool) for tool in wanted)
-    message = f"{part.name} can be cut with what {shop.path.name} has and {told} besides: buy {_it(wanted)}"
-    return Finding("shop.buy", Severity.NOTE, "shop", message)
+    return wanted
 
 
 def _it(tools: Sequence[Tool]) -> str:

@@ -186,7 +186,7 @@ class Hole(Parameters):
     thread: str | None = Field(
         None,
         max_length=20,
-        description="Metric thread, such as M6 or M6x0.75; the hole gets its core diameter.",
+        description="Thread, such as M6, M6x0.75, 1/4-20 UNC or M6 LH; the hole gets its core diameter.",
     )
     depth: Millimetres | None = Field(
         None, gt=0, le=500, description="Depth of the thread; by default all of the hole."

@@ -19,6 +19,7 @@ from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
 
 TO_SIZE = "Set D, and bring the part to size"
+BEFORE = "Look at the control's settings"
 CHECK_HEIGHT = 50.0
 """Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
 
@@ -63,7 +64,9 @@ def steps(
     over = job.side == "underside"
     by_hand = not control.offsets.lengths
     touched = by_hand and not _in_program(job, control, tools)
+    needs = tuple(control.needs(job.settings))
     return [
+        *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
         _second_plane(job, offset, to) if over else _plane(job, offset, to),
         *([] if touched else [_height(offset, control)]),
