@@ -268,14 +268,13 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
         assert all(0 <= done <= 1 for done in heard), f"{kind}: progress {heard} leaves 0 to 1"
         assert heard == sorted(heard), f"{kind}: progress goes backwards"
         assert errors(result.findings) == [], f"{kind} finds no design"
-        designs = [candidate.params for candidate in result.candidates]
+        designs = [one.params for one in result.candidates]
         assert designs, f"{kind} finds no design, and no error says so"
-        for number, design in enumerate(designs):
+        for number, (design, candidate) in enumerate(zip(designs, result.candidates, strict=True)):
             assert isinstance(design, self.family.Params)
             assert design not in designs[:number], f"{kind}: a design is given twice"
             assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
-        for number, candidate in enumerate(result.candidates, start=1):
-            assert limits_broken(requirement, candidate) == [], f"{kind}: design {number} breaks a limit"
+            assert limits_broken(requirement, candidate) == [], f"{kind}: {number + 1} breaks a limit"
 
     # All designs
 
