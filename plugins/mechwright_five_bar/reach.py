@@ -44,15 +44,13 @@ def bar_of(params: FiveBarParams) -> FiveBar:
 
 def square(bar: FiveBar, theta: Array) -> Array:
     """D² (...), mm²."""
-    one, two = bar.levers(theta)
-    found: Array = np.abs(bar.pivot + two - one) ** 2
-    return found
+    return np.abs(bar.gap_and_rates(theta, 0)[0]) ** 2
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
     """Derivative of D² (...) by the crank's angle."""
-    one, two = bar.levers(theta)
-    slope: Array = 2 * (np.conj(bar.pivot + two - one) * (1j * (bar.ratio * two - one))).real
+    d, rate = bar.gap_and_rates(theta, 1)
+    slope: Array = 2 * (np.conj(d) * rate).real
     return slope
 
 
@@ -74,8 +72,6 @@ def _halved(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
     sign = function(low) > 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        if ((middle == low) | (middle == high)).all():
-            break  # neighbours
         same = (function(middle) > 0) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return np.asarray((low + high) / 2)
@@ -167,6 +163,7 @@ def ways_about(params: FiveBarParams) -> list[Interval]:
     return sorted((math.degrees(low), math.degrees(high)) for low, high in found)
 
 
+@kept
 def transmission_range(bar: FiveBar, one: float, two: float) -> Interval:
     """Smallest and largest acute transmission angle, rad, while the crank goes from one angle to another."""
     squares = square(bar, turning_points(bar, one, two))

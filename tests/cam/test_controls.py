@@ -316,7 +316,8 @@ def test_tool_tables() -> None:
     assert post_of("fanuc").tool_table(TOOLS) == ("", "")
     assert "G10 L10 P3 R83.5\n" in post_of("haas").tool_table(measured)[1]
     assert "2,drill-8 drill,8,82.5\n" in post_of("mach3").tool_table(measured)[1]
-    assert "T1 P1 Z81.5 D6 ;spot-6 spot-drill\n" in post_of("linuxcnc").tool_table(measured)[1]
+    line = "T1 P1 Z81.5 D6 ;spot-6 spot-drill flute_length=8 point_angle=90\n"
+    assert line in post_of("linuxcnc").tool_table(measured)[1]
     assert post_of("grbl").tool_table(measured) == ("", "")
     fanuc = interpret(post_of("fanuc").tool_table(measured)[1], BY_NAME["fanuc"])
     assert fanuc.ended

@@ -217,8 +217,8 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
 def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: float) -> NDArray[np.bool_]:
     """(ny, nx) whether the middle of each cell is in a shape."""
     x0, y0, _, _ = job.stock
-    x = x0 + (np.arange(grid[1]) + 0.5) * cell
-    y = y0 + (np.arange(grid[0]) + 0.5) * cell
+    x = np.asarray(x0 + (np.arange(grid[1]) + 0.5) * cell, dtype=np.float64)
+    y = np.asarray(y0 + (np.arange(grid[0]) + 0.5) * cell, dtype=np.float64)
     inside = np.zeros(grid, dtype=bool)
     if not shape.is_empty:
         west, south, east, north = shape.bounds

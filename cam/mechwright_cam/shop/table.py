@@ -17,7 +17,7 @@ from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
 from mechwright_cam.shop.library import library_files
 from mechwright_cam.shop.machine import Machine, machine_figures
-from mechwright_cam.shop.part_settings import says_how, split
+from mechwright_cam.shop.part_settings import over, says_how, split
 from mechwright_cam.shop.settings import CamSettings, PartSettings
 
 _OF_ONE_PART = (
@@ -101,6 +101,10 @@ class CamTable(Table[JobSettings]):
         from mechwright_cam.shop.asked import asked
 
         return asked(value.cam, value.tables, parts, path)
+
+    def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
+        """As tables of single parts lie over it."""
+        return over(lent, own) if isinstance(own, Mapping) else own
 
     def inputs(self, value: JobSettings, path: Path) -> dict[str, Path]:
         """The tool library, and machine files."""

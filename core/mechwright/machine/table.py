@@ -1,5 +1,6 @@
 """The table ``[machine]`` of a design file."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,10 @@ class MachineTable(Table[MachineSettings]):
     def read(self, content: object, path: Path) -> MachineSettings:
         """The settings; the defaults where the file has no table."""
         return read_table(MachineSettings, content, str(path), self.name)
+
+    def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
+        """A design without the table stays without a machine."""
+        return super().laid_over(own, lent) if own else own
 
     def schema(self) -> dict[str, Any]:
         """Of the settings."""
