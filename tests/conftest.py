@@ -1,5 +1,6 @@
 """What all tests share: the hypothesis profile, and the rule that nothing is skipped in CI for want of a client."""
 
+import gc
 import importlib.util
 import os
 import shutil
@@ -39,6 +40,18 @@ settings.load_profile("mechwright")
 # Nor must the worker that runs it: constants of whatever modules are loaded would go into the examples.
 if hasattr(providers, "is_local_module_file"):
     providers.is_local_module_file = lambda path: False
+
+
+YOUNG = 10_000
+"""New objects after which the collector looks for cycles among them, some ten times as many as by default: pydantic
+and hypothesis make them by the thousand."""
+
+
+def pytest_collection_finish() -> None:
+    """What collection has loaded lives to the end: the collector need not go through it over and over."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(YOUNG)
 
 
 def pytest_configure() -> None:
