@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 from typing import ClassVar
 
 import pytest
@@ -97,8 +98,7 @@ def test_what_stands_still_has_no_motion_and_says_so_in_one_line(tmp_path):
 
 def test_a_drawing_is_read_beside_the_design_and_stands_in_the_manifest(tmp_path, monkeypatch):
     (tmp_path / "sub").mkdir()
-    data = (tmp_path / "sub" / "b.dxf").write_bytes
-    data(open(NEMA["drawing"], "rb").read())  # noqa: SIM115, PTH123
+    (tmp_path / "sub" / "b.dxf").write_bytes(Path(NEMA["drawing"]).read_bytes())
     file = design(tmp_path, drawing="sub/b.dxf", thickness=6)
     found = mw.load(file)
     (part,) = found.parts
