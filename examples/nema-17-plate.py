@@ -12,11 +12,7 @@ from ezdxf.document import Drawing
 WIDE, HIGH, ROUND = 100.0, 80.0, 8.0
 """mm. The plate, and the radius of its corners."""
 PILOT, PATTERN, SCREW, TRAVEL = 22.2, 31.0, 3.4, 8.0
-<<<<<<< HEAD
-"""Boss of the motor with play, square of its screws M3 in clearance slots (ISO 273), how far it slides."""
-=======
 """Boss of the motor with play, square of its screws, their slots (M3 medium, ISO 273), how far it slides."""
->>>>>>> plate
 FACE = 43.0
 """Square of the motor's face with play: the pocket that leads it."""
 QUARTER = 0.41421356237309503
