@@ -128,7 +128,7 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
     with pytest.raises(ProgramError, match="no decimal point"):
         prove(texts["linuxcnc"].replace("G64 P0.002 Q0", "G64"), job, BY_NAME["haas"])
     assert not prove(texts["grbl"], job, BY_NAME["mach3"]).checks["tools"].passed
-    with pytest.raises(ProgramError, match="G64 is no code that Grbl"):
+    with pytest.raises(ProgramError, match="G64 is no code that is read in programs for Grbl"):
         prove(texts["mach3"], job, BY_NAME["grbl"])
 
 
@@ -335,14 +335,14 @@ HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": 
         ("haas", "G1 Z-2 F100.", "Z-2 has no decimal point"),
         ("fanuc", "G0 X1. ; note", "starts no word"),
         ("fanuc", "G65 P9000", "macros and subprograms"),
-        ("fanuc", "M98 P100", "M98 is no code that Fanuc"),
+        ("fanuc", "M98 P100", "M98 is no code that is read in programs for Fanuc"),
         ("fanuc", "G54.1 X1.", "needs its number, P"),
         ("fanuc", "G91.1", "G91.1 is no code"),
-        ("haas", "G54.1 P3", "G54.1 is no code that Haas"),
+        ("haas", "G54.1 P3", "G54.1 is no code that is read in programs for Haas"),
         ("mach3", "G84 X1 Y1 Z-2 R1", "tapping"),
         ("grbl", "G43 H1 Z5", "no table of lengths"),
-        ("grbl", "T1 M6", "M6 is no code that Grbl"),
-        ("grbl", "G81 X1 Y1 Z-1 R1 F9", "G81 is no code that Grbl"),
+        ("grbl", "T1 M6", "M6 is no code that is read in programs for Grbl"),
+        ("grbl", "G81 X1 Y1 Z-1 R1 F9", "G81 is no code that is read in programs for Grbl"),
         ("grbl", "G41 D1", "G40 only"),
         ("grbl", "(wait!)", "obeys '!'"),
         ("grbl", "%", "% stands in a line"),

@@ -25,7 +25,7 @@ class Fanuc(GcodeControl):
     dialect = Dialect(
         g_codes=MILLING | {541},
         unsupported=NOT_SIMULATED,
-        inert=((90, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
+        inert=((90, ""), (970, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
         inert_with=frozenset({51, 80}),
         m_codes=USUAL_M | {19},
         bare_dwell_unit=0.001,
@@ -47,6 +47,7 @@ class Fanuc(GcodeControl):
         one_unit=True,
         change_stops_coolant=True,
         ends_cycles=True,
+        feed_mode_stays=True,
         whole_dwells=True,
         # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and
         # with Q2 or more it puts curves through the places of the program.

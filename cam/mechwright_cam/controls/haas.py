@@ -23,12 +23,13 @@ class Haas(Fanuc):
     dialect = replace(
         Fanuc.dialect,
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},
-        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, "")),
+        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, ""), (970, "")),
         inert_with=frozenset(),
         inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,
         whole_dwells=False,
+        feed_mode_stays=False,  # M30 and RESET bring G94 back
         # Corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further.
         corners=Corners(looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),)),
     )

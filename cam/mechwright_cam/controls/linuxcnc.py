@@ -50,8 +50,9 @@ class LinuxCnc(GcodeControl):
         both_coolants=False,
         mode_ends_feed=True,
         one_use_of_axes=True,
+        inert=((970, ""),),
         tables=frozenset({1, 2, 10, 11, 20}),
-        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911},
+        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},
         unsupported=(
             (RETURN, "retract with G53 G0 Z0 or G28"),
             (840, "tapping is not simulated"),

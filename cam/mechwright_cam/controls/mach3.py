@@ -19,9 +19,10 @@ class Mach3(GcodeControl):
     name = "mach3"
     title = "Mach3"
     dialect = Dialect(
-        g_codes=MILLING | {901, 911},
+        g_codes=MILLING | {901, 911, 921},
         unsupported=NOT_SIMULATED,
-        inert=((500, ""), (690, "")),
+        inert=((500, ""), (690, ""), (970, "")),
+        feed_mode_stays=True,
         inert_m=frozenset({48, 49}),
         semicolon_comments=False,
         numbers_needed="H",

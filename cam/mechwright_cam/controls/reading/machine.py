@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 
 from mechwright_cam.controls.dialect import RETURN, Dialect
-from mechwright_cam.controls.reading.blocks import Block, check_points, fail
+from mechwright_cam.controls.reading.blocks import Block, check_points, fail, no_code
 from mechwright_cam.controls.reading.groups import GROUPS, spell
 from mechwright_cam.controls.reading.motions import Moving
 from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
@@ -114,11 +114,11 @@ class Machine(Moving):
             for refused, remedy in self.dialect.unsupported:
                 if code == refused:
                     raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
-            raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
+            raise fail(block.line, no_code(spell(code), self.dialect))
         self._check_together(block)
         for code in block.m:
             if code not in self.dialect.m_codes | self.dialect.inert_m:
-                raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+                raise fail(block.line, no_code(f"M{code}", self.dialect))
 
     def _check_together(self, block: Block) -> None:
         """Refuse codes that the control does not take in one line."""

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from mechwright_cam.controls.reading.blocks import fail
+from mechwright_cam.controls.reading.blocks import check_comments, fail
 from mechwright_cam.controls.reading.expressions import Reader
 from mechwright_cam.controls.reading.plain import PlainLines, Row
 from mechwright_cam.controls.reading.values import COMMENT, OWN, BehindError, Frame, Values, whole
@@ -99,6 +99,7 @@ class Macros(Values):
             index = self.at
             if index in self.words and (comments := COMMENT.findall(self.lines[index])):
                 yield from self._rows()
+                check_comments(index + 1, self.lines[index])
                 yield index, "".join(comments)
             try:
                 try:

@@ -74,7 +74,7 @@ def interpret(
                 raise fail(index + 1, "a % without one in the first line; put one there, or take this out")
             if percents == 2:
                 machine.ended = machine.ended or dialect.percent_ends
-                break
+                return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
             continue
         block = blocks.read(index + 1, raw)
         if block.title and any(map(CODE.match, lines[:index])):

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from mechwright_cam.controls.reading.blocks import check_comments
 from mechwright_cam.controls.reading.expressions import HELD, Formulas, Known, Reader, Worked
 from mechwright_cam.controls.reading.parameters import FIRST, LAST, check_writable
 from mechwright_cam.controls.reading.plain import DECIMALS, LETTERS, N, PlainLines, Row, spelt
@@ -148,6 +149,7 @@ class Values(Lines):
         line = self.lines[index]
         comments = "".join(COMMENT.findall(line))
         if comments:
+            check_comments(index + 1, line)
             line = COMMENT.sub("", line)
         text = "".join(line.split()).lower()
         if HELD in text:
