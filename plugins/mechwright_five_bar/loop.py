@@ -146,7 +146,8 @@ def close(bar: FiveBar, theta: ArrayLike) -> Loop:
     """
     theta = np.asarray(theta, dtype=float)
     one, two = bar.levers(theta)
-    coupler, rocker = dyad(bar.gap(theta), bar.coupler, bar.rocker, bar.branch)
+    d, first, second, third = bar.gap(theta)
+    coupler, rocker = dyad((d, first, second, third), bar.coupler, bar.rocker, bar.branch)
     return Loop(
         theta, one, np.asarray(bar.pivot + two), one + bar.coupler * coupler.direction, coupler, rocker
     )

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from by_control import BY_NAME, interpret, prove
-from by_night import examples
+from by_night import examples, thinned
 from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -225,7 +225,7 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
     np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=1))
 def test_a_long_program_is_read_and_proven(control: str) -> None:
     text = post_of(control).write(long_program(20_000))  # benchmarks/bench_controls.py times 100,000 moves
     assert prove(text, plate_job(), BY_NAME[control]).ok
@@ -316,7 +316,8 @@ def test_tool_tables() -> None:
     assert post_of("fanuc").tool_table(TOOLS) == ("", "")
     assert "G10 L10 P3 R83.5\n" in post_of("haas").tool_table(measured)[1]
     assert "2,drill-8 drill,8,82.5\n" in post_of("mach3").tool_table(measured)[1]
-    assert "T1 P1 Z81.5 D6 ;spot-6 spot-drill\n" in post_of("linuxcnc").tool_table(measured)[1]
+    line = "T1 P1 Z81.5 D6 ;spot-6 spot-drill flute_length=8 point_angle=90\n"
+    assert line in post_of("linuxcnc").tool_table(measured)[1]
     assert post_of("grbl").tool_table(measured) == ("", "")
     fanuc = interpret(post_of("fanuc").tool_table(measured)[1], BY_NAME["fanuc"])
     assert fanuc.ended

@@ -142,6 +142,8 @@ class Dialect:
     """Whether blanks and comments count for the length of a line."""
     decimals: int = 4
     """Decimals of a coordinate, mm, that the control keeps."""
+    decimals_inch: int = 5
+    """The same of a coordinate in inches."""
     point_needed: bool = False
     """Whether a length or feed without a decimal point would mean thousandths; it is refused then."""
     program_numbers: bool = False
@@ -165,6 +167,11 @@ class Dialect:
     """How far the control leaves the path between two moves."""
     name: str = "the control"
     """Name for messages; a control gives its own title."""
+
+    @property
+    def inert_g(self) -> frozenset[int]:
+        """G codes in tenths that change no path."""
+        return frozenset(code for code, _ in self.inert)
 
     @property
     def chord_slack(self) -> float:

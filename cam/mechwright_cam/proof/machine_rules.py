@@ -41,7 +41,9 @@ def program_end(scene: Scene) -> Check:
 def modes(scene: Scene) -> Check:
     """Units, distances, plane and compensation are set before the first move in work coordinates."""
     if (step := first(scene.run.moving)) is not None:
-        missing = [word for group, word in SAFE_MODES.items() if group not in scene.state(step).stated]
+        inches = {"units": "G20"} if scene.control.units == "inch" else {}
+        words = {**SAFE_MODES, **inches}
+        missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
     return Check(True, "units, distance mode, plane and compensation are stated")
