@@ -58,7 +58,7 @@ def places(found, name):
     ]
 
 
-@pytest.mark.parametrize("example", [EXAMPLE, DOUBLE, FIVE])
+@pytest.mark.parametrize("example", [EXAMPLE, DOUBLE, pytest.param(FIVE, marks=by_night)])
 def test_motor_coupling_and_pillars_stand_along_the_input_axis(example):
     found = design(example=example)
     assert errors(found.check()) == []
