@@ -67,6 +67,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
         "four-bar",
         "geneva",
         "noncircular-gears",
+        "plate",
         "slider-crank",
         "spherical",
     ]

@@ -66,8 +66,8 @@ def _line(text: str) -> str:
 
 def _meanings(drawn: Drawn) -> Iterator[str]:
     """What became of each layer."""
-    found = [(meant, [one.stroke for one in some]) for meant, some in drawn.contours.items()]
-    for meant, strokes in [*found, *drawn.strokes.items()]:
+    closed = [(meant, [one.stroke for one in some]) for meant, some in drawn.contours.items()]
+    for meant, strokes in [*closed, *drawn.strokes.items()]:
         layers = ", ".join(sorted({one.layer for one in strokes}))
         if layers:
             yield f"{layers}: {meant.text} ({len(strokes)})"

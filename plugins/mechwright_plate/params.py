@@ -44,12 +44,12 @@ class PlateParams(Parameters):
     origin: Origin = Field(
         "drawing", description="Where the part's origin lies: as drawn, at its lower left corner, or centred."
     )
-    layers: dict[Word, Word] = Field(
+    layers: dict[str, Word] = Field(
         default_factory=dict,
         description='What layers or colours mean, as { "Layer 1" = "pocket 3", "colour 1" = "bore H7" }.',
         json_schema_extra=FIRST,
     )
-    holes: dict[Word, Word] = Field(
+    holes: dict[str, Word] = Field(
         default_factory=dict,
         description='What circles of a diameter mean, as { "5" = "bore H7", "4.2" = "M5" }.',
         json_schema_extra=FIRST,

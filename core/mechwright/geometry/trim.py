@@ -87,7 +87,7 @@ def stretches(loop: Loop, region: "shapely.Geometry", *, outside: bool = False) 
 
     def inside(points: Array) -> Array:
         found: Array = shapely.contains_xy(grown, points[:, 0], points[:, 1])
-        return np.asarray(found != outside)
+        return np.not_equal(found, outside)
 
     found: list[Segment] = []
     for segment in loop.segments:
