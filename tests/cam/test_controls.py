@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from by_control import BY_NAME, interpret, prove
-from by_night import examples
+from by_night import examples, thinned
 from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -225,7 +225,7 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
     np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=1))
 def test_a_long_program_is_read_and_proven(control: str) -> None:
     text = post_of(control).write(long_program(20_000))  # benchmarks/bench_controls.py times 100,000 moves
     assert prove(text, plate_job(), BY_NAME[control]).ok

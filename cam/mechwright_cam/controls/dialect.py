@@ -169,6 +169,11 @@ class Dialect:
     """Name for messages; a control gives its own title."""
 
     @property
+    def inert_g(self) -> frozenset[int]:
+        """G codes in tenths that change no path."""
+        return frozenset(code for code, _ in self.inert)
+
+    @property
     def chord_slack(self) -> float:
         """By so much half the distance of an arc's ends may be larger than its R, mm."""
         return self.arc_absolute if self.arc_chord is None else self.arc_chord

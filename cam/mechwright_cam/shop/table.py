@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
@@ -83,7 +84,7 @@ class CamTable(Table[JobSettings]):
 
     def schema(self) -> dict[str, Any]:
         """The table with those of single parts; a machine may also be given by its name alone."""
-        whole, part = CamSettings.model_json_schema(), PartSettings.model_json_schema()
+        whole, part = model_schema(CamSettings), model_schema(PartSettings)
         known = whole["properties"]["machine"]
         for table in (whole, part):
             table["properties"]["machine"] = {"anyOf": [known, {"type": "string"}]}

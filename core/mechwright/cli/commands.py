@@ -206,7 +206,8 @@ class Solve(Command):
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("solve", samples), Stage.MOTION, as_json=as_json)
+        still = "stands still: there is no motion to write; build writes its drawings and programs"
+        perform(design, output, Wanted("solve", samples), Stage.MOTION, still, as_json=as_json)
 
 
 class Build(Command):

@@ -8,6 +8,7 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
 from mechwright.designs.requirement import require_synthesis
 from mechwright.designs.schema import as_file, file_schema, schema_name
@@ -53,8 +54,8 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
         "title": family.title,
         "summary": family.summary,
         "distribution": entry.distribution,
-        "parameters": family.Params.model_json_schema(),
-        "requirements": {kind: model.model_json_schema() for kind, model in family.requirements.items()},
+        "parameters": model_schema(family.Params),
+        "requirements": {kind: model_schema(model) for kind, model in family.requirements.items()},
     }
 
 

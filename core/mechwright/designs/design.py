@@ -140,7 +140,8 @@ class Design:
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)
-        params = read_table(self.family.Params, content.get("parameters", {}), str(self.path), "parameters")
+        own = content.get("parameters", {})
+        params = read_table(self.family.Params, own, str(self.path), "parameters", self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = table_values(self.readers, content, self.path, self.tables, touched)
         return replace(self, params=params, tables=tables, content=content)
@@ -182,7 +183,7 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
     readers = tuple(entry.item for entry in tables.values())
     units, content = in_millimetres(content, path, {"parameters": table_schema(family.Params)}, readers)
     with told_in(units):
-        params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+        params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters", path)
         values = table_values(readers, content, path)
     return Design(name, family, params, path, digest, values, readers, content, units)
 

@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.contracts.table import Table
 from mechwright.errors import DesignError
@@ -121,7 +122,7 @@ def as_file(schema: Mapping[str, Any]) -> dict[str, Any]:
 
 def table_schema(model: type[BaseModel]) -> dict[str, Any]:
     """The schema of a table by its model, as a :class:`~mechwright.contracts.table.Table` gives it."""
-    return model.model_json_schema()
+    return model_schema(model)
 
 
 def _model(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
@@ -29,7 +30,7 @@ class MachineTable(Table[MachineSettings]):
 
     def schema(self) -> dict[str, Any]:
         """Of the settings."""
-        return MachineSettings.model_json_schema()
+        return model_schema(MachineSettings)
 
     def text(self, value: MachineSettings | None = None) -> list[str]:
         """The whole table for a new design; nothing where a design says nothing of a machine."""

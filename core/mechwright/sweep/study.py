@@ -38,6 +38,7 @@ from pydantic import Field
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design, read_head, read_tables, telling_places
@@ -228,7 +229,7 @@ def grid_size(axes: tuple[Axis, ...]) -> int:
 
 def unit_of(model: type[Parameters], name: str) -> str:
     """Unit of a parameter, as its field declares it; empty for a number, a choice or a name."""
-    schema = model.model_json_schema()
+    schema = model_schema(model)
     table = schema
     for step in name.split("."):
         table = table.get("properties", {}).get(step, {})

@@ -42,6 +42,11 @@ class Block:
     title: bool = False
     """Whether it is a program number, such as O1234."""
 
+    def again(self, line: int) -> "Block":
+        """The same for another line, with words of its own to be taken out."""
+        words = self.words.copy()
+        return Block(line, self.g, self.m, words, self.comments, self.bare, self.deleted, self.title)
+
 
 def fail(line: int, reason: str) -> ProgramError:
     """The error for one line, ready to raise."""

@@ -77,7 +77,8 @@ class Modal(Compensation):
             self.state = replace(self.state, **changes)
 
     def _state(self, group: str) -> None:
-        self._set(stated=self.state.stated | {group})
+        if group not in self.state.stated:
+            self._set(stated=self.state.stated | {group})
 
     def _keep_state(self) -> None:
         kept = self.states[self.index]

@@ -175,11 +175,11 @@ def _check_tilt(flange: Flange, bracket: Bracket, motion: Motion) -> None:
         f"the motor stands {now:.4g}° from the foot's axis, and would reach {lowest + CLEARANCE:.1f} mm into "
         "its plate"
     )
-    remedy = f"make it {able[0]:g}" if able else "take a smaller motor"
-    changes: list[Change] = [{flange.tilt_key: tilt} for tilt in able[:40:4]]
-    raise _fault(
-        "frame.flange-tilt", flange.tilt_key, said, now, able[0] if able else None, "deg", remedy, *changes
-    )
+    said_so = [180 - tilt if flange.opposite else tilt for tilt in able]
+    remedy = f"make it {said_so[0]:g}" if able else "take a smaller motor"
+    changes: list[Change] = [{flange.tilt_key: tilt} for tilt in said_so[:40:4]]
+    value, limit = 180 - now if flange.opposite else now, said_so[0] if able else None
+    raise _fault("frame.flange-tilt", flange.tilt_key, said, value, limit, "deg", remedy, *changes)
 
 
 def _under(flange: Flange, bracket: Bracket | None, motion: Motion) -> Standing:
