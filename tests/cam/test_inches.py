@@ -104,7 +104,7 @@ def test_the_sheet_has_inches_and_metric_sizes_beside() -> None:
     page = setup_html(job, plan(job), None, speaking("haas"))
     assert "⌀0.2362 (6 mm)" in page
     assert "Setting 9 has to be INCH" in page
-    assert "Lengths in in, feeds in in/min." in page
+    assert "Lengths in inches, feeds in inches a minute." in page
     assert f"part {60 / 25.4:.4f}" in page
     assert setup_html(job, plan(job), None, speaking("haas", "mm")).count("Setting 9 has to be MM") == 1
 

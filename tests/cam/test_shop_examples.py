@@ -19,7 +19,7 @@ from mechwright_cam.shop.tool import ToolKind
 from mechwright_cam.shop.workshop_file import VARIABLE, read_shop
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-SHOP = EXAMPLES / "bench-shop.toml"
+SHOP = EXAMPLES / "shops" / "bench-inches.toml"
 FIRST = {
     "elliptic-pair": set(),
     "geneva-prototype": set(),

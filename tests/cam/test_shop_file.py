@@ -3,13 +3,14 @@
 import json
 
 import pytest
+from shop import DRILL, MILL, SPOT, plate_job
 
 from mechwright.build import Build, Wanted
 from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
 from mechwright_cam.machining import Machining
-from mechwright_cam.planning.prepare import library_of
+from mechwright_cam.planning.prepare import library_of, worn
 from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.workshop_file import VARIABLE, read_shop
 
@@ -234,3 +235,20 @@ def test_the_command_writes_a_file_that_is_read(tmp_path, command_line):
     schema = json.loads(out)
     assert code == 0
     assert {"tool", "stock", "prefer", "units"} <= schema["properties"].keys()
+
+
+@pytest.mark.parametrize(
+    ("wear", "way", "severities"),
+    [
+        (-0.04, "wear", []),
+        (-0.04, "computer", ["note"]),
+        (-0.01, "computer", []),
+        (-0.3, "wear", ["error"]),
+        (0.3, "control", ["error"]),
+        (-0.3, "computer", ["note"]),
+    ],
+)
+def test_wear_goes_to_d_within_its_limit(wear, way, severities):
+    mill = MILL.model_copy(update={"wear_diameter": wear})
+    found = list(worn([plate_job(tools=(SPOT, DRILL, mill), compensation=way)]))
+    assert [str(one.severity) for one in found] == severities

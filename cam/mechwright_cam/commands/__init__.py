@@ -260,9 +260,10 @@ class ShopFile(Command):
         machine: Annotated[str, typer.Option(metavar="NAME", help="The mill, by name.")] = "bench-mill",
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
-        """Write a shop file to start from: tools, mill, control, units, stock in hand.
+        """Write a shop file to start from.
 
-        Name it in a design file: shop = "shop.toml". Its tools take the place of the built-in ones.
+        It has tools, mill, control, units and stock in hand. Name it in a design file: shop = "shop.toml".
+        Its tools take the place of the built-in ones.
         """
         from mechwright_cam.commands import shop_file
 

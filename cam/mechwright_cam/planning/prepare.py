@@ -8,6 +8,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, err
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.in_hand import from_hand
@@ -94,13 +95,30 @@ def prepare(
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
-    findings += check_measured(jobs)
+    findings += [*check_measured(jobs), *dict.fromkeys(worn(jobs))]
     tops = [job for job in jobs if job.side == "top"]
     if len(tops) == len(cut):
         findings = judged_together(findings, _used(jobs, assignments))
         findings += _as_cut(design, tops, assignments)
         findings += _unused_data(design, jobs)
     return at_stage(Stage.MACHINING, findings), jobs
+
+
+def worn(jobs: Sequence[Job]) -> Iterator[Finding]:
+    """What the wear of finishing mills is to a job: within D's limits, or with no place at all."""
+    for job in jobs:
+        cam = job.settings
+        for tool in job.end_mills:
+            off = abs(tool.wear_diameter) / 2
+            if cam.compensation == "computer" and off > TOLERANCES.leftover:
+                message = f"{tool.name} is worn by {off:g} mm as a radius, and paths are those of a new one"
+                remedy = 'use cam.compensation = "wear", and D allows for it'
+                yield Finding("cam.wear", Severity.NOTE, "cam.compensation", message, remedy=remedy)
+            elif cam.compensation != "computer" and off > cam.wear_limit:
+                message = f"the wear of {tool.name} is beyond what D may differ by, as a radius"
+                remedy = "raise wear_limit, or put in a new cutter"
+                where = "cam.wear_limit"
+                yield Finding.error("cam.wear", where, message, off, cam.wear_limit, "mm", remedy)
 
 
 def _used(jobs: Sequence[Job], assignments: Assignments) -> set[str]:

@@ -9,6 +9,8 @@ FINER = 2
 """So many decimals more an inch takes: a hundredth of a millimetre is four tenths of a thousandth."""
 MOST = 5
 """Decimals of an inch at most."""
+FINE = 0.01
+"""Below this, mm, all decimals of an inch are needed to say anything."""
 SIXTY_FOURTH = FACTORS["mm"] / 64
 """What cutters and pins of inch sizes are multiples of, mm."""
 SAME = 1e-4
@@ -51,7 +53,8 @@ class Lengths:
         """A length without needless zeros."""
         if self.units == "mm":
             return f"{value:g}"
-        return f"{value / self.scale:.4f}".rstrip("0").rstrip(".")
+        digits = 4 if abs(value) >= FINE else MOST
+        return f"{value / self.scale:.{digits}f}".rstrip("0").rstrip(".")
 
     def size(self, value: float) -> str:
         """The size of something that is bought: in an inch shop with millimetres where it is metric."""

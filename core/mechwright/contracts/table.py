@@ -121,8 +121,8 @@ class Table(Plugin, Generic[V]):
 def laid_over(own: object, lent: Mapping[str, Any]) -> object:
     """One table over another, key by key; what is no table stands for itself.
 
-    >>> laid_over({"post": {"cycles": False}}, {"post": {"restart": True}, "control": "haas"})
-    {'post': {'restart': True, 'cycles': False}, 'control': 'haas'}
+    >>> laid_over({"post": {"cycles": False}}, {"post": {"restart": True}, "clearance": 7})
+    {'post': {'restart': True, 'cycles': False}, 'clearance': 7}
     """
     if not isinstance(own, Mapping):
         return own

@@ -113,9 +113,11 @@ def words(to: Lengths) -> dict[str, Any]:
     """How the templates write lengths."""
     return {
         "unit": to.unit,
+        "unit_name": "mm" if to.units == "mm" else "inches",
         "signed": to.signed,
         "fixed": to.fixed,
         "plain": to.plain,
+        "coarse": 2 if to.units == "mm" else 1,  # digits that a narrow table has room for
         "size": to.size,
         "d_value": partial(value, to=to),
     }
