@@ -12,7 +12,8 @@ import pytest
 from by_control import BY_NAME, prove, read
 from by_night import NIGHT, thinned
 from golden_operations import SHARP
-from mutants import STATES, differences, mutant, trace
+from mutant_traces import differences, trace
+from mutants import STATES, mutant
 from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket

@@ -7,7 +7,8 @@ import pytest
 from by_night import by_night, examples, thinned
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from random_parts import OPERATIONS, Outcome, named, run, without
+from random_outcomes import Outcome, named, run, without
+from random_parts import OPERATIONS
 
 from mechwright_cam.plane.contour import LEFT
 
