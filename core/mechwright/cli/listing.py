@@ -83,9 +83,17 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
             )
 
 
-def schema(name: str, requirement: bool, output: Path | None, force: bool) -> None:
-    """Write or print the JSON schema of design or requirement files."""
-    text = json.dumps(file_schema(open_host(), name, requirement=requirement), indent=2) + "\n"
+def schema(name: str, requirement: bool, study: bool, output: Path | None, force: bool) -> None:
+    """Write or print the JSON schema of design, requirement or study files."""
+    if requirement and study:
+        raise DesignError("--study and --requirement: a file is one of them; give one")
+    if study:
+        from mechwright.sweep.schema import study_schema
+
+        found = study_schema(open_host(), name)
+    else:
+        found = file_schema(open_host(), name, requirement=requirement)
+    text = json.dumps(found, indent=2) + "\n"
     if output is None:
         typer.echo(text, nl=False)
     else:
