@@ -120,6 +120,9 @@ class Schema(Command):
         requirement: Annotated[
             bool, typer.Option("--requirement", help="Of requirement files instead of design files.")
         ] = False,
+        study: Annotated[
+            bool, typer.Option("--study", help="Of study files, which sweep takes, instead of design files.")
+        ] = False,
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
         """Write a JSON schema of design files.
@@ -128,7 +131,7 @@ class Schema(Command):
         """
         from mechwright.cli import listing
 
-        listing.schema(family, requirement, output, force)
+        listing.schema(family, requirement, study, output, force)
 
 
 class Check(Command):

@@ -84,14 +84,24 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
             )
 
 
-def schema(name: str, requirement: bool, output: Path | None, force: bool) -> None:
-    """Write or print the JSON schema of design or requirement files, or of the file that a table names."""
+def schema(name: str, requirement: bool, study: bool, output: Path | None, force: bool) -> None:
+    """Write or print the JSON schema of design, requirement or study files, or of what a table names."""
+    if requirement and study:
+        raise DesignError("--study and --requirement: a file is one of them; give one")
     found = open_host()
     named = found.of(Table).get(name)
     schema = named.item.file_schema() if named is not None else {}
-    if schema and requirement:
-        raise DesignError(f"--requirement: {name} is the file of a table; leave it out")
-    schema = as_file(schema) if schema else file_schema(found, name, requirement=requirement)
+    if schema and (requirement or study):
+        option = "--study" if study else "--requirement"
+        raise DesignError(f"{option}: {name} is the file of a table; leave it out")
+    if schema:
+        schema = as_file(schema)
+    elif study:
+        from mechwright.sweep.schema import study_schema
+
+        schema = study_schema(found, name)
+    else:
+        schema = file_schema(found, name, requirement=requirement)
     text = json.dumps(schema, indent=2) + "\n"
     if output is None:
         typer.echo(text, nl=False)

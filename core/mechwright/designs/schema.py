@@ -39,7 +39,7 @@ def schema_line(family: str, *, requirement: bool = False) -> str:
 
 
 def schema_name(family: str, *, requirement: bool = False) -> str:
-    """Name of the file that holds the schema."""
+    """Name of the file that holds the schema of design files, or of requirement files."""
     return f"{family}-requirement.schema.json" if requirement else f"{family}.schema.json"
 
 
@@ -63,7 +63,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     names = sorted(one.name for one in families)
     own = "requirement" if requirement else "parameters"
     asked = {
-        one.name: _asked(one, defs) if requirement else _model(one.Params, one.name, defs)
+        one.name: _asked(one, defs) if requirement else model_schema(one.Params, one.name, defs)
         for one in sorted(families, key=lambda one: one.name)
     }
     # Editors complete what stands under properties; what depends on the family they can only check.
@@ -105,7 +105,7 @@ def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
     kinds = list(family.requirements)
     cases = []
     for kind, model in family.requirements.items():
-        table = _model(model, f"{family.name}.{kind}", defs)
+        table = model_schema(model, f"{family.name}.{kind}", defs)
         table["properties"] = {"kind": {"const": kind}, **table["properties"]}
         cases.append(
             table if len(kinds) == 1 else {**table, "required": [*table.get("required", ()), "kind"]}
@@ -125,7 +125,8 @@ def table_schema(model: type[BaseModel]) -> dict[str, Any]:
     return model_schema(model)
 
 
-def _model(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+def model_schema(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+    """The schema of a table as files are written; its definitions go to ``defs``, named after the owner."""
     return _placed(table_schema(model), owner, defs)
 
 
