@@ -137,6 +137,28 @@ def test_what_is_no_file_beside_the_design_is_one_line(tmp_path, kind):
     assert "plate.toml: parameters.drawing: " in done.stderr
 
 
+def test_the_live_page_shows_what_stands_still():
+    from mechwright_cad.live import answers
+
+    design = mw.load("examples/nema-17-plate.toml").design
+    answer = answers.parts(design.changed({"parameters.thickness": 8.0}))
+    assert "100 x 80 x 8 mm" in answer["findings"][-1]["message"]
+    assert "nema-17-plate" in json.dumps(answer["scene"], default=str)
+    refused = answers.parts(design.changed({"parameters.units": "m"}))
+    assert refused["findings"][0]["code"] == "plate.feature"
+    with pytest.raises(mw.DesignError, match=r"parameters\.drawing: 'no\.dxf' cannot be read: No such file"):
+        design.changed({"parameters.drawing": "no.dxf"})
+
+
+def test_a_study_carries_no_files(tmp_path):
+    (tmp_path / "b.dxf").write_bytes(Path(NEMA["drawing"]).read_bytes())
+    file = design(tmp_path, drawing="b.dxf")
+    file.write_text(file.read_text() + "\n[study.ranges]\nthickness = { least = 4, greatest = 9 }\n")
+    done = run("sweep", file, "-o", tmp_path / "out")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "parameters.drawing: a study carries no files" in done.stderr
+
+
 @by_night
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "haas", "mach3", "grbl"])
 @pytest.mark.parametrize("name", ["nema-17-plate", "inch-bracket"])

@@ -92,16 +92,16 @@ class InputFile:
         if not value:
             return cls()
         path = (info.context or {}).get("path", Path("design.toml"))
+        key = info.field_name or "file"
         try:
-            return cls(value, read_bytes(beside(path, value, info.field_name or "file")))
+            found = beside(path, value, key)
+            return cls(value, read_bytes(found))
         except MechwrightError as error:
-            raise PydanticCustomError("file", "{said}", {"said": _said(str(error), path)}) from error
-
-
-def _said(text: str, path: Path) -> str:
-    """A message about a file without the design file, which whoever tells it names."""
-    _, _, said = text.partition(f"{path}: ")
-    return said.partition(": ")[2] if said else text
+            # Whoever tells it names the design file and the key; the file is named as the design names it.
+            said = str(error).removeprefix(f"{path}: {key}: ")
+            if said == str(error):
+                said = f"{value!r} {said.partition(': ')[2]}"
+            raise PydanticCustomError("file", "{said}", {"said": said}) from error
 
 
 def input_files(table: BaseModel, within: str = "") -> Mapping[str, InputFile]:

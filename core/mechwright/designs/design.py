@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
@@ -29,7 +30,7 @@ from mechwright.designs.change import changed
 from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
 from mechwright.designs.inches import Units, in_millimetres, told_in
-from mechwright.designs.schema import FORMAT, HEAD, table_schema
+from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, PluginError
@@ -181,7 +182,7 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
         )
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
     readers = tuple(entry.item for entry in tables.values())
-    units, content = in_millimetres(content, path, {"parameters": table_schema(family.Params)}, readers)
+    units, content = in_millimetres(content, path, {"parameters": model_schema(family.Params)}, readers)
     with told_in(units):
         params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters", path)
         values = table_values(readers, content, path)

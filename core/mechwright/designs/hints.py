@@ -5,8 +5,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
-from mechwright.designs.schema import HEAD, table_schema
+from mechwright.designs.schema import HEAD
 from mechwright.plugins.host import Host
 
 _TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(?:#.*)?$")
@@ -94,7 +95,7 @@ def schemas_of(host: Host, content: Mapping[str, Any], own: str) -> dict[str, di
         kind = asked.get("kind") if isinstance(asked, Mapping) else None
         model = family.item.Params if own == "parameters" else family.item.requirements.get(str(kind))
         if model is not None:
-            schemas = {own: table_schema(model), **schemas}
+            schemas = {own: model_schema(model), **schemas}
     return schemas
 
 

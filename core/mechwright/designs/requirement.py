@@ -23,12 +23,13 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import in_millimetres, told_in
-from mechwright.designs.schema import HEAD, table_schema
+from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
@@ -102,7 +103,7 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
     if not isinstance(kind, str) or kind not in kinds:
         raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
     model = family.requirements[kind]
-    schema = {"requirement": table_schema(model)}
+    schema = {"requirement": model_schema(model)}
     units, content = in_millimetres(content, path, schema, host.all(Table))
     rest = content.get("requirement", {})
     if isinstance(rest, dict):

@@ -63,7 +63,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     names = sorted(one.name for one in families)
     own = "requirement" if requirement else "parameters"
     asked = {
-        one.name: _asked(one, defs) if requirement else model_schema(one.Params, one.name, defs)
+        one.name: _asked(one, defs) if requirement else placed_schema(one.Params, one.name, defs)
         for one in sorted(families, key=lambda one: one.name)
     }
     # Editors complete what stands under properties; what depends on the family they can only check.
@@ -105,7 +105,7 @@ def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
     kinds = list(family.requirements)
     cases = []
     for kind, model in family.requirements.items():
-        table = model_schema(model, f"{family.name}.{kind}", defs)
+        table = placed_schema(model, f"{family.name}.{kind}", defs)
         table["properties"] = {"kind": {"const": kind}, **table["properties"]}
         cases.append(
             table if len(kinds) == 1 else {**table, "required": [*table.get("required", ()), "kind"]}
@@ -120,14 +120,9 @@ def as_file(schema: Mapping[str, Any]) -> dict[str, Any]:
     return {"$schema": DIALECT, **found, "$defs": defs}
 
 
-def table_schema(model: type[BaseModel]) -> dict[str, Any]:
-    """The schema of a table by its model, as a :class:`~mechwright.contracts.table.Table` gives it."""
-    return model_schema(model)
-
-
-def model_schema(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+def placed_schema(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
     """The schema of a table as files are written; its definitions go to ``defs``, named after the owner."""
-    return _placed(table_schema(model), owner, defs)
+    return _placed(model_schema(model), owner, defs)
 
 
 def _placed(schema: Mapping[str, Any], owner: str, defs: dict[str, Any]) -> dict[str, Any]:

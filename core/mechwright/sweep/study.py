@@ -38,6 +38,7 @@ from pydantic import Field
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage
+from mechwright.contracts.inputs import input_files
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
@@ -178,7 +179,9 @@ def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
     if TABLE not in content:
         raise DesignError(f"{path}: has no table [{TABLE}]; give [{TABLE}.ranges], or use mechwright check")
     given = content.get("parameters", {})
-    params = read_table(family.Params, given, str(path), "parameters")
+    params = read_table(family.Params, given, str(path), "parameters", path)
+    for key in input_files(params):
+        raise DesignError(f"{path}: parameters.{key}: a study carries no files; vary the design by hand")
     asked = read_table(Asked, content[TABLE], str(path), TABLE)
     axes = _axes(family, asked, path)
     if asked.method == "sobol" and asked.count > 1 << BITS:
