@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from by_control import BY_NAME, interpret
+from by_night import examples
 from golden_operations import CONTROLS, made
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -16,7 +17,7 @@ from mechwright_cam.controls.reading.recorder import MOST_STEPS
 
 HEAD = "G17 G21 G40 G80 G90 G94\nG54\nF100.\nG0 X0. Y0. Z5.\n"
 ONE_LINE = re.compile(r"line \d+: [^\n]+")
-any_text = settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+any_text = settings(max_examples=examples(60, 150), deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def one_line_or_a_run(text: str, control: str) -> None:

@@ -144,6 +144,8 @@ class Dialect:
     """Whether blanks and comments count for the length of a line."""
     decimals: int = 4
     """Decimals of a coordinate, mm, that the control keeps."""
+    decimals_inch: int = 5
+    """The same of a coordinate in inches."""
     point_needed: bool = False
     """Whether a length or feed without a decimal point would mean thousandths; it is refused then."""
     program_numbers: bool = False

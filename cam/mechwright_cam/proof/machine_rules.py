@@ -50,7 +50,9 @@ def modes(scene: Scene) -> Check:
         )
         return Check(False, message, line)
     if (step := first(scene.run.moving)) is not None:
-        missing = [word for group, word in SAFE_MODES.items() if group not in scene.state(step).stated]
+        inches = {"units": "G20"} if scene.control.units == "inch" else {}
+        words = {**SAFE_MODES, **inches}
+        missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
     return Check(True, "units, distance mode, plane and compensation are stated")
