@@ -23,7 +23,7 @@ from golden_operations import made
 from mechwright.errors import ProgramError
 
 MANY = 100_000
-LONGEST = 60
+LONGEST = 120
 """A program may take so long before it is given up, s."""
 _RNG = random.Random(1)
 

@@ -41,6 +41,14 @@ def test_linuxcnc_takes_the_same_comments(lines: list[str], taken: bool, tmp_pat
         assert run_rs274(HEAD + one + "\nM2\n", tmp_path).ok == taken, one
 
 
+@needs_rs274
+@pytest.mark.parametrize("words", ["G0 X#0", "G0 X##2", "G0 X[#-1]", "#2=99999\nG0 X EXISTS[###2]"])
+def test_there_is_no_parameter_0(words: str, tmp_path: Path) -> None:
+    with pytest.raises(ProgramError, match=r"there is no parameter #|kept by the machine"):
+        interpret(HEAD + words + "\nM2\n")
+    assert not run_rs274(HEAD + words + "\nM2\n", tmp_path).ok
+
+
 @pytest.mark.parametrize("words", ["IF[#1EQ0]GOTO10", "GOTO 10", "WHILE[#1LT5]DO1", "END1"])
 @pytest.mark.parametrize("control", ["fanuc", "haas"])
 def test_jumps_of_macros_are_called_so(words: str, control: str) -> None:

@@ -208,6 +208,8 @@ class Dialect:
         >>> dialect.usual_m(108), dialect.usual_m(9), dialect.usual_m(8)
         (8, 9, None)
         """
+        if not self.m_words:
+            return code
         for usual, own in self.m_words:
             if code == own:
                 return usual

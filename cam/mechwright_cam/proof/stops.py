@@ -22,8 +22,10 @@ def hand_stops(run: Run) -> Ints:
 
 def stops_that_say(run: Run, words: re.Pattern[str]) -> list[int]:
     """Those of them whose comment, in their line or since the step before, has some words."""
-    said = {remark.step for remark in run.remarks if words.search(remark.text)}
-    return [step for step in hand_stops(run).tolist() if step in said]
+    stops = hand_stops(run).tolist()
+    asked = set(stops)
+    said = {remark.step for remark in run.remarks if remark.step in asked and words.search(remark.text)}
+    return [step for step in stops if step in said]
 
 
 def clamp_set(scene: Scene) -> int:

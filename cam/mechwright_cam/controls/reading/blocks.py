@@ -27,6 +27,7 @@ POLAR = frozenset("@^")
 """LinuxCNC's polar coordinates: distance from X0 Y0, and angle, degrees."""
 _OTHER_AXES = frozenset("ABCUVW")
 _COMMENT = re.compile(r"\([^)]*\)|;.*")
+_COMMENT_MARK = re.compile(r"[();]")
 _MARK = "\1"
 _IN_WORD = re.compile(
     rf"[^0-9.\]>\s/{_MARK}]\s*{_MARK}"  # behind a letter, or in a value
@@ -149,8 +150,9 @@ def check_points(block: Block, dialect: Dialect) -> None:
 def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
     kept = []
     position = 0
-    while position < len(text):
-        character = text[position]
+    while (found := _COMMENT_MARK.search(text, position)) is not None:
+        kept.append(text[position : found.start()])
+        character, position = found[0], found.start()
         if character == "(":
             end = text.find(")", position)
             if end < 0:
@@ -164,11 +166,11 @@ def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
             raise fail(block.line, "a ) without its (")
         elif character == ";" and dialect.semicolon_comments:
             _keep_comment(block, text[position + 1 :], dialect)
-            break
+            return "".join(kept)
         else:
             kept.append(character)
         position += 1
-    return "".join(kept)
+    return "".join([*kept, text[position:]])
 
 
 def _keep_comment(block: Block, comment: str, dialect: Dialect) -> None:
@@ -219,7 +221,7 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
         raise fail(block.line, _explain("O"))
     elif letter in _OTHER_AXES:
         raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")
-    elif letter not in (_LETTERS | POLAR if dialect.macros else _LETTERS):
+    elif letter not in _LETTERS and not (dialect.macros and letter in POLAR):
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in block.words:
         raise fail(block.line, f"two {letter} words")

@@ -145,12 +145,13 @@ class Formulas:
 
     def _exists(self) -> Worked:
         self._skip("[")
-        value = _value_of(self.parameter())
+        parameter = self.parameter()
         self._skip("]")
 
         def exists(known: Known, held: Sequence[float]) -> float:
+            name = parameter if isinstance(parameter, str) else parameter(known, held)
             try:
-                value(known, held)
+                known(name)
             except ValueError:
                 return FALSE
             return TRUE

@@ -54,6 +54,8 @@ class Machine(Moving):
             return value
         if isinstance(name, str):
             raise ValueError(f"#<{name}> has no value")
+        if name < 1:
+            raise ValueError(f"there is no parameter #{name:g}; a program reads from #1 on")
         if name > HIGHEST_PARAMETER:
             raise ValueError(f"#{name:g} is kept by the machine, and not known here")
         return 0.0

@@ -83,8 +83,10 @@ class Modal(Compensation):
     def _keep_state(self) -> None:
         kept = self.states[self.index]
         if self.state is not kept and self.state != kept:
-            self.states.append(self.state)
-            self.index = len(self.states) - 1
+            if self.state not in self.numbers:
+                self.numbers[self.state] = len(self.states)
+                self.states.append(self.state)
+            self.index = self.numbers[self.state]
 
     def _units(self, block: Block) -> None:
         for code in block.g:

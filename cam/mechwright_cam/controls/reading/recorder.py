@@ -41,6 +41,8 @@ class Recorder:
         """Length of a unit of the program, mm."""
         self.ended = False
         self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
+        self.numbers = {self.states[0]: 0}
+        """Which of the states each is: those that come again are kept once."""
         self.index = 0
         self.tables: list[Array] = []
         self.rows: list[tuple[float, ...]] = []
