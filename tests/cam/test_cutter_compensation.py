@@ -313,8 +313,13 @@ def test_grbl_refuses_and_names_the_key() -> None:
 @pytest.mark.parametrize(
     ("control", "value", "way", "line"),
     [
-        ("linuxcnc", "radius", "control", "T24 P24 Z0 D6 ;mill-6 end-mill D of T24\n"),
-        ("linuxcnc", "radius", "wear", "T24 P24 Z0 D0 ;mill-6 end-mill D of T24\n"),
+        ("linuxcnc", "radius", "control", "T24 P24 Z0 D6 ;mill-6 end-mill flute_length=24 flutes=3\n"),
+        (
+            "linuxcnc",
+            "radius",
+            "wear",
+            "T24 P24 Z0 D0 ;mill-6 end-mill flute_length=24 diameter=6 flutes=3\n",
+        ),
         ("fanuc", "radius", "control", "G10 L12 P24 R3.\nG10 L13 P24 R0.\n"),
         ("haas", "diameter", "control", "G10 L12 P24 R6.\nG10 L13 P24 R0.\n"),
         ("haas", "diameter", "wear", "G10 L12 P24 R0.\nG10 L13 P24 R0.\n"),
@@ -340,7 +345,7 @@ def test_a_d_number_of_its_own() -> None:
     assert "D74 holds the diameter of T24: 6 as planned, at most 0.2 more or less" in text
     prove(text, one, reader()).require()
     _, table = LINUXCNC.offset_table([mine], one.settings)
-    assert "T24 P24 Z0 D6 ;mill-6 end-mill\n" in table
+    assert "T24 P24 Z0 D6 ;mill-6 end-mill flute_length=24 flutes=3 diameter_offset=74\n" in table
     assert "T74 P74 Z0 D6 ;" in table
     with pytest.raises(MechwrightError, match="both have D number 24"):
         Library((LIBRARY.get("mill-6"), LIBRARY.get("mill-3").model_copy(update={"diameter_offset": 24})))

@@ -515,10 +515,10 @@ def test_programs_are_judged_by_their_proof(monkeypatch, tmp_path, proofs, words
     assert asked[0]["cam"] == {"work_offset": "G55"}
 
 
-def test_a_command_that_fails_shows_what_it_printed(tmp_path):
+def test_a_design_without_programs_shows_what_is_said(tmp_path):
     from mechwright.testing.commands import machine
 
-    with pytest.raises(AssertionError, match=r"mechwright cam ends with \d:\n.+"):
+    with pytest.raises(AssertionError, match=r"there are no programs:\n.+no-such-family"):
         machine({"format": 1, "family": "no-such-family", "parameters": {}, "cam": {}}, tmp_path)
 
 

@@ -109,7 +109,8 @@ class Schema(Command):
         family: Annotated[
             str,
             typer.Argument(
-                help="A family's name; all families if not given.", autocompletion=completing.families
+                help="A family's name, or shop; all families if not given.",
+                autocompletion=completing.families,
             ),
         ] = "",
         output: Annotated[
@@ -208,7 +209,8 @@ class Solve(Command):
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("solve", samples), Stage.MOTION, as_json=as_json)
+        still = "stands still: there is no motion to write; build writes its drawings and programs"
+        perform(design, output, Wanted("solve", samples), Stage.MOTION, still, as_json=as_json)
 
 
 class Build(Command):

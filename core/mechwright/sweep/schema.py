@@ -5,7 +5,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from mechwright.contracts.family import Family
-from mechwright.designs.schema import QUANTITY, file_schema, model_schema
+from mechwright.designs.schema import QUANTITY, file_schema, placed_schema
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import Host
 from mechwright.sweep.axis import Range
@@ -21,8 +21,8 @@ def study_schema(host: Host, family: str = "") -> dict[str, Any]:
     """
     found = file_schema(host, family)
     defs, one = found["$defs"], host.family(family) if family else None
-    asked = model_schema(Asked, TABLE, defs)
-    ways = model_schema(Range, f"{TABLE}.range", defs)
+    asked = placed_schema(Asked, TABLE, defs)
+    ways = placed_schema(Range, f"{TABLE}.range", defs)
     bounds = {
         "type": "object",
         "properties": {name: {"anyOf": [{"type": "number"}, QUANTITY]} for name in sorted(BOUNDS)},
