@@ -9,7 +9,8 @@ import numpy as np
 from harness import require
 
 from mechwright_four_bar.locus import locus
-from mechwright_four_bar.path_search import search as path_search
+from mechwright_four_bar.paths.asked import Limits, PathProblem
+from mechwright_four_bar.paths.search import search as path_search
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import search as pole_search
 
@@ -31,6 +32,11 @@ def timed(work):
     return time.process_time() - start, result
 
 
+def problem_of(points, turns, shortest, angle):
+    """Points within links that nobody would miss."""
+    return PathProblem(points, turns, (1, -1), False, 0.0, Limits(shortest, 1000.0, math.radians(angle)))
+
+
 def quiet(part):
     pass
 
@@ -42,12 +48,13 @@ def main() -> int:
         seconds, curve = timed(lambda plane=plane: locus.__wrapped__(*generic, plane))
         kept.append(require(f"locus, {plane}, degree {curve.degree}, s", seconds, 6.0))
     turns = np.radians(20 * np.arange(18))
-    seconds, found = timed(lambda: path_search(CLOSED, turns, "any", 100_000, 0, 0.0, quiet))
+    seconds, found = timed(lambda: path_search(problem_of(CLOSED, turns, 0.01, 1), 100_000, 5, 0, quiet))
     kept.append(require("18 timed points, s", seconds, 30.0))
-    kept.append(require("18 timed points, sum of squares over 0.00992", found[0].squares / 0.00992, 1.0))
-    seconds, found = timed(lambda: path_search(LINE, None, "any", 100_000, 0, math.radians(10), quiet))
+    share = found.solutions[0].squares / 0.00992
+    kept.append(require("18 timed points, sum of squares over 0.00992", share, 1.0))
+    seconds, found = timed(lambda: path_search(problem_of(LINE, None, 10.0, 20), 100_000, 5, 0, quiet))
     kept.append(require("straight line, s", seconds, 30.0))
-    kept.append(require("straight line, sum of squares over 1e-20", found[0].squares / 1e-20, 1.0))
+    kept.append(require("straight line, sum of squares over 1e-20", found.solutions[0].squares / 1e-20, 1.0))
     problem = PoleProblem(POLES, np.radians([0.0, 50.0, 150.0]), None, None, 1, full_turn=True)
     seconds, solved = timed(lambda: pole_search(problem, 5000, 0, quiet))
     kept.append(require(f"three poles, {len(solved.solutions)} linkages, s", seconds, 15.0))

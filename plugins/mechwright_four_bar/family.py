@@ -105,7 +105,7 @@ class FourBars(Family[FourBarParams]):
     ) -> "Synthesis[FourBarParams]":
         """Linkages with wanted paths of a coupler point, or with wanted acceleration poles."""
         if kind == "path":
-            from mechwright_four_bar.path_synthesis import through_points
+            from mechwright_four_bar.paths.synthesis import through_points
 
             return through_points(PathRequirement.model_validate(requirement), progress)
         if kind == "adjustable-path":

@@ -16,6 +16,9 @@ AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit(
 NEAREST_POLE = 0.01
 """mm. A pole nearer to A0 asks for a coupler that hardly turns; nothing of that kind can be built."""
 
+MOST_POINTS = 5000
+"""More points of a path say nothing new; thin them out."""
+
 MOST_STARTS = 1_000_000
 """More random starts take minutes and find nothing new."""
 
@@ -32,17 +35,30 @@ class PathRequirement(Parameters):
     points: tuple[tuple[Coordinate, Coordinate], ...] = Field(
         ((20.0, 20.0), (20.0, 25.0), (20.0, 30.0), (20.0, 35.0), (20.0, 40.0), (20.0, 45.0)),
         min_length=3,
-        max_length=35,
-        description="Points [x, y] of the path, 3 to 35, in the order in which they are passed.",
+        max_length=MOST_POINTS,
+        description="Points [x, y] of the path, 3 or more, in the order in which they are passed; closed "
+        "if the "
+        "first comes again at the end.",
+    )
+    closed: bool = Field(
+        False,
+        description="Whether the first point follows on the last; the crank then turns once from it to it.",
     )
     crank_turns: tuple[Turn, ...] | None = Field(
         None,
         min_length=3,
-        max_length=35,
+        max_length=MOST_POINTS,
         description="Crank angle at each point from that at the first, the first 0; left out, any.",
     )
     sense: Literal["ccw", "cw", "any"] = Field(
         "any", description="Sense of the crank, where crank_turns does not say it."
+    )
+    order_tolerance: Degrees = Field(
+        0.0,
+        ge=0,
+        le=45,
+        description="Crank angle by which a point may be passed before the one before it; not with "
+        "crank_turns.",
     )
     tolerance: Millimetres = Field(
         0.0,
@@ -54,10 +70,26 @@ class PathRequirement(Parameters):
         20.0, ge=1, le=80, description="Least transmission angle of the designs."
     )
     longest_link: Millimetres = Field(
-        1000.0, ge=1, le=5000, description="Longest link, ground and coupler point included."
+        400.0, ge=1, le=2000, description="Longest link, ground and coupler point included."
     )
     shortest_link: Millimetres = Field(10.0, ge=1, le=1000, description="Shortest link, ground included.")
-    starts: int = Field(100_000, ge=100, le=MOST_STARTS, description="Random shapes to try for each branch.")
+    frame: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
+        None,
+        description="Rectangle [least x, least y, greatest x, greatest y] in which both fixed pivots "
+        "stand; left "
+        "out, anywhere.",
+    )
+    length_step: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=50,
+        description="Links and the coupler point's coordinates are multiples of it, the rest fitted "
+        "again; 0 for "
+        "any lengths.",
+    )
+    starts: int = Field(
+        100_000, ge=100, le=MOST_STARTS, description="Most random shapes to try for each branch and sense."
+    )
     designs: int = Field(5, ge=1, le=50, description="Most designs to give.")
     seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
 
@@ -72,10 +104,15 @@ class PathRequirement(Parameters):
                 raise ValueError("crank_turns starts with 0 and goes one way")
             if abs(turns[-1]) >= 360:
                 raise ValueError("crank_turns stays within one turn, below 360 degrees")
-        if len(set(self.points)) < len(self.points):
-            raise ValueError("points holds a point twice; leave one out")
+            for key in ("closed", "sense", "order_tolerance"):
+                if getattr(self, key) != type(self).model_fields[key].default:
+                    raise ValueError(f"{key} and crank_turns contradict: leave {key} out")
         if self.shortest_link >= self.longest_link:
             raise ValueError("shortest_link must be below longest_link")
+        if self.frame is not None and (self.frame[0] >= self.frame[2] or self.frame[1] >= self.frame[3]):
+            raise ValueError(
+                "frame is [least x, least y, greatest x, greatest y], the least below the greatest"
+            )
         return self
 
 

@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover
-from random_parts import run
+from random_outcomes import run
 
 from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile

@@ -22,7 +22,8 @@ EXAMPLES = [
     for path in sorted((Path(__file__).parents[2] / "examples").glob("**/*.toml"))
     if not path.stem.endswith("-study")  # no schema says what a study may hold
 ]
-EXAMPLES = [path for path in EXAMPLES if "template" not in str(path) and path.stem != "pyproject"]
+OTHERS = ("template", "pyproject", "/shops/")  # shop files have a schema of their own
+EXAMPLES = [path for path in EXAMPLES if not any(other in path.as_posix() for other in OTHERS)]
 KNOWN = {
     *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "examples"),
     *("type", "properties", "required", "additionalProperties", "enum", "const", "pattern", "format"),

@@ -109,7 +109,8 @@ class Schema(Command):
         family: Annotated[
             str,
             typer.Argument(
-                help="A family's name; all families if not given.", autocompletion=completing.families
+                help="A family's name, or shop; all families if not given.",
+                autocompletion=completing.families,
             ),
         ] = "",
         output: Annotated[

@@ -8,9 +8,10 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
 from mechwright.designs.requirement import require_synthesis
-from mechwright.designs.schema import file_schema, schema_name
+from mechwright.designs.schema import as_file, file_schema, schema_name
 from mechwright.designs.tables import unknown
 from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
@@ -53,8 +54,8 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
         "title": family.title,
         "summary": family.summary,
         "distribution": entry.distribution,
-        "parameters": family.Params.model_json_schema(),
-        "requirements": {kind: model.model_json_schema() for kind, model in family.requirements.items()},
+        "parameters": model_schema(family.Params),
+        "requirements": {kind: model_schema(model) for kind, model in family.requirements.items()},
     }
 
 
@@ -84,8 +85,14 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
 
 
 def schema(name: str, requirement: bool, output: Path | None, force: bool) -> None:
-    """Write or print the JSON schema of design or requirement files."""
-    text = json.dumps(file_schema(open_host(), name, requirement=requirement), indent=2) + "\n"
+    """Write or print the JSON schema of design or requirement files, or of the file that a table names."""
+    found = open_host()
+    named = found.of(Table).get(name)
+    schema = named.item.file_schema() if named is not None else {}
+    if schema and requirement:
+        raise DesignError(f"--requirement: {name} is the file of a table; leave it out")
+    schema = as_file(schema) if schema else file_schema(found, name, requirement=requirement)
+    text = json.dumps(schema, indent=2) + "\n"
     if output is None:
         typer.echo(text, nl=False)
     else:

@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.contracts.table import Table
 from mechwright.errors import DesignError
@@ -18,7 +19,7 @@ from mechwright.plugins.host import Host
 FORMAT = 1
 """Version of the design file's own layout."""
 
-HEAD = ("format", "family", "name")
+HEAD = ("format", "family", "name", "units")
 """Keys of every file; what else it may hold are tables."""
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -85,6 +86,10 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
                 "pattern": f"^(?:{NAME_PATTERN})$",
                 "description": "Name of the files.",
             },
+            "units": {
+                "enum": ["mm", "inch"],
+                "description": "Of bare lengths and feeds; cutting speeds are in m or feet per minute.",
+            },
             own: asked[family] if family else {"type": "object"},
             **tables,
         },
@@ -108,9 +113,16 @@ def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
     return cases[0] if len(cases) == 1 else {"anyOf": cases}
 
 
+def as_file(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """The schema of a file by that of its values: quantities may be texts with a unit."""
+    defs: dict[str, Any] = {}
+    found = _placed(schema, "file", defs)
+    return {"$schema": DIALECT, **found, "$defs": defs}
+
+
 def table_schema(model: type[BaseModel]) -> dict[str, Any]:
     """The schema of a table by its model, as a :class:`~mechwright.contracts.table.Table` gives it."""
-    return model.model_json_schema()
+    return model_schema(model)
 
 
 def _model(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:

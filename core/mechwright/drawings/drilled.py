@@ -7,8 +7,9 @@ from typing import cast
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
-from mechwright.contracts.holes import CLEARANCE, PLAY, metric
+from mechwright.contracts.holes import CLEARANCE, PLAY
 from mechwright.contracts.part import Bore
+from mechwright.contracts.threads import named
 from mechwright.drawings.asked import Asked
 from mechwright.drawings.contours import Contour, rounded
 from mechwright.drawings.fault import Told, at
@@ -200,9 +201,11 @@ def bore(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore, Thr
 
 
 def _threaded(hole: Hole, name: str, thickness: float, told: Told) -> tuple[Bore, Thread] | None:
-    size, pitch = metric(hole.meant.thread)
+    said = named(hole.meant.thread)
+    size, pitch = said.diameter, said.pitch
     depth = hole.meant.depth
-    thread = Thread(f"thread-{name}", hole.centre, size, pitch, thickness if depth is None else depth)
+    full = thickness if depth is None else depth
+    thread = Thread(f"thread-{name}", hole.centre, size, pitch, full, said.left, said.inch)
     if not thread.core - PLAY * pitch <= hole.diameter <= CLEARANCE * size:
         told.fault(
             "feature",

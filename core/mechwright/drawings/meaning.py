@@ -20,8 +20,8 @@ import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from mechwright.contracts.holes import metric
 from mechwright.contracts.limits import HOLE_CLASS
+from mechwright.contracts.threads import named
 from mechwright.errors import DesignError, GeometryError
 
 Kind = Literal["outline", "through", "bore", "pocket", "thread", "engrave", "chamfer", "ignore"]
@@ -179,7 +179,7 @@ def _checked(text: str, kind: Kind, said: dict[str, float | str]) -> Meaning:
         raise DesignError(f"{text!r}: {kind} without its {key}; say it, as {kind.upper()}_{example}")
     if "thread" in said:
         try:
-            metric(str(said["thread"]))
+            named(str(said["thread"]))
         except GeometryError as error:
             raise DesignError(f"{text!r}: {error}") from error
     found: dict[str, Any] = dict(said)

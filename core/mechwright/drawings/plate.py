@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import shapely
 
 from mechwright.contracts.details import Detail, Thread, moved
-from mechwright.contracts.holes import metric
 from mechwright.contracts.part import Bore, Feature, Instance, Part, Pocket, Profile
+from mechwright.contracts.threads import named
 from mechwright.drawings.asked import Asked
 from mechwright.drawings.contours import Contour
 from mechwright.drawings.drilled import Hole, bore, circles, coaxial, sized, threads
@@ -251,7 +251,7 @@ def _deep(meant: Meaning, bore: Meaning) -> Meaning:
     """A thread in a bore that is drawn: as deep as it says, or one pitch less than a blind bore."""
     if meant.depth is not None or bore.depth is None:
         return meant
-    return replace(meant, depth=bore.depth - metric(meant.thread)[1])
+    return replace(meant, depth=bore.depth - named(meant.thread).pitch)
 
 
 def _stepped(one: Hole, two: Hole) -> bool:

@@ -40,6 +40,7 @@ from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
+from mechwright.testing.limits import limits_broken
 from mechwright.testing.results import Results
 from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
@@ -250,7 +251,7 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
     # Synthesis
 
     def test_synthesis(self) -> None:
-        """Every kind gives distinct designs without an error, and the same ones for the same requirement."""
+        """Every kind gives distinct designs without an error, within its limits, the same each time."""
         if not self.family.requirements:
             pytest.skip("the family has no synthesis")
         unknown = set(self.requirements) - set(self.family.requirements)
@@ -267,12 +268,13 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
         assert all(0 <= done <= 1 for done in heard), f"{kind}: progress {heard} leaves 0 to 1"
         assert heard == sorted(heard), f"{kind}: progress goes backwards"
         assert errors(result.findings) == [], f"{kind} finds no design"
-        designs = [candidate.params for candidate in result.candidates]
+        designs = [one.params for one in result.candidates]
         assert designs, f"{kind} finds no design, and no error says so"
-        for number, design in enumerate(designs):
+        for number, (design, candidate) in enumerate(zip(designs, result.candidates, strict=True)):
             assert isinstance(design, self.family.Params)
             assert design not in designs[:number], f"{kind}: a design is given twice"
             assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
+            assert limits_broken(requirement, candidate) == [], f"{kind}: {number + 1} breaks a limit"
 
     # All designs
 
