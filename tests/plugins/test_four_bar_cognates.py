@@ -12,7 +12,9 @@ from mechwright_four_bar.paths.search import path
 
 
 def of(given):
-    bar = FourBar(given["a"], given["c"], given["b"], given["f"], math.radians(given["theta_deg"]), given["branch"])
+    bar = FourBar(
+        given["a"], given["c"], given["b"], given["f"], math.radians(given["theta_deg"]), given["branch"]
+    )
     start = math.radians(given["start_phi_deg"]) + bar.ground_angle
     return bar, complex(*given["pivot"]), complex(*given["q"]), start + np.linspace(0, 0.3, 5)
 

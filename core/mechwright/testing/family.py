@@ -39,6 +39,7 @@ from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
+from mechwright.testing.limits import limits_broken
 from mechwright.testing.results import Results
 from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests

@@ -15,9 +15,9 @@ ROUNDING = 1e-12
 def limits_broken(requirement: Parameters, candidate: Candidate[Any]) -> list[str]:
     """What a candidate's figures break of a requirement, in words.
 
-    A figure that has the name of a key of the requirement is held by it: from below where the name begins with
-    ``least_`` or ``shortest_``, from above with ``greatest_``, ``longest_`` or ``most_``. A key that asks for
-    nothing (None) holds nothing.
+    A figure that has the name of a key of the requirement is held by it: from below where the name begins
+    with ``least_`` or ``shortest_``, from above with ``greatest_``, ``longest_`` or ``most_``. A key that
+    asks for nothing (None) holds nothing.
     """
     said = []
     for name, figure in candidate.shown.items():
