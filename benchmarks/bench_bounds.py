@@ -183,6 +183,129 @@ def _one_sub() -> list[str]:
     return [*sub, "G0 X0 Y0", "G1 Z-.5 F100", *["O100 call"] * (MANY // 2)]
 
 
+def _helices() -> list[str]:
+    """Down on a helix of ten half turns, anywhere, and up again."""
+    out = ["G0 Z5"]
+    for place in _places(MANY // 12):
+        out += [f"G0 {place} Z1", "G91 G1 Z-1 F1000"]
+        out += [f"G3 X{(-1) ** (k + 1) * 4} Z-.2 I{(-1) ** (k + 1) * 2}" for k in range(10)]
+        out += ["G90 G0 Z5"]
+    return out
+
+
+def _holes_of_all_kinds() -> list[str]:
+    kinds = "G81 {} Z-3 R1", "G82 {} Z-2 R1 P0.1", "G83 {} Z-3 R1 Q1", "G73 {} Z-3 R1 Q1", "G85 {} Z-2 R1"
+    holes = (f"G98 {kinds[k % 5].format(place)} F100" for k, place in enumerate(_places(10_000)))
+    return [*holes, "G80"]
+
+
+def _arcs_in_planes() -> list[str]:
+    """Half circles that scoop, in ZX and YZ by turns."""
+    out = ["G0 X0 Y0", "G1 Z1 F1000"]
+    for _ in range(200):
+        out += [f"G1 {_in(10)}", "G91", "G18", "G3 X4 I2 K0", "G19", "G2 Y4 J2 K0", "G17", "G90"]
+    return out
+
+
+def _compensated_contours() -> list[str]:
+    """Discs, each around with compensation of its own."""
+    out = ["G0 X60 Y0", "G1 Z1 F1000"]
+    for k in range(MANY // 7):
+        r = 12 + k % 100 / 100
+        out += [
+            "G1 X0 Y40",
+            f"G41 D23 G1 X-6 Y{r}",
+            f"X0 Y{r}",
+            f"G2 X{r} Y0 I0 J{-r}",
+            f"G2 X0 Y{-r} I{-r} J0",
+        ]
+        out += [f"G1 X-9 Y{-r}", "G40 G1 X-9 Y-40"]
+    return out
+
+
+def _nested() -> list[str]:
+    """Each of nine subroutines calls the next three times; the last one cuts."""
+    subs = ["o9 sub", "G91 G1 X.001 F500", "X-.001", "G90", "o9 endsub"]
+    for k in range(8, 0, -1):
+        subs += [f"o{k} sub", *[f"o{k + 1} call"] * 3, f"o{k} endsub"]
+    return [*subs, "G0 X0 Y0", "G1 Z-.5 F100", *["o1 call"] * 4]
+
+
+def _looped() -> list[str]:
+    """A spiral that is worked out in a loop."""
+    place = "G1 X[#1 * COS[#2]] Y[#1 * SIN[#2]] F[1000 + #1]"
+    loop = ["o1 while [#3 lt 90000]", "#2=[#2+7.2]", "#1=[10+#3/9900]", place, "#3=[#3+1]", "o1 endwhile"]
+    return ["G0 X10 Y0", "G1 Z-.5 F1000", "#1=10", "#2=0", "#3=0", *loop]
+
+
+def _tiny() -> list[str]:
+    """Steps of a micrometre around a circle."""
+    return [
+        f"G1 X{8 * math.cos(k / 8000):.5f} Y{8 * math.sin(k / 8000):.5f}{'' if k else ' Z-1 F1000'}"
+        for k in range(MANY)
+    ]
+
+
+def _pockets() -> list[str]:
+    """Spiral pockets in layers, side by side."""
+    out = []
+    for x in (-12, 0, 12):
+        for layer in range(1, 11):
+            out += ["G0 Z5", f"G0 X{x} Y0", f"G1 Z{-layer / 4} F1000"]
+            turns = MANY // 30
+            spots = ((k * 5 / turns, k * math.tau / 60) for k in range(turns))
+            out += [f"G1 X{x + r * math.cos(t):.4f} Y{r * math.sin(t):.4f}" for r, t in spots]
+    return out
+
+
+def _tabbed() -> list[str]:
+    """The outside again and again, over four tabs each time."""
+    out = ["G0 Z5", "G0 X-24.2 Y-19.2", "G1 Z-3 F1000"]
+    for k in range(MANY // 20):
+        o = k % 100 / 1000
+        for x, y in ((24.2 + o, None), (None, 19.2 + o), (-24.2 - o, None), (None, -19.2 - o)):
+            axis, to = ("X", x) if y is None else ("Y", y)
+            half = -3.0 if to > 0 else 3.0
+            out += [f"G1 {axis}{half} Z-3", "Z-2", f"{axis}{-half}", "Z-3", f"{axis}{to}"]
+    return out
+
+
+def _same_at_depths() -> list[str]:
+    """One contour of a hundred lines at a thousand depths."""
+    round_ = [
+        f"X{12 * math.cos(k / 50 * math.pi):.4f} Y{9 * math.sin(k / 50 * math.pi):.4f}" for k in range(1, 101)
+    ]
+    layers = range(1, MANY // 101)
+    return [
+        "G0 X12 Y0",
+        "F1000",
+        *(w for k in layers for w in (f"G1 Z{-k * 3.9 / len(layers):.4f}", *round_)),
+    ]
+
+
+def _zigzag() -> list[str]:
+    """The whole plate faced in strokes of chords, in layers of a hundredth of a millimetre."""
+    out = []
+    for layer in range(1, 26):
+        out += ["G0 Z5", "G0 X-36 Y-31", f"G1 Z{-layer / 100} F1500"]
+        for row in range(40):
+            side = (-1) ** row
+            out += [f"X{side * (-36 + 72 * k / 98):.3f} Y{-31 + row * 1.6:.2f}" for k in range(99)]
+    return out
+
+
+def _offcuts() -> list[str]:
+    """Small discs cut off the frame, all over it and again."""
+    out = ["G0 Z5"]
+    for place in _places(MANY // 5):
+        out += [f"G0 {place}", "G1 Z-4.2 F300", "G91 G2 I2.6 J0 F900", "G90 G0 Z5"]
+    return out[:MANY]
+
+
+def _modes_in_each() -> list[str]:
+    return [f"G1 G90 G21 G17 {p} F{500 + k % 99} S{8000 + k % 50} M3" for k, p in enumerate(_places(MANY))]
+
+
 CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 cuts in air": lambda: ["G1 Z1 F1000", *(f"G1 {p}" for p in _places(MANY))],
     "100,000 rapids": lambda: [f"G0 {p}" for p in _places(MANY)],
@@ -240,6 +363,28 @@ CASES: dict[str, Callable[[], list[str]]] = {
     "an endless loop": lambda: ["O1 while [1]", "#1=[#1+1]", "O1 endwhile"],
     "30,000 subs, 400,000 calls": _calls,
     "50,000 calls of one sub": _one_sub,
+    "8,300 helices": _helices,
+    "10,000 holes of all kinds": _holes_of_all_kinds,
+    "400 arcs in ZX and YZ": _arcs_in_planes,
+    "14,000 contours with compensation": _compensated_contours,
+    "subs in subs": _nested,
+    "90,000 moves in a loop": _looped,
+    "100,000 steps of a micrometre": _tiny,
+    "30 spiral pockets": _pockets,
+    "5,000 rounds over tabs": _tabbed,
+    "a contour at 990 depths": _same_at_depths,
+    "25 times over the plate": _zigzag,
+    "20,000 offcuts": _offcuts,
+    "100,000 feeds and speeds": lambda: ["G1 Z1 F1000", *_modes_in_each()],
+    "100,000 long comments": lambda: [
+        f"G1 {p} (a long comment {k:200})" for k, p in enumerate(_places(MANY))
+    ],
+    "100,000 path modes": lambda: [f"G64 P0.00{1 + k % 2} Q0" for k in range(MANY)],
+    "100,000 line numbers": lambda: [f"N{k % 9999} G1 {p} F900" for k, p in enumerate(_places(MANY))],
+    "25,000 slots with rests": lambda: [
+        "G1 Z-.5 F900",
+        *(w for p in _places(MANY // 4) for w in (f"G1 {p}", "G4 P0.1", "S8000", f"G1 {p} Z-.4")),
+    ],
     "pecks of a micrometre": lambda: [f"G98 G83 {p} Z-5 R1 Q.001 F100" for p in _places(1000)],
     "arcs of 1,000 turns in ZX": lambda: ["G18 F100", *(["G2 X0 Z5 I5 K0 P1000"] * 1000)],
 }

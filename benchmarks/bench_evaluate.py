@@ -81,12 +81,22 @@ def elliptic_gears(share: Array, theta: Array) -> Array:
     return np.asarray(np.abs(e * (one + ratio * two)))
 
 
+def five_bar(share: Array, theta: Array) -> Array:
+    """Angle of the rocker of a geared five-bar."""
+    a, b, c, l, f = 0.14 + 0.1 * share, 0.2, 0.9, 1.0, 1.05
+    away = f + b * np.exp(0.5j * theta) - a * np.exp(1j * theta)
+    square = np.abs(away) ** 2
+    cosine = (square + l * l - c * c) / (2 * l * np.sqrt(square))
+    return np.asarray(np.angle(away) - np.arccos(np.clip(cosine, -1, 1)))
+
+
 PLAIN: dict[str, Plain] = {
     "geneva": geneva,
     "four-bar": four_bar,
     "slider-crank": slider_crank,
     "spherical": spherical,
     "elliptic-gears": elliptic_gears,
+    "five-bar": five_bar,
 }
 
 

@@ -30,10 +30,12 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
 import golden_compensation
 import golden_operations
 import height_map
+import random_outcomes
 import random_parts
 from block_mutants import PLACES, faults, inserted, kinds, wrong
 from by_control import BY_NAME, prove, read
-from mutants import FAULTS, STATES, Mutant, differences, mutant, trace
+from mutant_traces import differences, trace
+from mutants import FAULTS, STATES, Mutant, mutant
 
 from mechwright.contracts.details import Chamfer, Engraving
 from mechwright.errors import ProgramError
@@ -103,7 +105,7 @@ def sources() -> tuple[Source, ...]:
     found = list(golden())
     for operation in random_parts.OPERATIONS:
         for seed in range(RANDOM):
-            outcome = random_parts.run(operation, seed)
+            outcome = random_outcomes.run(operation, seed)
             for place, one in enumerate(outcome.made):
                 if one.proof.ok and len(one.text) < 60_000:
                     name = f"random {operation} {seed} {place} {outcome.control}"

@@ -13,7 +13,8 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
-from random_parts import OPERATIONS, run
+from random_outcomes import run
+from random_parts import OPERATIONS
 
 PROCESSES = 2
 

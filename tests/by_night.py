@@ -22,12 +22,15 @@ def examples(day: int, night: int) -> int:
     return night if NIGHT else day
 
 
-def thinned(step: int, *axes: Sequence[Any]) -> list[Any]:
+def thinned(step: int, *axes: Sequence[Any], first: int = 0) -> list[Any]:
     """Every combination of the axes as cases: by day one in ``step``, of all values alike; the rest by night.
 
-    By day are those whose places along the axes add up to a multiple of ``step``, as on a diagonal.
+    By day are those whose places along the axes add up to ``first`` and a multiple of ``step``, as on a diagonal:
+    tests with one axis and another ``first`` each take all its values between them.
     """
     return [
-        pytest.param(*(one for _, one in case), marks=() if sum(n for n, _ in case) % step == 0 else by_night)
+        pytest.param(
+            *(one for _, one in case), marks=() if sum(n for n, _ in case) % step == first else by_night
+        )
         for case in product(*map(enumerate, axes))
     ]

@@ -1,5 +1,6 @@
 """What all tests share: the hypothesis profile, and the rule that nothing is skipped in CI for want of a client."""
 
+import gc
 import importlib.util
 import os
 import shutil
@@ -7,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from by_night import examples
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
@@ -25,14 +27,31 @@ MODULES = ("gmsh", "mujoco", "mypy")
 PYGCODE = "MECHWRIGHT_PYGCODE"
 """Environment variable with the folder that pygcode is installed in."""
 
-# The machine's load must not decide whether a property holds.
+# The machine's load must not decide whether a property holds. Every day's examples are the same ones: the many
+# that only repeat what the first ones show belong to the night.
 settings.register_profile(
-    "mechwright", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+    "mechwright",
+    deadline=None,
+    derandomize=True,
+    max_examples=examples(40, 100),
+    suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("mechwright")
 # Nor must the worker that runs it: constants of whatever modules are loaded would go into the examples.
 if hasattr(providers, "is_local_module_file"):
     providers.is_local_module_file = lambda path: False
+
+
+YOUNG = 10_000
+"""New objects after which the collector looks for cycles among them, some ten times as many as by default: pydantic
+and hypothesis make them by the thousand."""
+
+
+def pytest_collection_finish() -> None:
+    """What collection has loaded lives to the end: the collector need not go through it over and over."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(YOUNG)
 
 
 def pytest_configure() -> None:

@@ -61,7 +61,16 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
     code, out, _ = run("families", "--json")
     listing = json.loads(out)
     assert code == 0
-    names = ["elliptic-gears", "five-bar", "four-bar", "geneva", "slider-crank", "spherical"]
+    names = [
+        "elliptic-gears",
+        "five-bar",
+        "four-bar",
+        "geneva",
+        "noncircular-gears",
+        "plate",
+        "slider-crank",
+        "spherical",
+    ]
     assert [family["name"] for family in listing["families"]] == names
     assert {"step", "dxf", "stl", "3mf", "glb", "mjcf"} <= set(listing["formats"])
 

@@ -111,7 +111,8 @@ def compared_and_made(work: Work) -> Made:
     met = collisions(work.design, work.parts, solids=True)
     if errors(met):
         return met, {}, {}
-    return met, work.files() | motion_page(work.design, work.parts, solids=True), masses(work.parts)
+    page = motion_page(work.design, work.parts, solids=True) if work.design.family.moves else {}
+    return met, work.files() | page, masses(work.parts)
 
 
 class Solids:

@@ -54,7 +54,9 @@ class MotionPage(Page):
         return _solids(build).beside
 
     def files(self, build: Build) -> dict[str, bytes]:
-        """The page."""
+        """The page; none of what stands still."""
+        if not build.design.family.moves:
+            return {}
         return _solids(build).page()
 
 

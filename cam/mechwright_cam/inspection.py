@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mechwright.build import Build, Inspection
-from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.finding import Finding, Severity, Stage
 
 
 class Machinable(Inspection):
@@ -38,3 +38,25 @@ class Running(Inspection):
         from mechwright_cam.as_made import MadeParts
 
         return build.made(MadeParts).said.findings
+
+
+class InHand(Inspection):
+    """Screws and pins of the mechanism that the shop does not keep."""
+
+    name = "in-hand"
+    commands = frozenset({"check", "cam", "build"})
+    stage = Stage.MACHINING
+    order = 25
+    doing = "what is in hand"
+    share = 1.0
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """One for each size; nothing without a shop, or where it says nothing of them."""
+        from mechwright_cam.shop.bought import not_kept
+        from mechwright_cam.shop.shop_table import shop_of
+
+        shop = shop_of(build.design)
+        if shop is None:
+            return []
+        told = f"tools, mill and control are those of {shop.path.name}: {shop.workshop.name}"
+        return [Finding("shop.used", Severity.NOTE, "shop", told), *not_kept(build.parts, shop)]

@@ -160,7 +160,8 @@ class Machining:
 def control_of(design: Design, host: Host) -> Control:
     """The control that a design names; raises PluginError if it is not installed."""
     try:
-        return host.get(Control, settings_of(design).cam.control)
+        cam = settings_of(design).cam
+        return host.get(Control, cam.control).speaking(cam.post.units or "mm")
     except PluginError as error:
         raise PluginError(f"{design.path}: cam.control: {error}") from error
 

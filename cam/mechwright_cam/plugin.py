@@ -12,14 +12,26 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.haas import Haas
     from mechwright_cam.controls.linuxcnc import LinuxCnc
     from mechwright_cam.controls.mach3 import Mach3
-    from mechwright_cam.inspection import Machinable, Running
+    from mechwright_cam.inspection import InHand, Machinable, Running
     from mechwright_cam.pages.as_made import AsMadeFiles
     from mechwright_cam.pages.blanks import MilledPlates
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.proof.rules import BUILT_IN
     from mechwright_cam.results import Programs
+    from mechwright_cam.shop.shop_table import ShopTable
     from mechwright_cam.shop.table import CamTable
 
     controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
     pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, AsMadeFiles]
-    return [*controls, *BUILT_IN, CamTable, *pages, MilledPlates, Machinable, Running, Programs]
+    return [
+        *controls,
+        *BUILT_IN,
+        ShopTable,
+        CamTable,
+        *pages,
+        MilledPlates,
+        Machinable,
+        InHand,
+        Running,
+        Programs,
+    ]

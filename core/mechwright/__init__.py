@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         until_error,
     )
     from mechwright.contracts.fitting_marks import FittingMark
+    from mechwright.contracts.inputs import InputFile
     from mechwright.contracts.joint import GROUND, Joint
     from mechwright.contracts.load import Load
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.refused import RefusedError
     from mechwright.contracts.result import Result
+    from mechwright.contracts.standing import Standing
     from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
     from mechwright.contracts.target import Target, point_targets
@@ -82,6 +84,7 @@ _HOMES = {
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse until_error",
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
+    "mechwright.contracts.inputs": "InputFile",
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
@@ -93,6 +96,7 @@ _HOMES = {
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.refused": "RefusedError",
     "mechwright.contracts.result": "Result",
+    "mechwright.contracts.standing": "Standing",
     "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
     "mechwright.contracts.target": "Target point_targets",
@@ -120,8 +124,8 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
-__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Table"]
-__all__ += ["FIRST", "MaterialName", "Parameters", "material"]
+__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Standing", "Table"]
+__all__ += ["FIRST", "InputFile", "MaterialName", "Parameters", "material"]
 __all__ += [
     "GROUND",
     "Array",

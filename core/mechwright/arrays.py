@@ -4,8 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-"""2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
+_FACTORS = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
+_SHIFTS = np.uint64(30), np.uint64(27)
+"""Those of the mixing function of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number
+generators, 2014): each bit of a number goes into all bits of the mixed one. A weighted sum would not do:
+coordinates of a program are multiples of its last decimal, and a little more of one is often as much less of
+another."""
 
 
 def first_of_each(rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -17,7 +21,12 @@ def first_of_each(rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[n
     >>> sorted(first.tolist()), bool(kind[0] == kind[2] != kind[1])
     ([0, 1], True)
     """
-    keys = rows.astype(np.uint64) @ (GOLDEN * np.arange(1, rows.shape[1] + 1, dtype=np.uint64) | np.uint64(1))
+    keys = np.zeros(len(rows), dtype=np.uint64)
+    for column in rows.T.astype(np.uint64):
+        keys += column
+        for shift, factor in zip(_SHIFTS, _FACTORS, strict=True):
+            keys ^= keys >> shift
+            keys *= factor
     _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
     if (rows[index][kind] != rows).any():  # different rows with one key
         _, index, kind = np.unique(rows, axis=0, return_index=True, return_inverse=True)

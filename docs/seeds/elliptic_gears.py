@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.designs.design import load
+from mechwright.mechanics.peak import Peak
 from mechwright.plugins.host import host
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.figures import point_peaks, point_window
@@ -18,7 +19,7 @@ from mechwright_elliptic_gears.joint_made import phase_sensitivity
 from mechwright_elliptic_gears.kinematics import phase_offset, ratio
 from mechwright_elliptic_gears.layout import dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.peak import peak
 from mechwright_elliptic_gears.phase_checks import pin_play, shifted_window
 from mechwright_elliptic_gears.point import speed_of_q
 from mechwright_elliptic_gears.window import Window

@@ -1,115 +1,32 @@
-"""Whether gears as their programs leave them go together and turn: play, contact and transmission error.
+"""Whether gears as their programs leave them go together and turn, and what their joint has."""
 
-Two ways that share nothing but the outlines tell the play: the gaps at the points of contact, in closed form,
-and the two polygons run against each other. Of the first the figures are; the second has to agree.
-"""
-
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
-import numpy as np
-import shapely
-
-from mechwright import Array, AsMade, Finding, MadeCurve, MadeFigure, MadePart, Severity, Stage
-from mechwright.mechanics.gearing import Mesh, mesh
-from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
-from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, least_backlash, with_backlash
-from mechwright_elliptic_gears.gear import pair_of, rack_of, teeth_of
+from mechwright import AsMade, MadePart
+from mechwright.mechanics.gearing.running import (
+    MadePair,
+    about_bore,
+    play_curve,
+    running_figures,
+    running_findings,
+)
+from mechwright_elliptic_gears.assembly import least_backlash
+from mechwright_elliptic_gears.gear import pair_of, teeth_of
 from mechwright_elliptic_gears.gear_parts import gears_of
 from mechwright_elliptic_gears.joint_made import going_in, joint_figures
 from mechwright_elliptic_gears.params import EllipticGearParams
 
-AGREEMENT = 0.01
-"""Share of the greatest play by which both ways may differ."""
-RIDGE = 5e-4
-"""Half a step of a control that reads three decimals, mm: polygons touch on ridges, flanks between them."""
-FINE = 5e-5
-"""Chord error of the polygons that run against each other, mm."""
-DEEP = 0.05
-"""Depth of interference up to which the polygons tell a play, mm: more is no matter of tolerances."""
-MICRO = 1e6
-
-
-@dataclass(frozen=True)
-class MadePair:
-    """A driver and the gear that it drives, as made.
-
-    Parameters
-    ----------
-    params
-        The design.
-    names
-        Bodies of driver and driven gear.
-    outlines
-        Their outsides as made, about the middles of their bores: (n, 2) and (m, 2), mm.
-    corridor
-        mm, of both outlines together.
-    """
-
-    params: EllipticGearParams
-    names: tuple[str, str]
-    outlines: tuple[Array, Array]
-    corridor: float
-
-    @cached_property
-    def contacts(self) -> Contacts:
-        """Where the exact flanks touch."""
-        return Contacts.of(pair_of(self.params), teeth_of(self.params))
-
-    @cached_property
-    def gaps(self) -> Gaps:
-        """What stands between the flanks."""
-        return self.contacts.between(*self.outlines)
-
-    @cached_property
-    def mesh(self) -> Mesh:
-        """The two polygons run against each other, at the exact centre distance."""
-        one, two = (
-            shapely.get_coordinates(shapely.simplify(shapely.Polygon(outline), FINE))[:-1]
-            for outline in self.outlines
-        )
-        return mesh(one, two, pair_of(self.params), self.params.teeth, allowance=DEEP)
-
-    @cached_property
-    def disagreement(self) -> float:
-        """By how much both ways differ at most, besides ridges of the path, as a share of the greatest play.
-
-        Where that is less than what walls within tolerance make of it, of that.
-        """
-        ahead, behind = self.gaps.play()
-        off = max(np.abs(ahead - self.mesh.ahead).max(), np.abs(behind - self.mesh.behind).max())
-        lever = float(np.abs(self.gaps.lever).min())
-        off = max(off - RIDGE / lever, 0.0)
-        return float(off / max(np.abs(np.concatenate((ahead, behind))).max(), LEFT / lever))
-
-    def spare(self, off_centre: float, more: float = 0.0) -> Array:
-        """What is left of the play (n,), rad, in the worst of the corridor and with the axes off, mm.
-
-        A single pair finds its own angle, and only what brings the axes together takes play away. In a train
-        keys and the coupler fix the angles: each flank needs its own play, whichever way an axis is off.
-        """
-        if self.params.stages == 1:
-            ahead, behind = self.gaps.play((-off_centre, 0.0), more - self.corridor)
-            return ahead + behind
-        ahead, behind = self.gaps.play((0.0, 0.0), more - self.corridor - off_centre)
-        least: Array = np.minimum(ahead, behind)
-        return least
-
-    @property
-    def title(self) -> str:
-        """What the pair is called."""
-        return " and ".join(name.replace("-", " ") for name in self.names)
+PAIR_RULE = "least with which gears as made turn: 2 (D + c sin α / √(1 - e²)) / cos α"
+TRAIN_RULE = "least with which a train as made turns: 2 (D + c) / cos α"
 
 
 def as_made(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
     """Judge the pair, or both pairs of a train: part name to its copies as made."""
     pairs = pairs_of(params, made)
-    figures = [figure for pair in pairs for figure in _figures(pair)]
-    curves = [_curve(pair) for pair in pairs]
+    figures = [figure for pair in pairs for figure in running_figures(pair)]
+    curves = [play_curve(pair) for pair in pairs]
     joint = joint_figures(params, made)
-    findings = [finding for pair in pairs for finding in (*_running(pair), *_agreeing(pair))]
+    findings = [finding for pair in pairs for finding in running_findings(pair)]
     findings += going_in(joint)
     return AsMade((*figures, *joint), tuple(curves), tuple(findings))
 
@@ -127,169 +44,14 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
     wanted = [("gear-2", "gear-4")] if params.stages == 1 else [("gear-2", "gear-3"), ("gear-4", "gear-5")]
     return [
         MadePair(
-            params,
+            pair_of(params),
+            teeth_of(params),
             (one, two),
             (about_bore(bodies[one], bores[one]), about_bore(bodies[two], bores[two])),
             bodies[one].corridor + bodies[two].corridor,
+            (least_backlash(params), PAIR_RULE if params.stages == 1 else TRAIN_RULE),
+            params.stages == 1,
         )
         for one, two in wanted
         if one in bodies and two in bodies
-    ]
-
-
-def about_bore(part: MadePart, diameter: float) -> Array:
-    """The outside of a gear as made (n, 2), mm, counter-clockwise, about the middle of its bore as made."""
-    outside = part.outline.polygon().exterior
-    points = shapely.get_coordinates(outside)[:-1]
-    bore = part.hole_at(0.0, 0.0, diameter) if diameter else None
-    middle = (0.0, 0.0) if bore is None else (bore.x, bore.y)
-    about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - middle
-    return about
-
-
-def _figures(pair: MadePair) -> list[MadeFigure]:
-    """Play, gap and transmission error: as drawn, as made, and over corridor and centre distance."""
-    params, c = pair.params, OFF_CENTRE
-    drawn = pair.contacts.gaps(0.0).play()
-    made = pair.gaps.play()
-    tight = pair.gaps.play((-c, 0.0), -pair.corridor)
-    loose = pair.gaps.play((c, 0.0), pair.corridor)
-    least, name = least_backlash(params), ".".join(pair.names)
-    cos = math.cos(rack_of(params).pressure_angle)
-    room, gap = pair.contacts.room, pair.gaps.gap
-    taken = room - gap[np.abs(gap - room) < LEFT]  # others lie beyond a tip
-    what = pair.title
-
-    def figure(key: str, title: str, asked: float | None, values: list[float], rule: str = "") -> MadeFigure:
-        design, as_made, *both = values
-        low, high = min(as_made, *both), max(as_made, *both)
-        return MadeFigure(
-            f"{name}.{key}", f"{what}: {title}", "µrad", asked, design, as_made, low, high, rule
-        )
-
-    def total(play: tuple[Array, Array]) -> Array:
-        both: Array = (play[0] + play[1]) * MICRO
-        return both
-
-    rule = f"2 (g cos δ + v sin α) cos α / (s4 cos(α + δ) cos(α - δ)), centre distance ± {c:g} mm"
-    return [
-        figure(
-            "play.least",
-            "least play over a turn",
-            0.0,
-            [float(total(one).min()) for one in (drawn, made, tight, loose)],
-            rule,
-        ),
-        figure(
-            "play.greatest",
-            "greatest play over a turn",
-            None,
-            [float(total(one).max()) for one in (drawn, made, tight, loose)],
-        ),
-        figure(
-            "transmission-error",
-            "transmission error of one flank",
-            None,
-            [error_of(one) * MICRO for one in (drawn, made, tight, loose)],
-            "max - min of the play of one flank; the backlash alone makes most of it",
-        ),
-        MadeFigure(
-            f"{name}.left",
-            f"{what}: left on two flanks that meet, mean",
-            "mm",
-            None,
-            0.0,
-            float(taken.mean()),
-            float(taken.min()) - pair.corridor,
-            float(taken.max()) + pair.corridor,
-            "d2 + d4, normal to the flanks, and what the path may be off",
-        ),
-        MadeFigure(
-            f"{name}.backlash",
-            f"{what}: circumferential backlash",
-            "mm",
-            least,
-            rack_of(params).backlash,
-            float(2 * (room - taken.mean()) / cos),
-            float(2 * (room - taken.max() - pair.corridor) / cos),
-            float(2 * (room - taken.min() + pair.corridor) / cos),
-            "least with which gears as made turn: 2 (D + c sin α / √(1 - e²)) / cos α"
-            if params.stages == 1
-            else "least with which a train as made turns: 2 (D + c) / cos α",
-        ),
-    ]
-
-
-def _curve(pair: MadePair) -> MadeCurve:
-    turn = np.degrees(pair.gaps.theta) % 360.0
-    ahead, behind = pair.gaps.play()
-    drawn = pair.contacts.gaps(0.0).play()
-    order = np.argsort(turn, kind="stable")
-    return MadeCurve(
-        f"{pair.title}: play",
-        f"{pair.names[0]}, degrees",
-        "µrad",
-        turn[order],
-        {
-            "as drawn": ((drawn[0] + drawn[1]) * MICRO)[order],
-            "as made": ((ahead + behind) * MICRO)[order],
-            "in the worst case": (pair.spare(OFF_CENTRE) * MICRO)[order],
-        },
-    )
-
-
-def _running(pair: MadePair) -> list[Finding]:
-    """Whether the pair turns at the exact centre distance, and over its tolerance."""
-    for off_centre, severity in ((0.0, Severity.ERROR), (OFF_CENTRE, Severity.WARNING)):
-        spare = pair.spare(off_centre)
-        worst = int(np.argmin(spare))
-        if spare[worst] > 0:
-            continue
-        what = "jam" if severity is Severity.ERROR else f"jam with axes {off_centre:g} mm off"
-        better, works = _tried(pair)
-        return [
-            Finding(
-                "gear.as-made",
-                severity,
-                "backlash",
-                f"as made {pair.title} {what}: {spare[worst] * MICRO:.0f} µrad of play at "
-                f"{math.degrees(pair.gaps.theta[worst]) % 360:.1f} degrees of {pair.names[0]}",
-                float(spare[worst]) * MICRO,
-                0.0,
-                "µrad",
-                f"make backlash {better:g}: on these walls that leaves at least {works * MICRO:.0f} µrad",
-                Stage.MACHINING,
-            )
-        ]
-    return []
-
-
-def _tried(pair: MadePair) -> tuple[float, float]:
-    """A backlash, mm, with which the pair turns over all tolerances, and the play that it leaves, rad."""
-    backlash = least_backlash(pair.params)
-    while True:
-        other = rack_of(with_backlash(pair.params, backlash))
-        more = other.backlash * math.cos(other.pressure_angle) / 2 - pair.contacts.room
-        spare = float(pair.spare(OFF_CENTRE, more).min())
-        if spare > 0:
-            return backlash, spare
-        backlash = round(1.25 * backlash, 3)
-
-
-def _agreeing(pair: MadePair) -> list[Finding]:
-    if pair.disagreement <= AGREEMENT:
-        return []
-    return [
-        Finding(
-            "gear.as-made-routes",
-            Severity.WARNING,
-            "",
-            f"the play of {pair.title} in closed form and that of the polygons differ by "
-            f"{100 * pair.disagreement:.1f} % of the greatest",
-            100 * pair.disagreement,
-            100 * AGREEMENT,
-            "%",
-            "trust the smaller one",
-            Stage.MACHINING,
-        )
     ]

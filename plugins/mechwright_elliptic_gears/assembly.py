@@ -17,22 +17,9 @@ import math
 
 import numpy as np
 
-from mechwright import TOLERANCES, Array
+from mechwright import Array
+from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash, whole
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-LEFT = 2 * TOLERANCES.leftover
-"""mm, on two flanks that meet: what the proof of a program lets pass on each."""
-
-OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
-"""mm. A hole that keeps the leftover limit on one side and is cut too deep by the gouge limit on the other
-has its middle off by half of both. Two gears on two holes of a base have four such holes."""
-
-PLANNED = 2 * (TOLERANCES.arc_fit + TOLERANCES.flatten)
-"""mm, on two flanks that meet: what a path that keeps its own tolerance may leave of each. With less room
-than that a pair as made is sure to jam at some position, however exact its axes are."""
-
-STEP = 1e-3
-"""mm: backlashes are whole micrometres, upwards."""
 
 
 def least_backlash(params: EllipticGearParams) -> float:
@@ -59,7 +46,7 @@ def _backlash(params: EllipticGearParams, left: float, off_centre: float) -> flo
     alpha = np.asarray(math.radians(params.pressure_angle))
     if params.stages == 1:
         return float(_of_pairs(np.asarray(params.eccentricity), alpha, left, off_centre))
-    return float(_up(2 * (left + off_centre) / np.cos(alpha)))
+    return float(whole(2 * (left + off_centre) / np.cos(alpha)))
 
 
 def least_backlashes(eccentricity: Array, pressure_angle: Array) -> Array:
@@ -68,13 +55,8 @@ def least_backlashes(eccentricity: Array, pressure_angle: Array) -> Array:
 
 
 def _of_pairs(eccentricity: Array, alpha: Array, left: float, off_centre: float) -> Array:
-    share = np.sin(alpha) / np.sqrt(1 - eccentricity**2)
-    return _up(2 * (left + off_centre * share) / np.cos(alpha))
-
-
-def _up(backlash: Array) -> Array:
-    up: Array = np.round(np.ceil(backlash / STEP) * STEP, 6)
-    return up
+    # The common tangent of two equal ellipses tilts by arcsin e at the worst.
+    return pair_backlash(np.sqrt(1 - eccentricity**2), alpha, left, off_centre)
 
 
 def backlash_of(params: EllipticGearParams) -> float:

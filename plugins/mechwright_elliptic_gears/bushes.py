@@ -6,8 +6,9 @@ import numpy as np
 
 from mechwright import DesignError, Finding, Instance, Part
 from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.standards.bushes import Bush, bush_for, bushes
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.layout import Layout, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams

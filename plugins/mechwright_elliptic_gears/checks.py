@@ -10,7 +10,6 @@ from functools import partial
 
 from mechwright import (
     Finding,
-    GeometryError,
     Severity,
     Stage,
     at_stage,
@@ -20,6 +19,15 @@ from mechwright import (
     until_error,
 )
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.gearing.checks import (
+    FLANK_ERROR,
+    LEAST_TIP,
+    SHAFT_PRESSURE_ANGLE,
+    land_findings,
+    least_tip,
+    profile_findings,
+    tip_findings,
+)
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import (
     backlash_of,
@@ -41,19 +49,9 @@ from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import prove
 from mechwright_elliptic_gears.strength_checks import strength_findings
-from mechwright_elliptic_gears.tip_reach import LEAST_CLEARANCE, may_collide, that_clear
+from mechwright_elliptic_gears.tip_reach import may_collide, that_clear
 from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
-
-LEAST_TIP = 0.2
-"""Narrowest tip land in modules: the usual least of gear standards for teeth that are not case-hardened;
-thinner tips break out."""
-
-SHAFT_PRESSURE_ANGLE = 50.0
-"""Degrees above which the flanks mainly push the shafts apart and friction may block the drive."""
-
-FLANK_ERROR = 0.002
-"""Jump of a flank, mm, that no longer comes from fitting: contact is lost between two teeth."""
 
 
 @kept
@@ -125,27 +123,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
                 remedy=f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
                 proposed=({"parameters.tooth_offset": nearest},),
             )
-    if params.tip_radius >= params.dedendum:
-        yield Finding.error(
-            "gear.rack",
-            "tip_radius",
-            "the tip arc of the rack is deeper than its tooth",
-            params.tip_radius,
-            params.dedendum,
-            remedy="make tip_radius smaller than dedendum",
-        )
-    clearance = params.dedendum - params.addendum
-    if falls_short(clearance, LEAST_CLEARANCE):
-        yield Finding(
-            "gear.clearance",
-            Severity.ERROR if clearance <= 0 else Severity.WARNING,
-            "dedendum",
-            f"tips run {clearance:.3g} modules from the mating roots, below {LEAST_CLEARANCE:g}",
-            params.dedendum,
-            params.addendum + LEAST_CLEARANCE,
-            "",
-            f"make dedendum at least {params.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
-        )
+    yield from profile_findings(params)
     tightest = ellipse_of(params).least_radius
     if rack.dedendum >= tightest:
         yield Finding.error(
@@ -157,67 +135,19 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             tightest / rack.module,
             remedy="use more teeth, a smaller eccentricity or a smaller dedendum",
         )
-    if rack.half_land < 0:
-        yield _land(params)
-
-
-def _land(params: EllipticGearParams) -> Finding:
-    rack = rack_of(params)
-    sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
-    # The half land is half_space - h_f tan α - r_f (1 - sin α) / cos α.
-    most = (rack.half_space - rack.dedendum * sin / cos) * cos / (1 - sin) / rack.module
-    if most >= 0:
-        return Finding.error(
-            "gear.root-land",
-            "tip_radius",
-            "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
-            params.tip_radius,
-            most,
-            remedy=f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
-        )
-    deepest = rack.half_space * cos / sin / rack.module
-    return Finding.error(
-        "gear.root-land",
-        "dedendum",
-        "the flanks of a rack tooth meet before its tip: there is no root",
-        params.dedendum,
-        deepest,
-        remedy=f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
-    )
+    yield from land_findings(params, rack)
 
 
 def _tip(params: EllipticGearParams) -> Iterator[Finding]:
-    try:
-        width = _tip_width(params)
-    except GeometryError as error:
-        yield Finding.error(
-            "gear.tip",
-            "addendum",
-            str(error),
-            params.addendum,
-            remedy="make addendum smaller",
-        )
-        return
-    if not falls_short(width, LEAST_TIP):
-        return
-    without = params.model_copy(update={"backlash": 0.0})
-    blame = "backlash" if backlash_of(params) and _tip_width(without) >= LEAST_TIP else "addendum"
-    what = "pointed" if width <= 0 else f"{width:.3f} modules wide at the tip"
-    yield Finding.error(
-        "gear.tip",
-        blame,
-        f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
-        width,
-        LEAST_TIP,
-        remedy="make module or semi_major larger: as made, these teeth need all their backlash"
-        if blame == "backlash" and params.backlash is None
-        else f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
+    """The backlash is to blame where the teeth would be thick enough without one."""
+    size = "module or semi_major"
+    yield from tip_findings(
+        params, backlash_of(params), lambda play: [teeth_of(with_backlash(params, play))], size
     )
 
 
 def _tip_width(params: EllipticGearParams) -> float:
-    teeth = teeth_of(params)
-    return float(teeth.tip_widths.min()) / teeth.rack.module
+    return least_tip([teeth_of(params)])
 
 
 def _drive(params: EllipticGearParams) -> Iterator[Finding]:

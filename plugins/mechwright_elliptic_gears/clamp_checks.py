@@ -7,10 +7,11 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.mechanics.strength.bolts import CLAMP_SAFETY
 from mechwright.standards.screws import lengths
 from mechwright.tolerances import falls_short
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.clamp import (
     HEAD_GAP,
     LETTER,

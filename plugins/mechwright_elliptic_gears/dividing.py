@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright.mechanics.gearing.checks import LEAST_RIM
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -15,18 +15,17 @@ from scipy.special import ellipe
 from mechwright import Array, Stage, material
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.geometry.keyway import LEAST_WIDTH
+from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_CLEARANCE, LEAST_RIM, LEAST_TIP
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import least_backlashes
-from mechwright_elliptic_gears.bore_checks import FULL_RIM, LEAST_RIM
-from mechwright_elliptic_gears.checks import LEAST_TIP
 from mechwright_elliptic_gears.joint_load import TO_NM
 from mechwright_elliptic_gears.kinematics import alpha_peak
 from mechwright_elliptic_gears.many import ENDS, SHARES, Gears, least_regularity, tips_of
 from mechwright_elliptic_gears.many_columns import columns_of
 from mechwright_elliptic_gears.params import LEAST_MODULE
-from mechwright_elliptic_gears.tip_reach import DOUBT, LEAST_CLEARANCE
+from mechwright_elliptic_gears.tip_reach import DOUBT
 from mechwright_elliptic_gears.undercut import LEAST_REGULARITY
 
 BLOCK = 256

@@ -6,10 +6,11 @@ from collections.abc import Callable
 import numpy as np
 
 from mechwright import Array, Scalar, kept
+from mechwright.mechanics.peak import Peak
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import Turning, driven, steepest_shaft_pressure_angle, train
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.peak import peak
 from mechwright_elliptic_gears.point import place, point_of_coupler, speed_of_q
 from mechwright_elliptic_gears.window import Window, near_constant
 

@@ -2,9 +2,9 @@
 
 import math
 
-from mechwright import GeometryError, Outline, kept
-from mechwright.geometry.keyway import Opening, key_of_width
+from mechwright import Outline, kept
 from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
+from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.assembly import backlash_of
 from mechwright_elliptic_gears.ellipse import Ellipse, EllipticPair
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -98,29 +98,6 @@ def _teeth(ellipse: Ellipse, rack: Rack, teeth: int, offset: float) -> Teeth:
 
 toothed = kept(gear_loop)
 """The toothed loop of teeth and its deviation, as :func:`gear_loop`."""
-
-
-def opening_of(params: EllipticGearParams) -> Opening | None:
-    """The shaft opening, None without a bore.
-
-    Raises
-    ------
-    GeometryError
-        The keyway's width is not standard and its depth is not given.
-    """
-    if params.bore == 0:
-        return None
-    if params.keyway_width == 0:
-        return Opening(params.bore)
-    depth = params.keyway_depth
-    if depth is None:
-        key = key_of_width(params.keyway_width)
-        if key is None:
-            raise GeometryError(
-                f"keyway_depth: no standard key is {params.keyway_width:g} mm wide; give a depth"
-            )
-        depth = key.hub_depth
-    return Opening(params.bore, params.keyway_width, depth, params.keyway_relief)
 
 
 @kept

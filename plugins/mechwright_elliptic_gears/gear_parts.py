@@ -3,11 +3,11 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Profile, circle, kept
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
+from mechwright.mechanics.gearing import tip_sites
+from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.bushes import bush_parts, bush_seat
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.clamp_parts import (
@@ -20,7 +20,7 @@ from mechwright_elliptic_gears.clamp_parts import (
 )
 from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.fitting import gear_marks
-from mechwright_elliptic_gears.gear import opening_of, outline_of
+from mechwright_elliptic_gears.gear import outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of, keeper_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -180,7 +180,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
     features += gear.holes
     for hole in gear.holes:
         inner.append(Loop((circle(hole.centre, hole.diameter / 2, clockwise=True, tag=hole.name),)))
-    features.append(Profile("outside", whole.outer, "outside", 0, depth, _tab_sites(whole.outer)))
+    features.append(Profile("outside", whole.outer, "outside", 0, depth, tip_sites(whole.outer)))
     return Part(
         gear.name,
         Outline(whole.outer, tuple(inner), whole.deviation),
@@ -191,17 +191,6 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         details=gear.details,
         marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
     )
-
-
-def _tab_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
-    """The middle of every tip, where a tab's mark touches no flank, and the tip's chord as its limit."""
-    sites = []
-    for segment in loop.segments:
-        if segment.tag == "tip":
-            x, y = segment.at(0.5)[0].tolist()
-            width = float(np.hypot(segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]))
-            sites.append(((x, y), width))
-    return tuple(sites)
 
 
 def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:

@@ -12,11 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Loop, kept, material
-from mechwright_elliptic_gears.gear import ellipse_of, opening_of, teeth_of, toothed
+from mechwright.mechanics.openings import opening_of
+from mechwright.mechanics.peak import Peak
+from mechwright_elliptic_gears.gear import ellipse_of, teeth_of, toothed
 from mechwright_elliptic_gears.kinematics import Turning, coupler, train
 from mechwright_elliptic_gears.layout import Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, grid_of, peak
+from mechwright_elliptic_gears.peak import grid_of, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
 

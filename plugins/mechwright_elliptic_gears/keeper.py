@@ -12,8 +12,9 @@ import numpy as np
 from mechwright import Bore, Turned
 from mechwright.contracts.details import Thread
 from mechwright.contracts.turned import Step
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.standards.screws import ENGAGEMENT, Screw, lengths, screw
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.dividing import START, Dividing
 from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, kept
+from mechwright.mechanics.peak import Peak
 from mechwright.mechanics.strength.tooth_bending import EllipticMesh, tangential_force
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.joint_load import TO_NM, gear_inertia, masses_of, torque_behind
 from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import Peak, grid_of, peak
+from mechwright_elliptic_gears.peak import grid_of, peak
 
 _SAMPLES = 721
 """Angles of a turn at which the sign of a torque is asked for."""

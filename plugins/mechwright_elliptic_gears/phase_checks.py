@@ -7,11 +7,12 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_KEY, allowed
 from mechwright.mechanics.strength.bolts import CLAMP_SAFETY, lash
 from mechwright.mechanics.strength.fastening import pin_pressure, pin_shear, ring_force
 from mechwright.tolerances import falls_short
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.dividing import PITCH, START, phases_that_work
 from mechwright_elliptic_gears.figures import point_window
 from mechwright_elliptic_gears.gear import rack_of

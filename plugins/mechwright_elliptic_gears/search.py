@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright_elliptic_gears.kinematics import Complex, Turning, train
 from mechwright_elliptic_gears.layout import SPACER
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from mechwright import Array, Finding, kept, material
+from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import (
     PIN_SHEAR,
     REVERSING_KEY,
@@ -31,7 +32,7 @@ from mechwright.mechanics.strength.hertz import (
 from mechwright.mechanics.strength.judging import STUD_SHARE, Stress, Way, judged
 from mechwright.mechanics.strength.shaft import von_mises
 from mechwright.mechanics.strength.tooth_bending import EllipticMesh, Rack, root_stress, virtual_teeth
-from mechwright_elliptic_gears.gear import opening_of, rack_of
+from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.joint_load import greatest_torque
 from mechwright_elliptic_gears.layout import DOWELS, Layout
 from mechwright_elliptic_gears.mesh_load import meshes_of

@@ -13,11 +13,9 @@ import numpy as np
 
 from mechwright import GeometryError
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.gearing.checks import LEAST_CLEARANCE
 from mechwright_elliptic_gears.gear import teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-LEAST_CLEARANCE = 0.1
-"""Modules between tip and root below which dirt and run-out make them touch (ISO 53 racks have 0.25)."""
 
 DOUBT = 0.03
 """Modules of flank left below a tip from which no tip was seen to collide, if it clears the root as well."""

@@ -7,8 +7,9 @@ import numpy as np
 
 from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.bore_checks import room
 from mechwright_elliptic_gears.bushes import bush_findings
 from mechwright_elliptic_gears.clamp_checks import clamp_findings, setting_note
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of

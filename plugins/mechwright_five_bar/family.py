@@ -1,9 +1,9 @@
 """The family ``five-bar``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.requirements import AdjustablePathRequirement
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         ToleranceModel,
         Tolerances,
     )
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class FiveBars(Family[FiveBarParams]):
@@ -29,6 +30,7 @@ class FiveBars(Family[FiveBarParams]):
     title = "Geared five-bar linkage"
     summary = "A crank, an arm that gears turn with it, and a coupler that carries a point between them."
     Params = FiveBarParams
+    batch = 1 << 16
     requirements: ClassVar = {"adjustable-path": AdjustablePathRequirement}
 
     def check(self, params: FiveBarParams) -> Sequence[Finding]:
@@ -83,6 +85,15 @@ class FiveBars(Family[FiveBarParams]):
         from mechwright_five_bar.tolerances import FiveBarTolerances
 
         return FiveBarTolerances(in_phase(params), tolerances)
+
+    def evaluate(
+        self, batch: "Batch[FiveBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Many at once, where the crank turns fully and gears stand in line; forces and masses one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_five_bar.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)
 
     def synthesise(
         self,

@@ -87,14 +87,15 @@ class FiveBar:
 
     def gap(self, theta: ArrayLike) -> tuple[Plane, Plane, Plane, Plane]:
         """The vector d (...) and its first three derivatives by the crank's angle, mm/rad and so on."""
+        gap, first, second, third = self.gap_and_rates(theta, 3)
+        return gap, first, second, third
+
+    def gap_and_rates(self, theta: ArrayLike, order: int) -> list[Plane]:
+        """The same with so many derivatives."""
         one, two = self.levers(theta)
         r = self.ratio
-        return (
-            np.asarray(self.pivot + two - one, dtype=np.complex128),
-            1j * (r * two - one),
-            one - r**2 * two,
-            1j * (one - r**3 * two),
-        )
+        gap = np.asarray(self.pivot + two - one, dtype=np.complex128)
+        return [gap, *(1j**k * (r**k * two - one) for k in range(1, order + 1))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +146,8 @@ def close(bar: FiveBar, theta: ArrayLike) -> Loop:
     """
     theta = np.asarray(theta, dtype=float)
     one, two = bar.levers(theta)
-    coupler, rocker = dyad(bar.gap(theta), bar.coupler, bar.rocker, bar.branch)
+    d, first, second, third = bar.gap(theta)
+    coupler, rocker = dyad((d, first, second, third), bar.coupler, bar.rocker, bar.branch)
     return Loop(
         theta, one, np.asarray(bar.pivot + two), one + bar.coupler * coupler.direction, coupler, rocker
     )

@@ -24,6 +24,10 @@ PER_TURN = 360
 """Places per turn of the faster of crank and arm between which D² has no two extremes."""
 
 HALVINGS = 60
+"""Down to rounding."""
+
+ROUGH = 30
+"""Halvings of a place whose D² hardly changes beside it, or that only divides: 1e-11 rad."""
 
 
 def bar_of(params: FiveBarParams) -> FiveBar:
@@ -44,12 +48,12 @@ def bar_of(params: FiveBarParams) -> FiveBar:
 
 def square(bar: FiveBar, theta: Array) -> Array:
     """D² (...), mm²."""
-    return np.abs(bar.gap(theta)[0]) ** 2
+    return np.abs(bar.gap_and_rates(theta, 0)[0]) ** 2
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
     """Derivative of D² (...) by the crank's angle."""
-    d, rate, _, _ = bar.gap(theta)
+    d, rate = bar.gap_and_rates(theta, 1)
     slope: Array = 2 * (np.conj(d) * rate).real
     return slope
 
@@ -62,21 +66,22 @@ def turning_points(bar: FiveBar, one: float, two: float) -> Array:
     theta = np.linspace(low, high, count + 1)
     rising = _slope(bar, theta) > 0
     at = np.flatnonzero(rising[1:] != rising[:-1])
-    inside = _halved(lambda x: _slope(bar, x), theta[at], theta[at + 1])
+    inside = _halved(lambda x: _slope(bar, x), theta[at], theta[at + 1], ROUGH)
     return np.concatenate([[low], inside, [high]])
 
 
-def _halved(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+def _halved(function: Callable[[Array], Array], low: Array, high: Array, halvings: int = HALVINGS) -> Array:
     """Roots (k,) of a function between two sides on which it has not the same sign."""
     low, high = low.copy(), high.copy()
     sign = function(low) > 0
-    for _ in range(HALVINGS):
+    for _ in range(halvings):
         middle = (low + high) / 2
         same = (function(middle) > 0) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return np.asarray((low + high) / 2)
 
 
+@kept
 def reach(bar: FiveBar, least: float = 0.0) -> tuple[Interval, ...]:
     """Crank angles between which the transmission angle is at least ``least``, rad, in one period from 0.
 
@@ -119,7 +124,7 @@ def _middles(bar: FiveBar, points: Array, level: float) -> Array:
     """Where D² passes a level between neighbouring points (k,)."""
     values = square(bar, points) - level
     at = np.flatnonzero((values[1:] > 0) != (values[:-1] > 0))
-    return _halved(lambda x: square(bar, x) - level, points[at], points[at + 1])
+    return _halved(lambda x: square(bar, x) - level, points[at], points[at + 1], ROUGH)
 
 
 def turns_fully(bar: FiveBar, least: float = TURN_BACK) -> bool:
@@ -162,6 +167,7 @@ def ways_about(params: FiveBarParams) -> list[Interval]:
     return sorted((math.degrees(low), math.degrees(high)) for low, high in found)
 
 
+@kept
 def transmission_range(bar: FiveBar, one: float, two: float) -> Interval:
     """Smallest and largest acute transmission angle, rad, while the crank goes from one angle to another."""
     squares = square(bar, turning_points(bar, one, two))

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array
 from mechwright.mechanics.compiled import compiled
+from mechwright.mechanics.compiled_point import point_rates
 
 (
     COS, SIN, THETA, OMEGA_A, ALPHA_A, JERK_A, A_S, AXS, COSINE, SINE, S1, S2, S3, P1, P2, P3,
@@ -121,20 +122,15 @@ def _traced(bar: Array, point: Array, rows: Array) -> None:
     """The coupler point, up to its jerk."""
     a = bar[0]
     for i in range(rows.shape[1]):
-        cos, sin, w, v = rows[COS, i], rows[SIN, i], rows[OMEGA_A, i], rows[OMEGA_C, i]
+        cos, sin = rows[COS, i], rows[SIN, i]
         sx, sy = (rows[A_S, i] * cos - rows[AXS, i] * sin) / a, (rows[A_S, i] * sin + rows[AXS, i] * cos) / a
         x, y = a * cos, a * sin
         qx, qy = point[0] * sx - point[1] * sy, point[0] * sy + point[1] * sx
         rows[X, i], rows[Y, i] = point[2] + x + qx, point[3] + y + qy
-        rows[VX, i], rows[VY, i] = -w * y - v * qy, w * x + v * qx
-        g, h = rows[ALPHA_A, i], rows[ALPHA_C, i]
-        rows[AX, i], rows[AY, i] = (
-            -g * y - w * w * x - h * qy - v * v * qx,
-            g * x - w * w * y + h * qx - v * v * qy,
-        )
-        m, n = rows[JERK_A, i] - w**3, rows[JERK_C, i] - v**3
-        rows[JX, i] = -m * y - 3 * w * g * x - n * qy - 3 * v * h * qx
-        rows[JY, i] = m * x - 3 * w * g * y + n * qx - 3 * v * h * qy
+        crank = rows[OMEGA_A, i], rows[ALPHA_A, i], rows[JERK_A, i]
+        coupler = rows[OMEGA_C, i], rows[ALPHA_C, i], rows[JERK_C, i]
+        rates = point_rates(x, y, qx, qy, crank, coupler)
+        rows[VX, i], rows[VY, i], rows[AX, i], rows[AY, i], rows[JX, i], rows[JY, i] = rates
 
 
 @compiled

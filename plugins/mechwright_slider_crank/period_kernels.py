@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array
 from mechwright.mechanics.compiled import compiled
+from mechwright.mechanics.compiled_point import point_rates
 
 (
     S, V, A, JERK, SIGMA, OMEGA_C, ALPHA_C, JERK_C, COSINE, OMEGA_A, ALPHA_A, JERK_A,
@@ -69,14 +70,11 @@ def _traced(bar: Array, point: Array, rows: Array, i: int, theta: float) -> None
     x, y = bar[0] * math.cos(theta), bar[0] * math.sin(theta)
     cos, sin = math.cos(rows[SIGMA, i]), math.sin(rows[SIGMA, i])
     qx, qy = point[0] * cos - point[1] * sin, point[0] * sin + point[1] * cos
-    w, v, g, h = rows[OMEGA_A, i], rows[OMEGA_C, i], rows[ALPHA_A, i], rows[ALPHA_C, i]
     rows[X, i], rows[Y, i] = x + qx, y + qy
-    rows[VX, i], rows[VY, i] = -w * y - v * qy, w * x + v * qx
-    rows[AX, i] = -g * y - w * w * x - h * qy - v * v * qx
-    rows[AY, i] = g * x - w * w * y + h * qx - v * v * qy
-    m, n = rows[JERK_A, i] - w**3, rows[JERK_C, i] - v**3
-    rows[JX, i] = -m * y - 3 * w * g * x - n * qy - 3 * v * h * qx
-    rows[JY, i] = m * x - 3 * w * g * y + n * qx - 3 * v * h * qy
+    crank = rows[OMEGA_A, i], rows[ALPHA_A, i], rows[JERK_A, i]
+    coupler = rows[OMEGA_C, i], rows[ALPHA_C, i], rows[JERK_C, i]
+    rates = point_rates(x, y, qx, qy, crank, coupler)
+    rows[VX, i], rows[VY, i], rows[AX, i], rows[AY, i], rows[JX, i], rows[JY, i] = rates
 
 
 @compiled

@@ -70,16 +70,38 @@ def ground_arcs(params: SphericalParams) -> dict[str, float]:
     return {"ground": whole} if bridge is None else {"ground": whole + bridge, "ground-2": bridge}
 
 
-def bridge_rooms(params: SphericalParams, linkage: Linkage, shells: Shells, place: float) -> dict[str, Array]:
-    """Air (samples,), mm, between a bridge at that arc and each link that passes it, in the worst phase."""
+def motor_opposite(params: SphericalParams) -> bool:
+    """Whether the input's shaft goes through the centre to a motor's flange at the far end of its axis.
+
+    Of a ground on both sides the input's axis ends inside all links, and nothing else is about the centre.
+    """
+    return params.stand.motor_flange is not None and frame_of(params).bridge is not None
+
+
+def ground_beyond(params: SphericalParams) -> float:
+    """Arc, rad, that the outer ground link goes on beyond the input's axis: to post, bridge and motor."""
+    ends = [math.radians(params.stand.arc), frame_of(params).bridge or 0.0]
+    return max([*ends, math.pi] if motor_opposite(params) else ends)
+
+
+def bridge_rooms(
+    params: SphericalParams, linkage: Linkage, shells: Shells, place: float, diameter: float | None = None
+) -> dict[str, Array]:
+    """Air (samples,), mm, between a bridge at that arc and each link that passes it, in the worst phase.
+
+    A bridge is as thick as a boss; a shaft in its place has a ``diameter`` of its own.
+    """
     found: dict[str, Array] = {}
+    thick = params.hardware.boss_diameter if diameter is None else diameter
     for phase in linkage.phases:
-        for name, room in _phase_rooms(params, phase, shells, place).items():
+        for name, room in _phase_rooms(params, phase, shells, place, thick).items():
             found[name] = np.minimum(found[name], room) if name in found else room
     return found
 
 
-def _phase_rooms(params: SphericalParams, phase: Phase, shells: Shells, place: float) -> dict[str, Array]:
+def _phase_rooms(
+    params: SphericalParams, phase: Phase, shells: Shells, place: float, diameter: float
+) -> dict[str, Array]:
     """The same in one phase."""
     hardware, loop, state = params.hardware, phase.loop, phase.state(SAMPLES)
     a, c, p = state.a[0], state.c[0], state.p[0]
@@ -88,7 +110,7 @@ def _phase_rooms(params: SphericalParams, phase: Phase, shells: Shells, place: f
     at = np.broadcast_to(rotate(normal, -place, loop.a0)[:, None], a.shape)
     near = a if float(dot(a[:, 0], p[:, 0])) > float(dot(c[:, 0], p[:, 0])) else c
     links: dict[str, list[Link]] = {"crank": [(a0, a)], "rocker": [(b0, c)], "coupler": [(a, c), (near, p)]}
-    halves = (hardware.boss_diameter / 2, hardware.link_width / 2, hardware.boss_diameter / 2)
+    halves = (diameter / 2, hardware.link_width / 2, hardware.boss_diameter / 2)
     found = {}
     for name, arcs in links.items():
         radius = shells.links[name][0]

@@ -10,7 +10,7 @@ from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
-from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, shells_of
+from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, ground_beyond, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.mount_checks import mount_findings
 from mechwright_spherical.params import SphericalParams
@@ -253,8 +253,7 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
 
 def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
     stand = params.stand
-    bridge = frame_of(params).bridge or 0.0
-    whole = math.degrees(link_arcs(linkage)["ground"] + max(math.radians(stand.arc), bridge))
+    whole = math.degrees(link_arcs(linkage)["ground"] + ground_beyond(params))
     if exceeds(whole, LONGEST_GROUND):
         yield Finding.error(
             "spherical.stand",

@@ -10,9 +10,9 @@ from mechwright import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of
-from mechwright_spherical.frame import frame_of, shells_of
+from mechwright_spherical.frame import frame_of, ground_beyond, motor_opposite, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
-from mechwright_spherical.mount import EDGE, HOLE, hubs_of
+from mechwright_spherical.mount import EDGE, HOLE, bracket_of, flange_level, hubs_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.seats import (
@@ -26,7 +26,7 @@ from mechwright_spherical.seats import (
     slot_width,
     slotted_of,
 )
-from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
+from mechwright_spherical.shells import FLANGE, Shells, Span
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip, stroke
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc, cross, norm, rotate
@@ -175,29 +175,44 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     loop, bridge = linkage.shown.loop, frame_of(params).bridge
     axes = [X, direction(float(arc(loop.a0, loop.b0)))]
     span, arcs = shells.links["ground"], shells.arc("ground")
-    beyond = max(math.radians(stand.arc), bridge or 0.0)
-    bodies = [_arc(params, axes[0], axes[1], arcs, start=-beyond)]
+    bodies = [_arc(params, axes[0], axes[1], arcs, start=-ground_beyond(params))]
     holes: list[cq.Solid] = []
     if bridge is not None:
         # The input axis has an arc of its own inside the links, and a radial piece joins both arcs.
         inner, at = shells.links["ground-2"], direction(-bridge)
         bodies.append(_arc(params, at, X, shells.arc("ground-2")))
         bodies.append(cylinder(at, (inner[0], span[1]), hardware.boss_diameter))
-        bodies.append(cylinder(axes.pop(0), inner, hardware.boss_diameter))
-        holes.append(bore(params, X, inner))
+        near, hub = axes.pop(0), hubs_of(params).get("a0")
+        if hub is None:
+            bodies.append(cylinder(near, inner, hardware.boss_diameter))
+            holes.append(bore(params, near, inner))
+        else:
+            # The input's shaft goes on through the centre.
+            bodies.append(cylinder(near, inner, max(hub.diameter, hardware.boss_diameter)))
+            holes.append(cylinder(near, (inner[0] - _OVER, inner[1] + _OVER), hub.outside + hardware.fit))
+            axes.insert(0, -near)
     if train is not None and train.idler_axis is not None:
         axes.append(_in_ground(linkage, train.idler_axis))
         bodies.append(_arc(params, axes[0], axes[2], arcs))
         bodies.append(_arc(params, axes[1], axes[2], arcs))
+    over = bracket_of(params)
+    if over is not None:
+        # The arc with the motor's flange goes from the post over the gears.
+        recess = hardware.boss_height
+        bodies.append(_arc(params, post_direction(stand), X, (over[0] + recess, over[1] - recess)))
     if hubs := hubs_of(params):
-        for at, hub in zip(axes, hubs.values(), strict=True):
+        carried = axes[:2]
+        axes = axes[2:]
+        for at, hub in zip(carried, hubs.values(), strict=True):
+            if over is not None:
+                bodies.append(cylinder(at, span, max(hub.diameter, hardware.boss_diameter)))
+                holes.append(cylinder(at, (span[0] - _OVER, span[1] + _OVER), hub.outside + hardware.fit))
             bodies.append(cylinder(at, hub.span, max(hub.diameter, hardware.boss_diameter)))
             holes.append(cylinder(at, (hub.span[0] - _OVER, hub.span[1] + _OVER), hub.outside + hardware.fit))
-        bodies.append(motor_flange(params, shells))
-        holes += flange_holes(params, shells)
-    else:
-        bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
-        holes += [bore(params, axis, span) for axis in axes]
+        bodies.append(motor_flange(params))
+        holes += flange_holes(params)
+    bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+    holes += [bore(params, axis, span) for axis in axes]
     post = post_direction(stand)
     top = shells.outside + stand.height
     flange = (top - hardware.link_thickness, top)
@@ -217,20 +232,21 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     return fused(bodies, holes)
 
 
-def motor_flange(params: SphericalParams, shells: Shells) -> cq.Solid:
+def motor_flange(params: SphericalParams) -> cq.Solid:
     """The square flange about the input axis."""
-    side = (params.stand.motor_flange or 0.0) + 2 * EDGE
-    at = cq.Vector(shells.outside + RISE, -side / 2, -side / 2)
+    side, low = (params.stand.motor_flange or 0.0) + 2 * EDGE, flange_level(params)
+    at = cq.Vector(-low - FLANGE if motor_opposite(params) else low, -side / 2, -side / 2)
     found = cq.Solid.makeBox(FLANGE, side, side, at)
     assert isinstance(found, cq.Solid)  # noqa: S101 - a box is one
     return found
 
 
-def flange_holes(params: SphericalParams, shells: Shells) -> list[cq.Solid]:
+def flange_holes(params: SphericalParams) -> list[cq.Solid]:
     """What its four screw holes take away."""
-    half, low = (params.stand.motor_flange or 0.0) / 2, shells.outside + RISE - _OVER
-    places = [cq.Vector(low, y, z) for y in (-half, half) for z in (-half, half)]
-    return [cq.Solid.makeCylinder(HOLE / 2, FLANGE + 2 * _OVER, at, cq.Vector(1, 0, 0)) for at in places]
+    half, low = (params.stand.motor_flange or 0.0) / 2, flange_level(params) - _OVER
+    way = -1 if motor_opposite(params) else 1
+    places = [cq.Vector(way * low, y, z) for y in (-half, half) for z in (-half, half)]
+    return [cq.Solid.makeCylinder(HOLE / 2, FLANGE + 2 * _OVER, at, cq.Vector(way, 0, 0)) for at in places]
 
 
 def _in_ground(linkage: Linkage, axis: Array) -> Array:

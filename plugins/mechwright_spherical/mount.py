@@ -1,9 +1,12 @@
 """What a motor's flange brings with it: bushes in both fixed axes, shafts with rings, threads in the base.
 
 The ground link gets a square flange about the input axis, beyond the heads of the screws that hold a motor's
-pillars on it. Its hubs reach out to there, so that each shaft has long bearings.
+pillars on it. Its hubs reach out to there, so that each shaft has long bearings. Where the ground is on both
+sides, the flange is at the far end of the axis; of a five-bar it is on an arc of its own over the bevel
+gears.
 """
 
+import math
 from dataclasses import dataclass
 
 from mechwright import DesignError, Flange, Foot, MountingError, kept
@@ -13,8 +16,11 @@ from mechwright.standards.bushes import Bush, bush_for, bushes
 from mechwright.standards.circlips import Circlip, shaft_circlip, shaft_circlips
 from mechwright.standards.couplings import BORES, couplings
 from mechwright.standards.screws import screw_sizes
-from mechwright_spherical.frame import frame_of, shells_of
+from mechwright_spherical.drive import train_of
+from mechwright_spherical.frame import motor_opposite, shells_of
+from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import SphericalParams, StandTable
+from mechwright_spherical.places import gear_span
 from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.stand import FLANGE_SCREWS, MOUNTING_SCREWS
 
@@ -36,7 +42,12 @@ LEAST_SCREW = 5.0
 HEAD = 1.25
 """Least diameter of a screw's head over that of its hole."""
 
-ADVISED = {"parameters.stand.motor_flange": 56.0}
+FAR = {"ground": "far-ground", "crank": "far-crank"}
+"""Frames of both, turned half a turn so that x is the far end of the input's axis."""
+
+SIDE = "parameters.stand.motor_flange"
+
+ADVISED = {SIDE: 56.0}
 """What is tried first where there is no flange: it takes motors NEMA 17 and of 37 mm."""
 
 
@@ -51,12 +62,12 @@ class Hub:
     bushes
         Each with the radius at which it begins, mm.
     ring
-        On the shaft outside of the hub.
+        On the shaft outside of the hub; None where a gear is there.
     """
 
     span: Span
     bushes: tuple[tuple[Bush, float], ...]
-    ring: Circlip
+    ring: Circlip | None
 
     @property
     def outside(self) -> float:
@@ -74,6 +85,51 @@ class Hub:
         return self.span[1] + AIR
 
 
+def bracket_of(params: SphericalParams) -> Span | None:
+    """The span of the arc that carries a motor's flange over the bevel gears, mm; None without them."""
+    if params.stand.motor_flange is None:
+        return None
+    shells, hardware, train = shells_of(params), params.hardware, train_of(linkage_of(params), params.drive)
+    if train is None:
+        return None
+    low = max(gear_span(params, shells, train)[1], shells.pins["b0"][1]) + hardware.gap
+    return low, low + hardware.link_thickness + 2 * hardware.boss_height
+
+
+def flange_level(params: SphericalParams) -> float:
+    """From the centre to the motor's flange, mm."""
+    return (bracket_of(params) or shells_of(params).links["ground"])[1] + RISE
+
+
+def least_height(params: SphericalParams) -> float:
+    """Of the post, mm, so that the arc over the gears and heads of screws are below its flange; else 0."""
+    over = bracket_of(params)
+    if over is None:
+        return 0.0
+    return math.ceil(over[1] + RISE + params.hardware.link_thickness - shells_of(params).outside)
+
+
+def shaft_start(params: SphericalParams, shells: Shells, name: str) -> float:
+    """The radius at which the shaft of a hub begins, mm; below 0 beyond the centre."""
+    low, high = shells.pins[name]
+    return -high if name == "a0" and motor_opposite(params) else low
+
+
+def spacer_room(params: SphericalParams, name: str) -> Span:
+    """Between which radii the spacer beside a hub is, mm; below 0 beyond the centre."""
+    shells, over = shells_of(params), bracket_of(params)
+    if name == "a0" and motor_opposite(params):
+        return -shells.links["crank"][0], -shells.links["ground-2"][1]
+    if over is None:
+        link = shells.links["crank" if name == "a0" else "rocker"]
+        return link[1], link[1] + params.hardware.gap
+    if name == "b0":
+        return shells.links["arm"][1], shells.links["ground"][0]
+    train = train_of(linkage_of(params), params.drive)
+    assert train is not None  # noqa: S101 - else there is nothing over the gears
+    return gear_span(params, shells, train)[1] * math.cos(train.pinion), over[0]
+
+
 def sizes() -> list[float]:
     """Diameters of pins for which there are bushes, rings and couplings, mm."""
     rings = {ring.size for ring in shaft_circlips()}
@@ -86,14 +142,30 @@ def hubs_of(params: SphericalParams) -> dict[str, Hub]:
 
     Raises DesignError for pins without bush or ring.
     """
-    if params.stand.motor_flange is None or frame_of(params).bridge is not None:
+    if params.stand.motor_flange is None:
         return {}
-    (low, high), diameter = shells_of(params).links["ground"], params.hardware.pin_diameter
+    shells, diameter = shells_of(params), params.hardware.pin_diameter
+    low, high = shells.links["ground"]
     ring = shaft_circlip(diameter)
+    over = bracket_of(params)
+    if over is not None:
+        # Of a five-bar the gears are between both bushes of the input, and over the output's.
+        end, one = flange_level(params) + FLANGE, bush_for(diameter, high - low)
+        far = bush_for(diameter, end - over[0])
+        return {
+            "a0": Hub((over[0], end), ((one, low), (far, end - far.length)), ring),
+            "b0": Hub((low, high), ((one, low),), None),
+        }
     found = {}
     for name, end in (("a0", high + RISE + FLANGE), ("b0", high + RISE)):
         if name == "b0":
             found[name] = Hub((low, end), ((bush_for(diameter, end - low), low),), ring)
+            continue
+        if motor_opposite(params):
+            # One beside the crank, beyond the centre, and one where the motor is.
+            inner, outer = shells.links["ground-2"]
+            near, far = bush_for(diameter, outer - inner), bush_for(diameter, end - low)
+            found[name] = Hub((low, end), ((near, -outer), (far, end - far.length)), ring)
             continue
         # One at each end, for the crank hangs over the inner one.
         one = bush_for(diameter, (end - low) / 2)
@@ -104,20 +176,26 @@ def hubs_of(params: SphericalParams) -> dict[str, Hub]:
 def shaft_end(params: SphericalParams, name: str) -> float:
     """The radius at which the shaft of a hub ends, mm."""
     hub = hubs_of(params)[name]
+    if hub.ring is None:
+        return shells_of(params).pins[name][1]
     ring = hub.seat + hub.ring.width + hub.ring.edge
     return ring + 1.5 + max(one.length for one in couplings()) / 2 if name == "a0" else ring
 
 
 def shaft_form(params: SphericalParams, shells: Shells, name: str) -> Turned:
     """A shaft from inside outwards, with the groove of its ring."""
-    hub, (low, _) = hubs_of(params)[name], shells.pins[name]
-    groove = Groove(hub.seat - low, hub.ring.width, hub.ring.groove, hub.ring.tolerance)
-    return Turned((Step(params.hardware.pin_diameter, shaft_end(params, name) - low),), grooves=(groove,))
+    hub, low = hubs_of(params)[name], shaft_start(params, shells, name)
+    step, ring = Step(params.hardware.pin_diameter, shaft_end(params, name) - low), hub.ring
+    if ring is None:
+        return Turned((step,))
+    groove = Groove(hub.seat - low, ring.width, ring.groove, ring.tolerance)
+    return Turned((step,), grooves=(groove,))
 
 
-def spacer_form(params: SphericalParams) -> Turned | None:
-    """The spacer between a link and its hub; None where the gap is too narrow for one."""
-    length, bore = params.hardware.gap - AIR, params.hardware.pin_diameter + 0.1
+def spacer_form(params: SphericalParams, name: str) -> Turned | None:
+    """The spacer between a link or gear and its hub; None where the gap is too narrow for one."""
+    low, high = spacer_room(params, name)
+    length, bore = high - low - AIR, params.hardware.pin_diameter + 0.1
     return tube(bore, hubs_of(params)["a0"].outside, length) if length >= 0.5 else None
 
 
@@ -139,35 +217,33 @@ def thread_of(stand: StandTable) -> float:
 def mounting_of(params: SphericalParams) -> Flange:
     """The flange and the base; raises DesignError where there is none."""
     stand, hardware = params.stand, params.hardware
-    if params.kind != "four-bar":
+    if params.kind == "five-bar" and not params.drive.gears:
         raise MountingError(
-            "machine.frame: the bevel drive of a five-bar stands where a motor's bracket would; leave frame "
-            'out, or set frame = "none"',
-            ({"machine.frame": "none"},),
-        )
-    if frame_of(params).bridge is not None:
-        raise MountingError(
-            "parameters.hardware.frame: the input's shaft ends inside the links, where no motor goes; with "
-            'other arcs, set it to "one"',
-            ({"parameters.hardware.frame": "one", **ADVISED}, {"machine.frame": "none"}),
+            "parameters.drive.gears: without its bevel drive a five-bar has two inputs, and one motor drives "
+            "one; set it to true",
+            ({"parameters.drive.gears": True, **ADVISED}, {"machine.frame": "none"}),
         )
     if stand.motor_flange is None:
+        wanted = params.model_copy(update={"stand": stand.model_copy(update={"motor_flange": ADVISED[SIDE]})})
+        height: Change = {}
+        if stand.height < least_height(wanted):
+            height = {"parameters.stand.height": float(least_height(wanted))}
         arcs: tuple[Change, ...] = ({}, {"parameters.stand.arc": 75.0}, {"parameters.stand.arc": 90.0})
         raise MountingError(
             "parameters.stand.motor_flange: the ground link has no flange for a motor; make it 56",
-            tuple({**ADVISED, **arc} for arc in arcs),
+            tuple({**ADVISED, **height, **arc} for arc in arcs),
         )
-    shells, hubs = shells_of(params), hubs_of(params)
-    plate = stand.plate
+    hubs = hubs_of(params)
+    plate, far = stand.plate, motor_opposite(params)
     return Flange(
-        "ground",
-        shells.outside + RISE,
-        shells.outside + RISE + FLANGE,
+        FAR["ground"] if far else "ground",
+        flange_level(params),
+        flange_level(params) + FLANGE,
         stand.motor_flange / 2,
-        "crank",
+        FAR["crank"] if far else "crank",
         hardware.pin_diameter,
         shaft_end(params, "a0"),
-        max(shaft_end(params, "b0"), hubs["b0"].span[1]),
+        max(shaft_end(params, "b0"), hubs["b0"].span[1], (bracket_of(params) or (0.0, 0.0))[1]),
         Foot(
             "base",
             stand.plate_thickness,
@@ -180,4 +256,5 @@ def mounting_of(params: SphericalParams) -> Flange:
         "parameters.stand.motor_flange",
         "parameters.stand.arc",
         (hardware.link_thickness + 2 * hardware.boss_height, "parameters.hardware.pin_diameter"),
+        opposite=far,
     )

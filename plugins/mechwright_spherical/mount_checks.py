@@ -5,12 +5,20 @@ from collections.abc import Iterator
 
 from mechwright import DesignError, Finding
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_spherical.frame import AIR, frame_of, shells_of
+from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, motor_opposite, shells_of
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.mount import EDGE, hubs_of, shaft_end, sizes, thread_of
+from mechwright_spherical.mount import (
+    EDGE,
+    bracket_of,
+    flange_level,
+    hubs_of,
+    least_height,
+    shaft_end,
+    sizes,
+    thread_of,
+)
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import link_arcs
-from mechwright_spherical.shells import RISE
 from mechwright_spherical.stand import flange_diameter
 
 THREAD = 1.5
@@ -22,13 +30,13 @@ def mount_findings(params: SphericalParams) -> Iterator[Finding]:
     side = params.stand.motor_flange
     if side is None:
         return
-    if frame_of(params).bridge is not None:
+    if params.kind == "five-bar" and not params.drive.gears:
         yield Finding.error(
             "spherical.mount",
-            "stand.motor_flange",
-            "the input's shaft ends inside the links, where no motor goes",
-            remedy='leave it out, or with other arcs set hardware.frame = "one"',
-            proposed=({"parameters.stand.motor_flange": None},),
+            "drive.gears",
+            "without its bevel drive a five-bar has two inputs, and a motor's flange is for one",
+            remedy="set it to true, or leave the flange out",
+            proposed=({"parameters.drive.gears": True}, {"parameters.stand.motor_flange": None}),
         )
         return
     diameter = params.hardware.pin_diameter
@@ -57,6 +65,7 @@ def mount_findings(params: SphericalParams) -> Iterator[Finding]:
             remedy="take thicker links",
         )
         return
+    yield from _through(params)
     yield from _room(params, side)
 
 
@@ -90,16 +99,57 @@ def _threads(params: SphericalParams) -> Iterator[Finding]:
         )
 
 
+def _through(params: SphericalParams) -> Iterator[Finding]:
+    """Whether a shaft can go through the centre to a motor: no link, nor the bridge, passes its far end."""
+    bridge = frame_of(params).bridge
+    if bridge is None:
+        return
+    shells, hardware = shells_of(params), params.hardware
+    rooms = bridge_rooms(params, linkage_of(params), shells, math.pi, hardware.pin_diameter)
+    air = {name: float(room.min()) for name, room in rooms.items()}
+    beside = 2 * shells.links["ground-2"][0] * math.sin((math.pi - bridge) / 2)
+    air["bridge"] = beside - (hardware.boss_diameter + hardware.pin_diameter) / 2
+    name = min(air, key=air.__getitem__)
+    if falls_short(air[name], AIR):
+        yield Finding.error(
+            "spherical.mount",
+            "stand.motor_flange",
+            "the input's shaft ends inside the links, and cannot go on through the centre: at its far end "
+            f"the {name} {'would run into it' if air[name] < 0 else 'comes too near'}",
+            air[name],
+            AIR,
+            "mm",
+            "leave the flange out, or take shorter arcs of input, coupler or output",
+            proposed=({"parameters.stand.motor_flange": None},),
+        )
+
+
 def _room(params: SphericalParams, side: float) -> Iterator[Finding]:
     """Flange against post and output, all seen from the centre."""
+    far = motor_opposite(params)
     shells, stand = shells_of(params), params.stand
     hubs = hubs_of(params)
-    half, level = side / 2 + EDGE, shells.outside + RISE
+    half, level = side / 2 + EDGE, flange_level(params)
+    least_post = least_height(params)
+    if falls_short(stand.height, least_post):
+        yield Finding.error(
+            "spherical.mount",
+            "stand.height",
+            "the arc over the bevel gears, which carries the motor, does not fit below the post's flange",
+            stand.height,
+            least_post,
+            "mm",
+            f"make it {least_post:g}",
+            proposed=({"parameters.stand.height": float(least_post)},),
+        )
+        return
     flange = math.atan2(half, level)
     wide = max(hubs["b0"].diameter, params.hardware.boss_diameter)
     beside = math.atan2(wide / 2 + AIR, shells.links["ground"][0])
     arc = link_arcs(linkage_of(params))["ground"]
-    if exceeds(flange + beside, arc):
+    arc = math.pi - arc if far else arc
+    # Over the gears the flange is farther out than the output's hub.
+    if bracket_of(params) is None and exceeds(flange + beside, arc):
         most = 2 * (level * math.tan(max(arc - beside, 0.0)) - EDGE)
         yield _too_wide(side, most, "the hub of the output")
         return
@@ -112,8 +162,9 @@ def _room(params: SphericalParams, side: float) -> Iterator[Finding]:
     )
     reach = shaft_end(params, "a0")
     needed = max(flange, math.atan2(half, reach)) + post
-    if exceeds(needed, math.radians(stand.arc)):
-        least = math.ceil(math.degrees(needed))
+    tilt = 180.0 - stand.arc if far else stand.arc
+    if exceeds(needed, math.radians(tilt)):
+        least = math.floor(180 - math.degrees(needed)) if far else math.ceil(math.degrees(needed))
         yield Finding.error(
             "spherical.mount",
             "stand.arc",

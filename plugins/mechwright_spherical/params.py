@@ -373,8 +373,6 @@ class SphericalParams(Parameters):
             raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
         if self.kind == "five-bar" and self.hardware.frame == "two":
             raise ValueError('hardware.frame = "two" is for a four-bar; leave it out with a five-bar')
-        if self.kind == "five-bar" and self.stand.motor_flange is not None:
-            raise ValueError("stand.motor_flange is for a four-bar; leave it out with a five-bar")
         if self.path_tolerance is not None and not self._has_path:
             raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
         return self

@@ -15,6 +15,7 @@ from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
 from mechwright.contracts.finding import errors
+from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
@@ -23,7 +24,29 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, machine, second_setup
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
+_REAMED = {"aluminium": {"cutting_speed": 20, "chip_load": 0.03}}
+_DRILLED = {"aluminium": {"cutting_speed": 70, "chip_load": 0.04}}
+MORE = LIBRARY.extended(
+    (
+        Tool(
+            name="reamer-6", number=91, kind="reamer", diameter=6, flutes=6, flute_length=20, cutting=_REAMED
+        ),
+        Tool(
+            name="thread-unc",
+            number=93,
+            kind="thread-mill",
+            diameter=4,
+            flutes=3,
+            flute_length=12,
+            neck_diameter=2.4,
+            cutting={"aluminium": {"cutting_speed": 130, "chip_load": 0.02}},
+        ),
+        Tool(name="drill-5.8", number=92, kind="drill", diameter=5.8, flute_length=30, cutting=_DRILLED),
+    )
+)
+"""The library, with what it does not have: a reamer, and the drill for it."""
 FOLDER = Path(__file__).parents[1] / "golden" / "operations"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 
@@ -75,6 +98,8 @@ FLUSH = {"stock": {"margin": 0}}
 """The plate is as large as its stock: nothing but the feature is cut."""
 
 CORE = Thread("m6", (0.0, 0.0), 6.0, 1.0, 5.0).core
+
+QUARTER = Thread("quarter", (0.0, 0.0), 6.35, 1.27, 3.0, inch="1/4-20 UNC")
 
 CASES: dict[str, Case] = {
     "face": Case(
@@ -175,6 +200,20 @@ CASES: dict[str, Case] = {
         ("core: bore", "core: finish", "m6: thread"),
         settings=FLUSH,
         details=(Thread("m6", (0.0, 0.0), 6.0, 1.0, 3.0),),
+    ),
+    "thread-left": Case(
+        (hole("core", 0, 0, CORE, 4),),
+        ("mill-3", "thread-m6"),
+        ("core: bore", "core: finish", "m6: thread"),
+        settings=FLUSH,
+        details=(Thread("m6", (0.0, 0.0), 6.0, 1.0, 3.0, left=True),),
+    ),
+    "thread-inch": Case(
+        (hole("core", 0, 0, QUARTER.core, 4),),
+        ("mill-3", "thread-m6", "thread-unc"),
+        ("core: bore", "core: finish", "quarter: thread"),
+        settings={**FLUSH, "climb": False},
+        details=(QUARTER,),
     ),
     "chamfer": Case(
         (Profile("window", rounded_box(20, 14, 5), "inside", 0, 3),),
@@ -281,6 +320,35 @@ CASES: dict[str, Case] = {
         ("recess: rough", "recess: finish"),
         settings={**FLUSH, "climb": False, "spring_passes": 0, "stock_to_leave": 0.5},
     ),
+    "ream": Case(
+        (
+            Bore("pin", (-10.0, 0.0), 6.006, 0, 4, fit=hole_fit(6, "H7")),
+            Bore("dowel", (10.0, 0.0), 6.006, 0, 4, fit=hole_fit(6, "H7")),
+        ),
+        ("spot-6", "drill-5.8", "reamer-6"),
+        ("spot drill", "drill 5.8", "pin: ream", "dowel: ream"),
+        settings=FLUSH,
+    ),
+    "ream-milled": Case(
+        (Bore("pin", (0.0, 0.0), 6.006, 0, 4, fit=hole_fit(6, "H7")),),
+        ("mill-4", "reamer-6"),
+        ("pin: bore", "pin: bore for the reamer", "pin: ream"),
+        settings=FLUSH,
+    ),
+    "inches": Case(
+        (hole("bore", -12, 0, 8, 4), Profile("window", rounded_box(16, 14, 4), "inside", 0, 4)),
+        ("spot-6", "drill-5", "mill-6"),
+        (
+            "spot drill",
+            "drill 5",
+            "bore: bore",
+            "bore: finish",
+            "window: rough",
+            "window: finish",
+        ),
+        settings={**FLUSH, "post": {"units": "inch"}},
+        says="G17 G20 G40",
+    ),
     "second-side": Case(
         (hole("bore", 0, 0, 10, 6), hole("counterbore", 0, 0, 16, 3, top=3)),
         ("mill-6",),
@@ -299,7 +367,8 @@ def made(operation: str, control: str) -> tuple[Machined, ...]:
     case, post = CASES[operation], host().get(Control, control)
     plain = {"control": control, "tools": case.tools, "floor_to_leave": 0}
     cam = CamSettings.model_validate({**plain, **case.settings})
-    jobs, found = lay_out_setups(case.part(operation), cam, LIBRARY)
+    post = post.speaking(cam.post.units or "mm")
+    jobs, found = lay_out_setups(case.part(operation), cam, MORE)
     if errors(found):
         raise AssertionError(f"{operation}: {errors(found)[0]}")
     done: list[Machined] = []

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from block_mutants import faults, kinds, wrong
 from by_control import BY_NAME, prove, read
-from mutants import differences, trace
+from mutant_traces import differences, trace
 
 from mechwright.errors import ProgramError
 

@@ -110,7 +110,7 @@ def test_its_own_words_are_written_read_and_advised() -> None:
     assert one.proof.ok
     sheet, _ = pages(one, control)
     assert "T24 M6, G54, G43 H24 (LENGTH), then G0 Z50" in sheet
-    with pytest.raises(ProgramError, match=r"^line \d+: M5 is no code that Own is known to read"):
+    with pytest.raises(ProgramError, match=r"^line \d+: M5 is no code that is read in programs for Own"):
         prove(one.text.replace("M45", "M5"), one.job, control)
     still = prove(one.text.replace(" M2\n", "\n"), one.job, control).checks["spindle"]
     assert "write S and M2" in still.message

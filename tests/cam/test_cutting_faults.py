@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 from by_control import BY_NAME, prove
+from by_night import thinned
 from golden_operations import CONTROLS, made
 from test_mutations import deep
 
@@ -74,14 +75,14 @@ def refused(program: Program, one: Machined, control: str, check: str) -> Check:
     return found
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS))
 def test_a_thread_mill_needs_the_hole_of_its_thread(control: str) -> None:
     (one,) = made("thread", control)
     found = refused(changed(one.program, only("m6: thread")), one, control, "edges")
     assert "T45 (thread-m6) is fed into material with its neck of 3.15 mm" in found.message
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=1))
 def test_a_thread_mill_is_not_sunk_onto_the_rim_of_a_narrow_hole(control: str) -> None:
     """Its neck would pass, and its teeth do not cut downwards."""
     (one,) = made("thread", control)
@@ -96,7 +97,7 @@ def fitted(one: Machined, name: str, **figures: float) -> Machined:
     return replace(one, job=replace(one.job, tools=tools))
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=2))
 def test_a_chamfer_mill_does_not_cut_with_its_point(control: str) -> None:
     (one,) = made("chamfer", control)
     found = refused(changed(one.program, only("edge: chamfer")), one, control, "edges")
@@ -105,8 +106,7 @@ def test_a_chamfer_mill_does_not_cut_with_its_point(control: str) -> None:
     assert proof_of(changed(one.program, only("edge: chamfer")), engraver.job, control).checks["edges"].passed
 
 
-@pytest.mark.parametrize("control", CONTROLS)
-@pytest.mark.parametrize("operation", ["drill", "spot"])
+@pytest.mark.parametrize(("operation", "control"), thinned(3, ["drill", "spot"], CONTROLS))
 def test_a_drill_is_not_fed_sideways(operation: str, control: str) -> None:
     (one,) = made(operation, control)
     tool = one.program.sections[0].tool
@@ -118,8 +118,7 @@ def test_a_drill_is_not_fed_sideways(operation: str, control: str) -> None:
     )
 
 
-@pytest.mark.parametrize("control", CONTROLS)
-@pytest.mark.parametrize("degrees", [90.0, 45.0])
+@pytest.mark.parametrize(("degrees", "control"), thinned(3, [90.0, 45.0], CONTROLS))
 def test_a_mill_that_ramps_elsewhere_does_not_plunge_at_full_feed(degrees: float, control: str) -> None:
     (one,) = made("pocket-contour", control)
     section = one.program.sections[0]
@@ -137,13 +136,11 @@ def test_a_mill_that_ramps_elsewhere_does_not_plunge_at_full_feed(degrees: float
     assert proof_of(down(slow), one.job, control).ok
 
 
-@pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize(
-    ("operation", "name"), [("slot", "slot: rough"), ("profile-inside", "window: rough")]
+    ("cut", "control"), thinned(3, [("slot", "slot: rough"), ("profile-inside", "window: rough")], CONTROLS)
 )
-def test_a_full_slot_bears_its_chip_load_and_not_twice_and_a_half(
-    operation: str, name: str, control: str
-) -> None:
+def test_a_full_slot_bears_its_chip_load_and_not_twice_and_a_half(cut: tuple[str, str], control: str) -> None:
+    operation, name = cut
     (one,) = made(operation, control)
     found = refused(changed(one.program, fed(2.5, name)), one, control, "chips")
     assert "mm per tooth into aluminium, the tool library says" in found.message
@@ -161,7 +158,7 @@ def turned_round(program: Program, name: str) -> Program:
     )
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS))
 def test_finishing_before_roughing_takes_too_much(control: str) -> None:
     of, _ = deep()
     program = replace(plan(of), machine=of.settings.machine)
@@ -187,7 +184,7 @@ def test_a_deep_cut_may_be_narrow_and_a_wide_one_shallow() -> None:
     assert "takes 9.0 mm deep and 6.0 mm wide of aluminium, 5" in found.message
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=1))
 def test_finishing_the_wrong_way_round_is_told_and_refused_where_climb_is_asked_for(control: str) -> None:
     (one,) = made("conventional", control)
     program = one.program
@@ -234,13 +231,13 @@ def test_planning_keeps_to_the_ramp_that_a_tool_can_do() -> None:
     assert "T23 (mill-8) ramps into the stock at 1.6 degrees, the limit is 1, at " in found
 
 
-@pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize(
-    ("operation", "planned", "other"), [("profile-inside", 8, 6), ("tabs", 8, 6), ("slot", 6, 7)]
+    ("cut", "control"), thinned(3, [("profile-inside", 8, 6), ("tabs", 8, 6), ("slot", 6, 7)], CONTROLS)
 )
 def test_a_path_for_a_tool_of_another_diameter_is_called_so(
-    operation: str, planned: float, other: float, control: str
+    cut: tuple[str, float, float], control: str
 ) -> None:
+    operation, planned, other = cut
     (one,) = made(operation, control)
     wrong = fitted(one, f"mill-{planned}", diameter=float(other))
     proof = prove(one.text, wrong.job, BY_NAME[control])

@@ -330,24 +330,24 @@ def test_polylines_with_bulges_splines_ellipses_and_blocks(tmp_path: Path) -> No
     [
         (
             lambda space: space.add_line((0, 0), (5, 0)),
-            "a line ends, and no other line begins at X5.000 Y0.000",
+            "the contour is open at X5.000 Y0.000, where LINE",
         ),
-        (lambda space: (square(space), square(space, 30)), "two outlines lie side by side"),
-        (lambda space: (square(space), square(space, 10)), "two outlines cross each other"),
+        (lambda space: (square(space), square(space, 30)), "lies beside the outline; draw one plate"),
+        (lambda space: (square(space), space.add_circle((20, 10), 5)), "crosses the outline at X20.000 Y"),
         (
             lambda space: (square(space), space.add_circle((10, 10), 6), space.add_circle((10, 10), 3)),
-            "openings meet, or lie in each other",
+            "the circles of CIRCLE .* are of two holes about one axis",
         ),
         (
             lambda space: space.add_lwpolyline([(0, 0), (20, 20), (20, 0), (0, 20)], close=True),
-            "an outline crosses itself .*Self-intersection.* draw it as one simple loop",
+            "crosses itself at X10.000 Y10.000; draw it as one simple loop",
         ),
-        (lambda space: space.add_text("nothing"), "shows no closed outline"),
+        (lambda space: space.add_text("nothing"), "the drawing shows no curve"),
         (
             lambda space: [
                 space.add_line(a, b) for a, b in (((0, 0), (9, 0)), ((9, 0), (9, 9)), ((9, 0), (0, 9)))
             ],
-            "a line meets two others at X9.000 Y0.000",
+            "3 curves meet at X9.000 Y0.000",
         ),
     ],
 )

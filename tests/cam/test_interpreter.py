@@ -96,7 +96,7 @@ def test_states_follow_the_words() -> None:
     assert (cut.tool, cut.length_offset, cut.work_offset) == (3, 3, "G55")
     assert (cut.spindle, cut.rpm, cut.coolant) == (1, 900, "both")
     assert (after.spindle, after.coolant) == (0, "off")
-    assert cut.stated == {"units", "distance", "plane", "cutter compensation"}
+    assert cut.stated == {"units", "distance", "plane", "cutter compensation", "feed mode"}
 
 
 def test_a_tool_change_stops_the_spindle() -> None:
@@ -198,7 +198,7 @@ def test_a_dialect_changes_the_meaning() -> None:
     run = interpret(START + "G4 P500\nG2 X10 Y0 I5 J0 F9", milliseconds)
     assert run.seconds.sum() == 0.5
     assert run.centre[-1].tolist() == [5, 0]
-    with pytest.raises(ProgramError, match="other is known to read"):
+    with pytest.raises(ProgramError, match="is read in programs for other"):
         interpret("M6", replace(milliseconds, m_codes=frozenset()))
 
 

@@ -20,7 +20,7 @@ pytestmark = [by_night, pytest.mark.skipif(CHROMIUM is None, reason="no chromium
 
 def until(page, script):
     """Wait until a script says yes; the page's own policy lets no text be run in it."""
-    for _ in range(600):
+    for _ in range(4000):
         if page.evaluate(script):
             return
         page.wait_for_timeout(50)

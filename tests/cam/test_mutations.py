@@ -10,9 +10,10 @@ import golden_operations
 import numpy as np
 import pytest
 from by_control import BY_NAME, prove, read
-from by_night import NIGHT
+from by_night import NIGHT, thinned
 from golden_operations import SHARP
-from mutants import STATES, differences, mutant, trace
+from mutant_traces import differences, trace
+from mutants import STATES, mutant
 from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket
@@ -302,7 +303,7 @@ def cuts(rows: np.ndarray) -> np.ndarray:
     return rows[np.isin(rows[:, 0], (Kind.FEED, Kind.ARC))]
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", thinned(3, golden_operations.CONTROLS))
 def test_state_words_at_any_place_are_refused_or_change_no_cut(control: str) -> None:
     """By the reader, by a rule, or because the program states it itself before the next cut."""
     rng = np.random.default_rng(53)

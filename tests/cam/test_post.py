@@ -126,7 +126,10 @@ def test_tool_table_is_sorted_and_has_each_tool_once() -> None:
     name, text = POST.tool_table((MILL, SPOT, DRILL, MILL))
     assert name == "tool.tbl"
     assert text == (
-        "T1 P1 Z0 D6 ;spot-6 spot-drill\nT2 P2 Z0 D8 ;drill-8 drill\nT3 P3 Z0 D6 ;mill-6 end-mill\n"
+        ";units=mm\n"
+        "T1 P1 Z0 D6 ;spot-6 spot-drill flute_length=8 point_angle=90\n"
+        "T2 P2 Z0 D8 ;drill-8 drill flute_length=40\n"
+        "T3 P3 Z0 D6 ;mill-6 end-mill flute_length=12 flutes=3\n"
     )
 
 

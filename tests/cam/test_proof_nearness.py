@@ -112,11 +112,22 @@ def test_a_repeated_piece_counts_once_at_its_lowest(text: str) -> None:
 
 
 def test_rows_with_one_key_are_still_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arrays, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
+    monkeypatch.setattr(arrays, "_FACTORS", ())  # then the key of a row is the sum of its numbers
+    monkeypatch.setattr(arrays, "_SHIFTS", ())
     rows = np.array([[1, 2], [2, 1], [1, 2], [3, 0]])
     index, kind = arrays.first_of_each(rows)
     assert sorted(index.tolist()) == [0, 1, 3]
     assert rows[index][kind].tolist() == rows.tolist()
+
+
+def test_rows_on_a_lattice_have_keys_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = 1000 * np.stack(np.meshgrid(*[np.arange(8)] * 4), axis=-1).reshape(-1, 4)
+    calls = []
+    unique = np.unique
+    monkeypatch.setattr(np, "unique", lambda *args, **named: calls.append(named) or unique(*args, **named))
+    index, _ = arrays.first_of_each(rows)
+    assert index.size == len(rows)
+    assert not any("axis" in named for named in calls)  # rows are compared whole only if two have one key
 
 
 @settings(max_examples=40)

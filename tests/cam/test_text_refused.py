@@ -144,9 +144,11 @@ def test_old_line_ends_are_named() -> None:
 
 
 STATES = {
-    "G92 G92.1 G92.2 G92.3 G52 G44 G51 G51.1 G68 G16 G12.1 G93 G95 G96 G5 G5.2 G60 G31 G38.2 G33 G76 G65": (
+    "G92 G92.3 G52 G44 G51 G51.1 G68 G16 G12.1 G93 G95 G96 G5 G5.2 G60 G31 G38.2 G33 G76 G65": (
         "linuxcnc", "fanuc", "haas", "mach3", "grbl",
     ),
+    "G92.1": ("fanuc", "haas"),
+    "G92.2": ("fanuc", "haas", "mach3", "grbl"),
     "G43.2 G28.1 G30.1 G7 G8 M48 M50 M60 M61 M62 M64 M66 M70 M72 M73 M100": ("linuxcnc",),
     "G10.6 G43.1 G50.1 G66 G107 M97 M98 M99 M29 M61": ("fanuc", "haas"),
     "G59.3 G54.1 G154 G43 G41 G42 G81 G73 G98 M6 M19": ("grbl",),

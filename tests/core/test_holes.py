@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
-from mechwright.contracts.holes import CLEARANCE, COARSE, fitted, hole, joined, metric, threaded
+from mechwright.contracts.holes import CLEARANCE, fitted, hole, joined, threaded
 from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.contracts.threads import COARSE, UNIFIED, named
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 
@@ -25,16 +26,46 @@ def plate(diameter=6.0, thickness=8.0, at=(30.0, 30.0), machined=()):
 
 @pytest.mark.parametrize(("text", "found"), [("M6", (6, 1)), (" M8x1 ", (8, 1)), ("M2.5", (2.5, 0.45))])
 def test_designations(text, found):
-    assert metric(text) == found
+    assert (named(text).diameter, named(text).pitch) == found
+
+
+def test_unified_and_left_hand_threads():
+    quarter = named("1/4-20 UNC LH")
+    assert (quarter.diameter, quarter.left, quarter.inch) == (6.35, True, "1/4-20 UNC")
+    assert quarter.pitch == pytest.approx(1.27)
+    assert named("#10 - 32").inch == "#10-32 UNF"
+    assert named("M6 LH").left
+    assert not named("M6").left
+    # Sizes, and minor diameters D1 as ASME B1.1 has them, in inches.
+    assert [
+        round(named(f"{size}-{UNIFIED['UNC'][size]}").diameter / 25.4, 4) for size in ("#4", "#10", "3/8")
+    ] == [
+        0.112,
+        0.19,
+        0.375,
+    ]
+    drawn = threaded(plate(5.1, 8.0, (40.0, 30.0)), "bore-1", "1/4-20")
+    (thread,) = drawn.details
+    assert thread.designation == "1/4-20 UNC"
+    assert thread.core / 25.4 == pytest.approx(0.1959, abs=1e-4)
+    with pytest.raises(GeometryError, match=r"1/4-20 UNC is no thread for .* there is .*3/8-16 UNC"):
+        threaded(plate(8.5, 8.0, (40.0, 30.0)), "bore-1", "1/4-20")
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("6", "no metric thread; write M6"), ("M9", "no coarse pitch in ISO 261"), ("M6x4", "the pitch is 4")],
+    [
+        ("1/4-21", "no thread of ASME B1.1; there is 1/4-20 UNC and 1/4-28 UNF"),
+        ("1/4-20 UNF", "there is 1/4-20 UNC and 1/4-28 UNF"),
+        ("#3-48", "no such size"),
+        ("6", "no metric thread, and no unified one; write M6"),
+        ("M9", "no coarse pitch in ISO 261"),
+        ("M6x4", "the pitch is 4"),
+    ],
 )
 def test_designations_that_are_none(text, said):
     with pytest.raises(GeometryError, match=said):
-        metric(text)
+        named(text)
 
 
 @settings(deadline=None)

@@ -17,6 +17,7 @@ ON_DEMAND = (
     "mechwright.geometry.prepared",
     "mechwright.machine.frame.",
     "mechwright.machine.framed",
+    "mechwright.drawings",
 )
 """What only those import who use it, with what it needs."""
 

@@ -15,14 +15,17 @@ from mechwright.designs.requirement import load_requirement
 from mechwright.designs.schema import file_schema
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
+from mechwright.sweep.schema import study_schema
 
 Run = Callable[..., tuple[int, str, str]]
+STUDIES = sorted((Path(__file__).parents[2] / "examples").glob("*-study.toml"))
 EXAMPLES = [
     path
     for path in sorted((Path(__file__).parents[2] / "examples").glob("**/*.toml"))
-    if not path.stem.endswith("-study")  # no schema says what a study may hold
+    if not path.stem.endswith("-study")
 ]
-EXAMPLES = [path for path in EXAMPLES if "template" not in str(path) and path.stem != "pyproject"]
+OTHERS = ("template", "pyproject", "/shops/")  # shop files have a schema of their own
+EXAMPLES = [path for path in EXAMPLES if not any(other in path.as_posix() for other in OTHERS)]
 KNOWN = {
     *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "examples"),
     *("type", "properties", "required", "additionalProperties", "enum", "const", "pattern", "format"),
@@ -304,3 +307,39 @@ def test_a_requirement_file_has_its_own_schema(command_line: Run):
     assert text.startswith("#:schema ./four-bar-requirement.schema.json\n")
     schema = json.loads(command_line("schema", "four-bar", "--requirement")[1])
     assert (status, list(faults(tomllib.loads(text), schema, schema))) == (0, [])
+
+
+@cache
+def of_studies(family: str) -> dict[str, Any]:
+    """The schema of the studies of a family."""
+    return study_schema(host(), family)
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("one", [True, False], ids=["own", "all"])
+def test_studies_keep_to_their_schema(path: Path, one: bool) -> None:
+    content = tomllib.loads(path.read_text())
+    schema = of_studies(content["family"] if one else "")
+    assert list(ill_formed(schema, "")) == []
+    assert list(faults(content, schema, schema)) == []
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value"),
+    [
+        ("objectives", "swing", "most"),
+        ("constraints", "swing", {"above": 3}),
+        ("ranges", "crank", {"from": 20, "to": 45}),
+        ("ranges", "crank", 20),
+    ],
+)
+def test_what_no_study_may_hold_is_a_fault(table: str, key: str, value: Any) -> None:
+    content = tomllib.loads((STUDIES[0].parent / "four-bar-study.toml").read_text())
+    content["study"][table] = {key: value}
+    assert list(faults(content, of_studies("four-bar"), of_studies("four-bar")))
+
+
+def test_editors_are_offered_the_columns_and_parameters_of_the_family() -> None:
+    asked = of_studies("four-bar")["properties"]["study"]["properties"]
+    assert {"swing", "alpha_b_max"} <= set(asked["objectives"]["properties"])
+    assert "crank" in asked["ranges"]["properties"]

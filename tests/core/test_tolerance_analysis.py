@@ -177,7 +177,7 @@ def test_the_farthest_corner_of_a_point_is_that_of_a_search():
 @given(st.integers(1, 10**6), st.data())
 def test_the_interval_of_a_share_holds_it_and_lies_within_0_and_1(total, data):
     share = share_of(data.draw(st.integers(0, total)), total)
-    assert -1e-12 <= share.lower <= share.value <= share.upper <= max(1, 3 / total) + 1e-12
+    assert -1e-12 <= share.lower <= share.value <= share.upper <= 1 + 1e-12
 
 
 @given(st.integers(2, 500), st.data())

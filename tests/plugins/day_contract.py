@@ -14,9 +14,19 @@ class DayContract(FamilyContract):
 
     night: ClassVar[Mapping[str, Collection[int]]] = {}
     """Test to the places in ``examples`` that it takes by night only."""
+    compiles: ClassVar[bool] = False
+    """Whether many designs at once are evaluated by kernels that take longer to compile than to run: by day
+    ``test_plain_kernels.py`` runs them without the compiler."""
+
+    ci: ClassVar[Collection[str]] = ()
+    """Tests that CI runs besides the README's command."""
 
     @pytest.fixture(autouse=True)
     def _by_day(self, request):
+        if self.compiles and not NIGHT and request.function.__name__ == "test_evaluate":
+            pytest.skip("compiled by night, with MECHWRIGHT_NIGHT=1")
+        if request.function.__name__ in self.ci and not NIGHT:
+            pytest.skip("in CI besides, with MECHWRIGHT_NIGHT=1")
         waits = self.night.get(request.function.__name__, ())
         if waits and not NIGHT and self.examples.index(request.getfixturevalue("design")) in waits:
             pytest.skip("by night, with MECHWRIGHT_NIGHT=1")

@@ -74,4 +74,4 @@ def test_a_design_file_names_it_and_program_offsets_and_sheets_are_its_own(insta
     assert "has to take D as a" not in sheet
     assert f"D{int(number):03d} {float(radius):.3f}\n" in table
     assert "M108" in text
-    assert "M108 is no code that Fanuc is known to read" in done.stdout
+    assert "M108 is no code that is read in programs for Fanuc" in done.stdout

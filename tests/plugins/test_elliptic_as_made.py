@@ -9,7 +9,8 @@ from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.made_part import MadePart
-from mechwright_elliptic_gears.as_made import AGREEMENT, as_made, pairs_of
+from mechwright.mechanics.gearing.running import AGREEMENT
+from mechwright_elliptic_gears.as_made import as_made, pairs_of
 from mechwright_elliptic_gears.assembly import (
     OFF_CENTRE,
     jamming_backlash,

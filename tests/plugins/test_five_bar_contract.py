@@ -57,6 +57,10 @@ class TestFiveBars(DayContract):
         ("phi", "omega_b"),
         ("omega_b", "alpha_b"),
     )
+    studied = (
+        "crank", "coupler", "rocker", "arm", "ground", "arm_angle", "ground_angle", "coupler_point_x", "speed",
+        "thickness", "rim",
+    )  # fmt: skip
     input_rate = "omega_a"
     samples = 721
     max_examples = 30 if NIGHT else 3

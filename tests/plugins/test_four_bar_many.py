@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 from by_night import in_ci
+from many import Many
 
 from mechwright import Stage
-from mechwright.contracts import by_arrays
-from mechwright.contracts.evaluation import Batch, one_by_one
-from mechwright.testing.evaluation import assert_same
+from mechwright.contracts.evaluation import Batch
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 
 pytestmark = in_ci
 
 FAMILY = FourBars()
+MANY = Many(FAMILY)
 POINT = [
     f"{rate}{axis}P.{end}" for rate in ("", "v", "a", "j") for axis in "xy" for end in ("least", "greatest")
 ]
@@ -41,80 +41,52 @@ FIGURES = [
 ]  # fmt: skip
 
 
-def drawn(count, content, **ranges):
-    rng = np.random.default_rng(1)
-    varied = {
-        name: rng.choice(some, count) if isinstance(some, list) else rng.uniform(*some, count)
-        for name, some in ranges.items()
-    }
-    return Batch(FourBarParams, content, varied)
-
-
-@pytest.fixture
-def alone(monkeypatch):
-    """How many designs were asked one by one."""
-    count = []
-
-    def counted(judge, solve, batch, columns, stage):
-        count.extend(range(len(batch)))
-        return one_by_one(judge, solve, batch, columns, stage)
-
-    monkeypatch.setattr(by_arrays, "one_by_one", counted)
-    return count
-
-
-def same(batch, columns, stage):
-    found = FAMILY.evaluate(batch, columns, stage)
-    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, columns, stage))
-    return found
-
-
-def test_cranks_and_levers_of_both_branches(alone):
-    batch = drawn(
+def test_cranks_and_levers_of_both_branches():
+    batch = MANY.drawn(
         16, {"speed": 100, "bushing_wall": 0}, crank=(0, 100), coupler=(5, 150), follower=(5, 150),
         ground=(1, 150), ground_angle=(-300, 300), branch=["open", "crossed"], direction=["cw", "ccw"],
     )  # fmt: skip
-    found = same(batch, LINKS + FIGURES, Stage.PARTS)
+    found = MANY.same(batch, LINKS + FIGURES, Stage.PARTS)
     assert {"four-bar.closure", "four-bar.bores", "parameters.crank"} & set(found.counts)
-    assert not alone
+    assert not MANY.alone
 
 
-def test_accelerating_cranks_and_coupler_points(alone):
-    batch = drawn(
+def test_accelerating_cranks_and_coupler_points():
+    batch = MANY.drawn(
         12, {"acceleration_ratio": 0.1, "coupler_point_x": 20, "pivot_x": 5, "ground": 90},
         crank=(20, 50), coupler=(60, 120), follower=(40, 100), coupler_point_y=(-40, 40),
     )  # fmt: skip
-    found = same(batch, POINT + LINKS + FIGURES, Stage.MOTION)
+    found = MANY.same(batch, POINT + LINKS + FIGURES, Stage.MOTION)
     assert "four-bar.acceleration" in found.counts
-    assert not alone
+    assert not MANY.alone
 
 
-def test_what_may_tear_is_asked_by_itself(alone):
-    batch = drawn(
+def test_what_may_tear_is_asked_by_itself():
+    batch = MANY.drawn(
         8, {"speed": 3000, "thickness": 2, "rim": 1, "load_torque": 100, "ground": 100},
         crank=(10, 30), coupler=(90, 110), follower=(70, 90), material=["pom", "steel"],
     )  # fmt: skip
-    found = same(batch, ["alpha_b_max"], Stage.PARTS)
+    found = MANY.same(batch, ["alpha_b_max"], Stage.PARTS)
     assert "four-bar.eye" in found.counts
-    assert alone
+    assert MANY.alone
 
 
-def test_forces_and_masses_are_those_of_each(alone):
-    batch = drawn(4, {"ground": 90}, crank=(15, 25), coupler=(80, 100))
-    same(batch, ["mass_coupler", "force_A.greatest", "xG.least", "alpha_b_max"], Stage.PARTS)
-    assert len(alone) == 4
+def test_forces_and_masses_are_those_of_each():
+    batch = MANY.drawn(4, {"ground": 90}, crank=(15, 25), coupler=(80, 100))
+    MANY.same(batch, ["mass_coupler", "force_A.greatest", "xG.least", "alpha_b_max"], Stage.PARTS)
+    assert MANY.alone == 4
 
 
 @pytest.mark.parametrize(
     "content", [{"frame": "one"}, {"coupler_bend": 3}, {"swing_from": 10, "swing_to": 50}]
 )
-def test_what_has_no_way_goes_one_by_one(content, alone):
-    same(drawn(3, content, crank=(15, 25)), ["alpha_b_max"], Stage.MOTION)
-    assert len(alone) == 3
+def test_what_has_no_way_goes_one_by_one(content):
+    MANY.same(MANY.drawn(3, content, crank=(15, 25)), ["alpha_b_max"], Stage.MOTION)
+    assert MANY.alone == 3
 
 
 def test_a_lever_turns_back_at_one_degree():
-    batch = drawn(50, {"ground": 110, "coupler": 60, "follower": 75}, crank=(60, 90))
+    batch = MANY.drawn(50, {"ground": 110, "coupler": 60, "follower": 75}, crank=(60, 90))
     found = FAMILY.evaluate(batch, ["least_transmission_angle"])
     assert (found.forbidden == 0).all()
     assert found.values["least_transmission_angle"] == pytest.approx(1.0, abs=1e-9)

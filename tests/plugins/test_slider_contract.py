@@ -10,6 +10,7 @@ from mechwright_slider_crank.family import SliderCrankFamily
 
 class TestSliderCrank(DayContract):
     family = SliderCrankFamily
+    compiles = True
     night: ClassVar = {
         # The plates of the defaults are machined from an example.
         "test_programs_are_proven": {0, 2, 3},

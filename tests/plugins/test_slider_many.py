@@ -3,21 +3,20 @@
 import numpy as np
 import pytest
 from by_night import in_ci
+from many import Many
 
 from mechwright import Stage
 from mechwright.contracts import by_arrays
-from mechwright.contracts.evaluation import Batch, one_by_one
-from mechwright.testing.evaluation import assert_same
 from mechwright_slider_crank.bounds import bears
 from mechwright_slider_crank.evaluation import moved
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.rooms import bounds_of, decided, measure
 from mechwright_slider_crank.sizes import filled_in
 
 pytestmark = in_ci
 
 FAMILY = SliderCrankFamily()
+MANY = Many(FAMILY)
 ENDS = ("least", "greatest")
 POINT = [f"{rate}{axis}P.{end}" for rate in ("", "v", "a", "j") for axis in "xy" for end in ENDS]
 SLIDER = [
@@ -32,79 +31,51 @@ FIGURES = [
 ]  # fmt: skip
 
 
-def drawn(count, content, **ranges):
-    rng = np.random.default_rng(1)
-    varied = {
-        name: rng.choice(some, count) if isinstance(some, list) else rng.uniform(*some, count)
-        for name, some in ranges.items()
-    }
-    return Batch(SliderCrankParams, content, varied)
-
-
-@pytest.fixture
-def alone(monkeypatch):
-    """How many designs were asked one by one."""
-    count = []
-
-    def counted(judge, solve, batch, columns, stage):
-        count.extend(range(len(batch)))
-        return one_by_one(judge, solve, batch, columns, stage)
-
-    monkeypatch.setattr(by_arrays, "one_by_one", counted)
-    return count
-
-
-def same(batch, columns, stage):
-    found = FAMILY.evaluate(batch, columns, stage)
-    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, columns, stage))
-    return found
-
-
-def test_layers_and_figures(alone):
-    found = same(
-        drawn(14, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40)), SLIDER + FIGURES, Stage.PARTS
+def test_layers_and_figures():
+    found = MANY.same(
+        MANY.drawn(14, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40)), SLIDER + FIGURES, Stage.PARTS
     )
     assert "slider-crank.layers" in found.counts
-    assert not alone
+    assert not MANY.alone
 
 
-def test_levers_of_both_assemblies(alone):
-    batch = drawn(
+def test_levers_of_both_assemblies():
+    batch = MANY.drawn(
         14, {"slide_direction": 40}, crank=(10, 60), rod=(10, 60), offset=(-110, 110),
         assembly=["ahead", "behind"], clockwise=[True, False],
     )  # fmt: skip
-    found = same(batch, SLIDER + POINT + FIGURES, Stage.MOTION)
+    found = MANY.same(batch, SLIDER + POINT + FIGURES, Stage.MOTION)
     assert "slider-crank.closure" in found.counts
-    assert not alone
+    assert not MANY.alone
 
 
-def test_accelerating_cranks_and_sizes_that_are_given(alone):
-    batch = drawn(
+def test_accelerating_cranks_and_sizes_that_are_given():
+    batch = MANY.drawn(
         14, {"acceleration_ratio": 0.05, "coupler_x": 10}, crank=(8, 30), rod=(60, 150), pin=(2, 12), wall=(1, 5),
         rail=(2, 20), slider_length=(4, 40),
     )  # fmt: skip
-    found = same(batch, POINT + FIGURES, Stage.PARTS)
+    found = MANY.same(batch, POINT + FIGURES, Stage.PARTS)
     assert {"slider-crank.crank-web", "slider-crank.rail-web"} & set(found.counts)
-    assert not alone
+    assert not MANY.alone
 
 
-def test_what_may_tear_is_asked_by_itself(alone):
-    batch = drawn(
+def test_what_may_tear_is_asked_by_itself():
+    batch = MANY.drawn(
         6, {"load": 20000, "thickness": 2}, crank=(15, 30), rod=(120, 200), material=["pom", "steel"]
     )
-    found = same(batch, ["a_max"], Stage.PARTS)
+    found = MANY.same(batch, ["a_max"], Stage.PARTS)
     assert "slider-crank.eye" in found.counts
-    assert alone
+    assert MANY.alone
 
 
 @pytest.mark.parametrize("content", [{"crank_shape": "arm"}, {"rod_bend": 3}, {"screw_hole": 5}])
-def test_what_has_no_way_goes_one_by_one(content, alone):
-    same(drawn(2, content, crank=(15, 25)), ["a_max"], Stage.MOTION)
-    assert len(alone) == 2
+def test_what_has_no_way_goes_one_by_one(content):
+    MANY.same(MANY.drawn(2, content, crank=(15, 25)), ["a_max"], Stage.MOTION)
+    assert MANY.alone == 2
 
 
 def testbounds_of_of_rooms_hold_the_rooms_and_leave_few_open():
-    batch = drawn(400, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
+    batch = MANY.drawn(400, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
     designs = by_arrays.Designs(batch.common, batch.varied)
     many = moved(by_arrays.Answer(400), designs)
     blocked, free = bounds_of(designs, many, filled_in(designs.__getitem__), rods=True)
@@ -122,7 +93,7 @@ def testbounds_of_of_rooms_hold_the_rooms_and_leave_few_open():
 
 def test_an_unloaded_one_bears_for_sure_and_an_overloaded_one_does_not():
     for load, sure in ((0.0, True), (1e6, False)):
-        batch = drawn(5, {"load": load}, crank=(15, 25))
+        batch = MANY.drawn(5, {"load": load}, crank=(15, 25))
         designs = by_arrays.Designs(batch.common, batch.varied)
         many = moved(by_arrays.Answer(5), designs)
         assert (bears(designs, many, filled_in(designs.__getitem__)) == sure).all()

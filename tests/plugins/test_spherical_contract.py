@@ -14,6 +14,7 @@ FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 class TestSpherical(DayContract):
     family = Spherical
+    compiles = True
     night: ClassVar = {
         # The first has all bodies of a five-bar, in both phases; the last those of any four-bar.
         "test_programs_are_proven": {2},

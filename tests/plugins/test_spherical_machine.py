@@ -16,18 +16,24 @@ from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import design_of
 from mechwright.remedies import Limits, tried
+from mechwright_spherical.drive import train_of
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.frame import shells_of
-from mechwright_spherical.mount import hubs_of, shaft_end, shaft_form, sizes
+from mechwright_spherical.linkage import linkage_of
+from mechwright_spherical.mount import bracket_of, hubs_of, least_height, shaft_end, shaft_form, sizes
+from mechwright_spherical.mount_checks import mount_findings
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.places import gear_span
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 EXAMPLE = EXAMPLES / "spherical-machine.toml"
+DOUBLE = EXAMPLES / "spherical-double-crank-machine.toml"
+FIVE = EXAMPLES / "spherical-five-bar-machine.toml"
 FAMILY = Spherical()
 
 
-def content(machine=None, **tables):
-    found = tomllib.loads(EXAMPLE.read_text())
+def content(machine=None, example=EXAMPLE, **tables):
+    found = tomllib.loads(example.read_text())
     for name, table in tables.items():
         merged = found["parameters"].get(name, {}) | table
         found["parameters"][name] = {key: value for key, value in merged.items() if value is not None}
@@ -35,8 +41,8 @@ def content(machine=None, **tables):
     return found
 
 
-def design(machine=None, **tables):
-    return design_of(content(machine, **tables), Path("sphere.toml"), "", host())
+def design(machine=None, example=EXAMPLE, **tables):
+    return design_of(content(machine, example, **tables), Path("sphere.toml"), "", host())
 
 
 def places(found, name):
@@ -52,11 +58,12 @@ def places(found, name):
     ]
 
 
-def test_motor_coupling_and_pillars_stand_along_the_input_axis():
-    found = design()
+@pytest.mark.parametrize("example", [EXAMPLE, DOUBLE, pytest.param(FIVE, marks=by_night)])
+def test_motor_coupling_and_pillars_stand_along_the_input_axis(example):
+    found = design(example=example)
     assert errors(found.check()) == []
     flange, motion = found.family.mounting(found.params), found.solve(3)
-    axis = motion.poses["ground"].rotation[0][:, 0]
+    axis = motion.poses["ground"].rotation[0][:, 0] * (-1 if example is DOUBLE else 1)
     for name in ("motor", "coupling", "motor-plate"):
         ((origin, rotation),) = places(found, name)
         assert np.cross(origin, axis) == pytest.approx(np.zeros(3), abs=1e-9)
@@ -166,24 +173,82 @@ def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, table
         assert errors(found.changed(one.fix).check()) == []
 
 
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("spherical-double-crank", "the input's shaft ends inside the links"),
-        ("spherical-five-bar-projected", "the bevel drive of a five-bar"),
-    ],
-)
-def test_what_has_no_place_for_a_motor_is_refused_by_name(name, words):
+@pytest.mark.parametrize("name", ["spherical-double-crank", "spherical-five-bar-projected"])
+def test_what_has_no_place_for_a_motor_is_refused_with_the_flange_that_it_wants(name):
     table = tomllib.loads((EXAMPLES / f"{name}.toml").read_text()) | {"machine": {"frame": "base"}}
     (fault,) = errors(design_of(table, Path("sphere.toml"), "", host()).check())
     assert fault.code == "frame.mounting"
-    assert words in fault.message
-    assert fault.remedy
+    assert fault.parameter == "parameters.stand.motor_flange"
+    assert all(change["parameters.stand.motor_flange"] == 56 for change in fault.proposed)
 
 
-def test_a_flange_is_for_a_four_bar_with_room():
-    with pytest.raises(ValueError, match="motor_flange is for a four-bar"):
-        SphericalParams(stand={"motor_flange": 56})
+def test_the_shaft_of_a_double_crank_goes_through_the_centre_to_its_motor():
+    """Both bushes, the crank's boss and the coupling lie on one line; nothing that moves comes near it."""
+    found = design(example=DOUBLE)
+    params, shells = found.params, shells_of(found.params)
+    form, hub = shaft_form(params, shells, "a0"), hubs_of(params)["a0"]
+    start = -shells.links["crank"][1]
+    assert start + form.length == pytest.approx(shaft_end(params, "a0"))
+    (near, inner), (far, outer) = hub.bushes
+    assert -inner == shells.links["ground-2"][1]
+    assert near.length <= shells.links["ground-2"][1] - shells.links["ground-2"][0]
+    assert outer + far.length == pytest.approx(hub.span[1])
+    motion = found.solve(361)
+    axis = motion.poses["ground"].rotation[0][:, 0]
+    for name, arcs in {"crank": 60, "rocker": 70}.items():
+        turned = np.radians(np.linspace(0, arcs, 30))
+        along = np.array([np.cos(turned), np.sin(turned), 0 * turned])
+        cosines = np.einsum("nij,jk,i->nk", motion.poses[name].rotation, along, -axis)
+        room = shells.links[name][0] * np.sqrt(1 - np.maximum(cosines, 0) ** 2)
+        assert room[cosines > 0].min(initial=math.inf) > params.hardware.link_width / 2 + 3
+
+
+@pytest.mark.parametrize(("arcs", "what"), [((88, 153, 87, 27), "coupler"), ((28, 157, 91, 29), "bridge")])
+def test_a_shaft_that_something_would_meet_beyond_the_centre_is_refused(arcs, what):
+    table = dict(zip(("ground", "input", "coupler", "output"), arcs, strict=True))
+    stand = {"motor_flange": 56, "screw": 5.5, "arc": 90}
+    hardware = {"frame": "two", "link_thickness": 8}
+    params = SphericalParams(kind="four-bar", radius=60, four_bar=table, hardware=hardware, stand=stand)
+    (fault,) = [one for one in mount_findings(params) if "through the centre" in one.message]
+    assert f"the {what} would run into it" in fault.message
+    assert fault.proposed == ({"parameters.stand.motor_flange": None},)
+
+
+def test_an_arc_over_the_gears_carries_the_motor_of_a_five_bar():
+    found = design(example=FIVE)
+    params, shells = found.params, shells_of(found.params)
+    low, high = bracket_of(params)
+    train = train_of(linkage_of(params), params.drive)
+    assert low > gear_span(params, shells, train)[1]
+    hub = hubs_of(params)["a0"]
+    assert hub.bushes[0][1] == shells.links["ground"][0]
+    assert hub.span == (low, high + 12)
+    assert hubs_of(params)["b0"].ring is None
+    least = least_height(params)
+    faults = errors(design(example=FIVE, stand={"height": least - 1}).check())
+    assert [(one.code, one.parameter, one.limit) for one in faults] == [
+        ("spherical.mount", "stand.height", least)
+    ]
+    assert errors(design(example=FIVE, stand={"height": least}).check()) == []
+    (fault,) = errors(design(example=FIVE, drive={"gears": False}).check())
+    assert (fault.code, fault.parameter) == ("spherical.mount", "drive.gears")
+
+
+def test_of_several_outputs_each_is_proposed():
+    (fault,) = errors(design({"output": ""}, example=FIVE).check())
+    assert fault.parameter == "machine.output"
+    assert fault.proposed == ({"machine.output": "arm"}, {"machine.output": "idler"})
+
+
+def test_the_post_turns_away_from_a_motor_at_the_far_end():
+    (fault,) = errors(design(example=DOUBLE, stand={"arc": 140}).check())
+    assert (fault.code, fault.parameter) == ("frame.flange-tilt", "parameters.stand.arc")
+    assert fault.value == pytest.approx(140)
+    assert fault.limit < 140
+    assert errors(design(example=DOUBLE, stand={"arc": fault.limit}).check()) == []
+
+
+def test_a_flange_has_room():
     arcs = {"ground": 45, "input": 15, "coupler": 45, "output": 50}
     table = {"kind": "four-bar", "four_bar": arcs, "stand": {"motor_flange": 250, "arc": 100, "screw": 5.5}}
     (fault,) = [one for one in FAMILY.check(SphericalParams(**table)) if one.code == "spherical.mount"]
@@ -195,15 +260,16 @@ def test_a_flange_is_for_a_four_bar_with_room():
 
 
 @by_night
-def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(tmp_path):
+@pytest.mark.parametrize(("example", "bodies"), [(EXAMPLE, 55), (DOUBLE, 55), (FIVE, 64)])
+def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, bodies, tmp_path):
     import cadquery as cq
 
     folder = tmp_path / "out"
-    done = CliRunner().invoke(make_app(), ["build", str(EXAMPLE), "-o", str(folder)])
+    done = CliRunner().invoke(make_app(), ["build", str(example), "-o", str(folder)])
     assert done.exit_code == 0, done.output
     rows = csv.DictReader(io.StringIO((folder / "bill-of-materials.csv").read_text()))
     count = sum(float(row["qty"]) for row in rows if row["kind"] in {"made", "bought"})
     solids = cq.importers.importStep(str(folder / "assembly.step")).solids().vals()
-    assert len(solids) == count == 55
+    assert len(solids) == count == bodies
     assert all((folder / f"{plate}.nc").exists() for plate in ("base", "motor-plate", "base-plate"))
     assert all((folder / f"{name}.pdf").exists() for name in ("shaft-a0", "shaft-b0", "motor-pillar"))

@@ -1,5 +1,6 @@
 """Numbers as the page holds them: rounded, so that the file stays small and the same everywhere."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -23,22 +24,33 @@ DIGITS = 6
 
 def rounded(values: Array, decimals: int) -> list[Any]:
     """Nested lists of numbers, whole ones as integers, without a negative zero."""
-    return [_plain(item) for item in np.round(values, decimals).tolist()]
+    near = np.round(values, decimals)
+    flat: list[Any] = [int(value) if value.is_integer() else value for value in near.ravel().tolist()]
+    for width in near.shape[:0:-1]:
+        flat = [flat[i : i + width] for i in range(0, len(flat), width)]
+    return flat
 
 
 def hidden(values: Array, decimals: int) -> list[float | int | None]:
     """Numbers rounded to ``decimals``; what is not finite is None."""
-    return [_plain(value) if np.isfinite(value) else None for value in np.round(values, decimals).tolist()]
+    return [_plain(value) for value in np.round(values, decimals).tolist()]
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_plain(item) for item in value]
-    return int(value) if float(value).is_integer() else value
+def _plain(value: float) -> float | int | None:
+    if value.is_integer():
+        return int(value)
+    return value if math.isfinite(value) else None
 
 
 ROUNDED = 1e-9
 """Part of a channel's greatest value below which a value of it is the rounding of sums."""
+
+
+EXACT = 22
+"""Greatest power of ten that a float holds without an error."""
+
+MIDDLE = 1e-6
+"""Share of the last digit near the middle of two, where the error of a product could decide."""
 
 
 def significant(values: Array) -> list[float | int | None]:
@@ -50,7 +62,26 @@ def significant(values: Array) -> list[float | int | None]:
     finite = np.where(np.isfinite(values), values, 0.0)
     least = max(NOTHING, ROUNDED * float(np.abs(finite).max(initial=0.0)))
     shown = np.where(np.abs(values) < least, 0.0, values)
-    return [_plain(float(f"{value:.{DIGITS}g}")) if np.isfinite(value) else None for value in shown.tolist()]
+    return [_plain(value) for value in _to_digits(shown).tolist()]
+
+
+def _to_digits(values: Array) -> Array:
+    """Values (n,) to ``DIGITS`` significant digits: the number next to that decimal one.
+
+    A whole number over a power of ten is it, if both are held without an error. Where it is near the middle
+    of two, or so large or small that they are not, it is read from text.
+    """
+    size = np.abs(values)
+    usual = (size > 10.0 ** (DIGITS - 1 - EXACT)) & (size < 10.0 ** (DIGITS - 1))
+    power = 10.0 ** (DIGITS - 1 - np.floor(np.log10(np.where(usual, size, 1.0))))
+    scaled = np.where(usual, values, 0.0) * power
+    whole = np.rint(scaled)
+    usual &= (np.abs(whole) >= 10 ** (DIGITS - 1)) & (np.abs(whole) < 10**DIGITS)
+    usual &= np.abs(np.abs(scaled - whole) - 0.5) > MIDDLE
+    found: Array = np.where(usual, whole / power, values)
+    for i in np.flatnonzero(~usual & (values != 0) & np.isfinite(values)):
+        found[i] = float(f"{values[i]:.{DIGITS}g}")
+    return found
 
 
 def poses_of(poses: Poses, *, plane: bool) -> dict[str, Any]:

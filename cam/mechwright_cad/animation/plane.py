@@ -1,6 +1,7 @@
 """A mechanism whose bodies stay in parallel planes: their layers as paths, seen from above."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,9 @@ from mechwright_cad.interference.slabs import Slab, slabs_of
 
 LINE_CHORD = 0.02
 """Chord error of what is drawn, mm: a tenth of a line's width on the screen."""
+
+KEPT = 64
+"""Paths that are kept: two bodies may be of one part."""
 
 MARGIN = 0.04
 """Free border around the motion, as a share of its greater side."""
@@ -54,6 +58,7 @@ def _shadow(body: Body) -> list[Slab]:
     return [Slab(piece, bottom, top) for piece in shapely.get_parts(shape)]
 
 
+@lru_cache(KEPT)
 def path_of(polygon: shapely.Polygon) -> str:
     """The ``d`` of an SVG path: every loop of the polygon, mm, y upwards.
 

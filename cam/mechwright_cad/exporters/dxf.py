@@ -4,7 +4,9 @@ Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BOR
 ``OPENING`` all others, ``POCKET`` edges of recesses as far as they lie on the plate, ``CHAMFER`` where a
 broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal
 circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores and the centre
-lines of grooves, ``TEXT`` lines that say what it is.
+lines of grooves, ``TEXT`` lines that say what it is. Sizes that the plan view cannot show follow in the
+layer's name: ``BORE_H7``, ``POCKET_3.5``, ``THREAD_M6X1_12``; ``POCKET_3.5_OPEN`` closes its contour beyond
+the rim. ``mechwright.drawings`` reads them again.
 """
 
 import io
@@ -43,6 +45,7 @@ LAYERS = {
     "THREAD": (4, "CONTINUOUS", 18),
     "CENTRE": (1, "CENTER", 18),
     "TEXT": (8, "CONTINUOUS", 18),
+    "OPEN": (8, "CENTER", 18),
 }
 """Layer to colour index, line type and line weight in hundredths of a millimetre (ISO 128: 0.35 and 0.18)."""
 
@@ -66,7 +69,52 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
     said = [detail_note(detail, part.thickness) for detail in part.details]
     text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits, *said]
-    return drawing(part.outlines, "\n".join(text), curves, blind(part), part.axes, part.details)
+    fitted = [f for f in part.features if isinstance(f, Bore) and f.fit]
+    recesses = [f for f in blind(part) if not _in_outline(f, part.outlines)]
+    details = [(detail, detail_layer(detail, part.thickness)) for detail in part.details]
+    return drawing(part.outlines, "\n".join(text), curves, recesses, part.axes, details, fitted)
+
+
+def recess_layer(feature: Feature) -> str:
+    """The layer of a recess: its floor below the top face, where it begins, the fillet of its floor.
+
+    >>> recess_layer(Bore("hole", (0.0, 0.0), 6.0, 2.0, 3.0))
+    'POCKET_5_FROM_2'
+    """
+    fit = feature.fit.name if isinstance(feature, Bore) and feature.fit else ""
+    name = f"BORE_{fit}" if fit else "POCKET"
+    start = f"_FROM_{feature.top:g}" if feature.top > 0 else ""
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    return f"{name}_{feature.top + feature.depth:g}{start}" + (f"_R{radius:g}" if radius > 0 else "")
+
+
+def detail_layer(detail: Detail, thickness: float) -> str:
+    """The layer of a detail of a plate, with its sizes; a thread all through says no depth."""
+    match detail:
+        case Chamfer():
+            return f"CHAMFER_{detail.width:g}"
+        case Engraving():
+            return f"ENGRAVE_{detail.depth:g}_W{detail.width:g}"
+        case Thread():
+            deep = "" if detail.depth >= thickness - TOLERANCES.closure else f"_{detail.depth:g}"
+            return f"THREAD_{detail.designation.upper()}{deep}"
+
+
+def _in_outline(feature: Feature, outlines: Sequence[Outline]) -> bool:
+    """Whether the outline shows a feature: a hole that goes on through from the floor of a recess."""
+    return isinstance(feature, Bore) and any(
+        _is_bore(loop, feature) for outline in outlines for loop in outline.inner
+    )
+
+
+def _is_bore(loop: Loop, bore: Bore) -> bool:
+    arc = loop.segments[0]
+    return (
+        loop.is_circle
+        and isinstance(arc, Arc)
+        and math.dist(arc.centre, bore.centre) <= TOLERANCES.closure
+        and abs(2 * arc.radius - bore.diameter) <= TOLERANCES.closure
+    )
 
 
 def _note(feature: Feature) -> str:
@@ -85,30 +133,34 @@ def drawing(
     curves: Curves = "spline",
     recesses: Sequence[Feature] = (),
     axes: Sequence[Point] = ((0.0, 0.0),),
-    details: Sequence[Detail] = (),
+    details: Sequence[tuple[Detail, str]] = (),
+    fitted: Sequence[Bore] = (),
 ) -> bytes:
-    """The drawing of plates, of the recesses in them and of their details, with lines of text below."""
+    """The drawing of plates, of the recesses in them and of their details, with lines of text below.
+
+    Details come with their layers; ``fitted`` are bores to a fit, which have layers of their own.
+    """
     import shapely
 
     with fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         document.linetypes.add("CENTER", _CENTRE_LINE, description="Center ____ _ ____ _")
-        unused = DETAIL_LAYERS - {_LAYER_OF[type(detail)] for detail in details}
-        for name, (colour, linetype, weight) in LAYERS.items():
-            if name in unused:
-                continue
-            document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+        for name in LAYERS:
+            if name not in SIZED:
+                _layer(document, name)
         space = document.modelspace()
         for outline in outlines:
             _loop(space, outline.outer, "OUTLINE", curves)
             for loop in outline.inner:
-                _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
+                fits = [bore.fit.name for bore in fitted if bore.fit and _is_bore(loop, bore)]
+                layer = "BORE" if loop.is_circle else "OPENING"
+                _loop(space, loop, _layer(document, f"{layer}_{fits[0]}" if fits else layer), curves)
         plates = shapely.union_all([outline.polygon() for outline in outlines])
         for feature in recesses:
-            _recess(space, feature, plates, curves)
-        for detail in details:
-            _detail(space, detail, plates, curves)
+            _recess(space, feature, plates, _layer(document, recess_layer(feature)), curves)
+        for detail, name in details:
+            _detail(space, detail, plates, _layer(document, name), curves)
         inner = [loop for outline in outlines for loop in outline.inner]
         _centres(space, inner, [f for f in recesses if isinstance(f, Bore)], axes)
         return finished(document, plates.bounds, text)
@@ -128,7 +180,17 @@ def finished(document: "Drawing", box: tuple[float, float, float, float], text: 
     return stream.getvalue().encode(document.output_encoding)
 
 
-def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", curves: Curves) -> None:
+def _layer(document: "Drawing", name: str) -> str:
+    """The layer of this name, which looks as its first word has it; it is made where there is none."""
+    if not document.layers.has_entry(name):
+        colour, linetype, weight = LAYERS[OPEN if name.endswith(f"_{OPEN}") else name.partition("_")[0]]
+        document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+    return name
+
+
+def _recess(
+    space: "Modelspace", feature: Feature, plates: "shapely.Geometry", layer: str, curves: Curves
+) -> None:
     """The edges of a recess, cut off where it is open."""
     match feature:
         case Bore():
@@ -141,18 +203,27 @@ def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", c
         for segment in feature.path:
             _segment(space, segment, {"layer": "CENTRE"}, simple=curves != "spline")
     for loop in loops:
-        _on_plate(space, loop, plates, "POCKET", curves)
+        if not _on_plate(space, loop, plates, layer, curves):
+            beyond = _layer(space.doc, f"{layer}_OPEN")
+            _edges(space, stretches(loop, plates, outside=True), beyond, curves)
 
 
 def _on_plate(
     space: "Modelspace", loop: Loop, plates: "shapely.Geometry", layer: str, curves: Curves
-) -> None:
-    """A loop as far as it lies on the plates."""
-    attributes = {"layer": layer}
+) -> bool:
+    """A loop as far as it lies on the plates; gives whether all of it does."""
     edges = stretches(loop, plates)
-    if edges == list(loop.segments):
+    whole = edges == list(loop.segments)
+    if whole:
         _loop(space, loop, layer, curves)
-        return
+    else:
+        _edges(space, edges, layer, curves)
+    return whole
+
+
+def _edges(space: "Modelspace", edges: Sequence[Segment], layer: str, curves: Curves) -> None:
+    """Stretches of a loop."""
+    attributes = {"layer": layer}
     for edge in edges:
         if curves in ("spline", "spline3"):
             _segment(space, edge, attributes, simple=curves == "spline3")
@@ -165,16 +236,18 @@ def _on_plate(
         space.add_lwpolyline(rows, format="xyb", dxfattribs=attributes)
 
 
-_LAYER_OF: dict[type[Detail], str] = {Chamfer: "CHAMFER", Engraving: "ENGRAVE", Thread: "THREAD"}
-DETAIL_LAYERS = frozenset(_LAYER_OF.values())
-"""Layers of a drawing only where there is something on them."""
+OPEN = "OPEN"
+"""Last word of the layer on which the contour of a recess goes on beyond the plate, where it is open."""
+SIZED = frozenset({"POCKET", "CHAMFER", "ENGRAVE", "THREAD", OPEN})
+"""Layers that a drawing has only where there is something on them: their names go on with a size."""
 
 THREAD_ARC = (100.0, 10.0)
 """A thread's circle runs from here on counter-clockwise, degrees: three quarters of a turn (ISO 6410-1)."""
 
 
-def _detail(space: "Modelspace", detail: Detail, plates: "shapely.Geometry", curves: Curves) -> None:
-    layer = _LAYER_OF[type(detail)]
+def _detail(
+    space: "Modelspace", detail: Detail, plates: "shapely.Geometry", layer: str, curves: Curves
+) -> None:
     match detail:
         case Chamfer():
             for loop in chamfer_lines(detail):

@@ -38,7 +38,8 @@ def parts(design: Design) -> Answer:
         try:
             made = design.parts()
             # Solids take the CAD kernel: what has no plates that move is shown by its links.
-            answer["scene"] = scene(made if _seen(made, solved) else (), solved, solids=False)
+            shown = not design.family.moves or _seen(made, solved)
+            answer["scene"] = scene(made if shown else (), solved, solids=False)
         except MechwrightError as error:
             answer["unmade"] = str(error)
             answer["scene"] = scene((), solved, solids=False)

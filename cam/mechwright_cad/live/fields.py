@@ -5,6 +5,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
@@ -52,7 +53,7 @@ def _of_tables(
 def _of_model(
     model: type[BaseModel], value: BaseModel | None, where: str, content: Mapping[str, Any], *, first: bool
 ) -> Iterator[dict[str, Any]]:
-    schema = model.model_json_schema()
+    schema = model_schema(model)
     shared = schema.get("$defs", {})
     chosen = first_fields(model) if first else ()
     for name, field in model.model_fields.items():

@@ -10,6 +10,8 @@ from typing import Any
 from mechwright.contracts.part import check_name
 from mechwright.designs.change import rewritten
 from mechwright.designs.files import read_text
+from mechwright.designs.hints import schemas_of
+from mechwright.designs.inches import units_of, written
 from mechwright.errors import DesignError, OutputError
 from mechwright.output.folder import rewrite, write_new
 from mechwright.plugins.host import Host
@@ -84,7 +86,11 @@ class Following(ABC):
         return f"{target.name}: written"
 
     def _text(self, text: str, change: Change) -> str:
-        new = rewritten(text, change)
+        said = tomllib.loads(text)
+        own = "requirement" if "requirement" in said else "parameters"
+        units = units_of(said, self.path)
+        schemas = schemas_of(self.host, said, own) if units == "inch" else {}
+        new = rewritten(text, written(change, units, schemas))
         self.accept(tomllib.loads(new))
         return new
 

@@ -11,6 +11,7 @@ from mechwright.contracts.target import Target
 from mechwright.designs.change import changed, rewritten
 from mechwright.designs.design import design_of
 from mechwright.designs.files import read_toml
+from mechwright.designs.inches import units_of
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
@@ -60,7 +61,12 @@ class Wishing(Following):
         return requirement_of(self._content(change), self.path, asked.digest, self.host)
 
     def _content(self, change: Change) -> dict[str, Any]:
-        return changed(read_toml(self.path)[0], change)
+        content = read_toml(self.path)[0]
+        if units_of(content, self.path) == "inch":
+            raise DesignError(
+                f"{self.path}: units: pages ask in mm, and this file is in inches; use mechwright synthesize"
+            )
+        return changed(content, change)
 
     def described(self, change: Change) -> dict[str, Any]:
         """Names, digest and fields; a process for the first search gets ready meanwhile."""

@@ -231,7 +231,46 @@ class Tools(Command):
         tools.tools(design, library, as_json, export, force=force)
 
 
+class ShopFile(Command):
+    """``mechwright shop``."""
+
+    name = "shop"
+    order = 22
+
+    def run(
+        self,
+        output: Annotated[
+            Path | None,
+            typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
+        ] = None,
+        library: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE",
+                help="Take the tools of this library, of any format that `tools` reads.",
+                show_default=False,
+                autocompletion=tool_files,
+            ),
+        ] = None,
+        units: Annotated[str, typer.Option(metavar="UNIT", help="mm or inch.")] = "mm",
+        control: Annotated[
+            str,
+            typer.Option(metavar="NAME", help="Control of the mill.", autocompletion=completing.controls),
+        ] = "",
+        machine: Annotated[str, typer.Option(metavar="NAME", help="The mill, by name.")] = "bench-mill",
+        force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
+    ) -> None:
+        """Write a shop file to start from.
+
+        It has tools, mill, control, units and stock in hand. Name it in a design file: shop = "shop.toml".
+        Its tools take the place of the built-in ones.
+        """
+        from mechwright_cam.commands import shop_file
+
+        shop_file.shop_file(output, library, units, control, machine, force=force)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The commands that make and prove programs, and list tools."""
-    return [Cam, Verify, Tools]
+    """The commands that make and prove programs, list tools, and write a shop file."""
+    return [Cam, Verify, Tools, ShopFile]

@@ -12,25 +12,33 @@ from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.contracts.finding import errors
 from mechwright.designs.design import Design, load
+from mechwright.designs.inches import Units
 from mechwright.plugins.host import Host
 from mechwright_cam.commands.tools_table import doing, listing, unneeded_lines
 from mechwright_cam.machining import Machining
 from mechwright_cam.planning.prepare import library_of
 from mechwright_cam.planning.uses import Use, uses
 from mechwright_cam.shop.exporting import export
+from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.table import CamTable
+from mechwright_cam.shop.workshop_file import named_by, read_shop
 
 
 def tools(
     path: Path | None, library: Path | None, as_json: bool, target: Path | None = None, *, force: bool = False
 ) -> None:
     """List the cutters of a library, or of a design with what they do in it, and export them."""
-    crib, done = load_library(library), dict[str, list[Use]]()
+    done = dict[str, list[Use]]()
     if path is not None:
         host = open_host()
         design = _with(load(path, host), library)
-        crib, done = library_of(design), _done(design, host)
+        shop, crib, done = shop_of(design), library_of(design), _done(design, host)
+    else:
+        named = named_by()
+        shop = None if named is None else read_shop(named)
+        crib = load_library(library, None if shop is None else shop.library)
     if target is not None:
         files, lost = export(crib.tools, target, replace=force)
     needed = {use.tool.name for found in done.values() for use in found}
@@ -43,7 +51,8 @@ def tools(
             said |= {"files": [str(file) for file in files], "lost": lost}
         typer.echo(json.dumps(said, indent=2))
         return
-    lines = [*listing(crib.tools), *(f"note {line}" for line in crib.told)]
+    units: Units = "mm" if shop is None else shop.workshop.units
+    lines = [*listing(crib.tools, Lengths(units)), *(f"note {line}" for line in crib.told)]
     for name, found in done.items():
         lines += ["", *doing(name, found)]
     if path is not None:

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright_cam.planning.uses import Use
+from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 WIDTH = 80
@@ -12,16 +13,19 @@ TIE = "\a"
 """A blank at which no line ends."""
 HEAD = ("T", "name", "kind", "D", "end", "z", "flutes", "out", "holder", "of")
 LEGEND = (
-    "in mm: D diameter, end radius of the corner or angle of the point/its flat, flutes their length, out of "
-    "the holder, holder its diameter; z teeth, of what it is made"
+    "in {unit}: D diameter, end radius of the corner or angle of the point/its flat, flutes their length, "
+    "out of the holder, holder its diameter; z teeth, of what it is made"
 )
 LEFT = frozenset({"name", "kind", "of"})
 """Columns of words; those of figures stand on the right."""
 
 
-def listing(tools: Sequence[Tool]) -> list[str]:
-    """A line for each tool by T number, lengths in mm, and below it what each can cut."""
-    rows = [_row(tool) for tool in sorted(tools, key=lambda tool: tool.number)]
+MILLIMETRES = Lengths()
+
+
+def listing(tools: Sequence[Tool], to: Lengths = MILLIMETRES) -> list[str]:
+    """A line for each tool by T number, and below them what each is for and can cut."""
+    rows = [_row(tool, to) for tool in sorted(tools, key=lambda tool: tool.number)]
     widths = [max(len(cell) for cell in column) for column in zip(HEAD, *rows, strict=True)]
     named = HEAD.index("name")
     room = WIDTH - sum(widths) - 2 * (len(HEAD) - 1) + widths[named]
@@ -37,25 +41,33 @@ def listing(tools: Sequence[Tool]) -> list[str]:
             for name, cell, width in zip(HEAD, cells, widths, strict=True)
         )
         lines.append("  ".join(padded).rstrip())
-    return [*lines, "", *_wrapped(LEGEND), *_materials(tools)]
+    purposes = (f"T{tool.number} is for {tool.purpose}" for tool in tools if tool.purpose)
+    told = [line for purpose in purposes for line in _wrapped(purpose)]
+    return [
+        *lines,
+        "",
+        *_wrapped(LEGEND.format(unit="mm" if to.units == "mm" else "inches")),
+        *told,
+        *_materials(tools),
+    ]
 
 
-def _row(tool: Tool) -> tuple[str, ...]:
+def _row(tool: Tool, to: Lengths) -> tuple[str, ...]:
     pointed = tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER}
-    end = f"{tool.point_angle:g}°" if pointed else f"R{tool.nose:g}" if tool.nose else "flat"
+    end = f"{tool.point_angle:g}°" if pointed else f"R{to.plain(tool.nose)}" if tool.nose else "flat"
     if tool.tip_diameter:
-        end = f"{end}/{tool.tip_diameter:g}"
-    out = "-" if tool.stick_out is None else f"{tool.stick_out:g}"
+        end = f"{end}/{to.plain(tool.tip_diameter)}"
+    out = "-" if tool.stick_out is None else to.plain(tool.stick_out)
     return (
         str(tool.number),
         tool.name,
         tool.kind,
-        f"{tool.diameter:g}",
+        to.plain(tool.diameter),
         "-" if tool.kind is ToolKind.THREAD_MILL else end,
         str(tool.flutes),
-        f"{tool.flute_length:g}",
+        to.plain(tool.flute_length),
         out,
-        f"{tool.holder_diameter:g}",
+        to.plain(tool.holder_diameter),
         tool.substrate,
     )
 

@@ -169,7 +169,8 @@ def _reader(build: Build, name: str) -> Control:
     if not name:
         return build.made(Machining).control
     try:
-        return build.host.get(Control, name)
+        units = settings_of(build.design).cam.post.units
+        return build.host.get(Control, name).speaking(units or "mm")
     except PluginError:
         known = ", ".join(sorted(build.host.of(Control)))
         raise PluginError(f"--control: {name!r} is not known; one of: {known}") from None

@@ -1,16 +1,20 @@
 """The contract of a control: all that there is to know about one kind of machine control, in one class."""
 
 from abc import abstractmethod
+from copy import copy
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.contracts.plugin import Plugin
+from mechwright.designs.inches import FACTORS
 from mechwright_cam.controls.dialect import EXACT, Corners
 from mechwright_cam.controls.offsets import G54_TO_G59, OffsetTables, WorkOffsets
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from typing import Self
 
     from mechwright.contracts.finding import Finding
+    from mechwright.designs.inches import Units
     from mechwright_cam.controls.lookahead import Lookahead
     from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
@@ -46,6 +50,17 @@ class Control(Plugin):
     tolerances: ClassVar[tuple[float, ...]] = ()
     """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not
     say is written with the middle one."""
+
+    units: "Units" = "mm"
+    """Of the programs and tables that it writes, and of the words on its sheets; it reads both."""
+
+    def speaking(self, units: "Units") -> "Self":
+        """The same control with other units."""
+        if units == self.units:
+            return self
+        other = copy(self)
+        other.units = units
+        return other
 
     # -- programs -----------------------------------------------------------------------------------------
 
@@ -87,8 +102,18 @@ class Control(Plugin):
 
     @property
     def decimals(self) -> int:
-        """Decimals of a coordinate, mm, that the control keeps."""
+        """Decimals of a coordinate, in its units, that the control keeps."""
         return 4
+
+    @property
+    def scale(self) -> float:
+        """Length of its unit, mm."""
+        return FACTORS["mm"] if self.units == "inch" else 1.0
+
+    @property
+    def resolution(self) -> float:
+        """The last decimal of a coordinate, mm."""
+        return self.scale * 10.0**-self.decimals
 
     @property
     def corners(self) -> Corners:
@@ -148,7 +173,11 @@ class Control(Plugin):
 
     def retract_words(self, machine: "Machine") -> str:
         """What goes to the upper end of a machine."""
-        return f"G53 G0 Z{machine.retract_z:g}"
+        return f"G53 G0 Z{machine.retract_z / self.scale:.{self.decimals}g}"
+
+    def needs(self, settings: "CamSettings") -> "Sequence[str]":  # noqa: ARG002 - for controls that rely on settings
+        """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""
+        return ()
 
     def table_words(self, table: str) -> str:
         """What to do with the file of the tool table."""

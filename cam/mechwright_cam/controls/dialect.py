@@ -69,8 +69,8 @@ class Dialect:
     unsupported: tuple[tuple[int, str], ...] = ()
     """G codes in tenths that the control knows and this interpreter refuses, each with what to do instead."""
     inert: tuple[tuple[int, str], ...] = ()
-    """G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
-    letters that belong to it."""
+    """G codes in tenths that change no path (smoothing, S in rev/min, a cancel of what is refused anyway),
+    each with the letters that belong to it."""
     inert_with: frozenset[int] = frozenset()
     """Those of them that say nothing without the first of their letters, and are refused so."""
     inert_m: frozenset[int] = frozenset()
@@ -130,6 +130,8 @@ class Dialect:
     """Whether M6 stops the spindle."""
     change_stops_coolant: bool = False
     """Whether M6 may stop the coolant, so that it has to be stated anew."""
+    feed_mode_stays: bool = False
+    """Whether G95, feeds by revolution, may hold from an earlier program, so that G94 has to be stated."""
     ends_cycles: bool = False
     """Whether a drilling cycle has to be ended by G80, or a move, before G28 and G30."""
     percent_ends: bool = True
@@ -142,6 +144,8 @@ class Dialect:
     """Whether blanks and comments count for the length of a line."""
     decimals: int = 4
     """Decimals of a coordinate, mm, that the control keeps."""
+    decimals_inch: int = 5
+    """The same of a coordinate in inches."""
     point_needed: bool = False
     """Whether a length or feed without a decimal point would mean thousandths; it is refused then."""
     program_numbers: bool = False
@@ -165,6 +169,11 @@ class Dialect:
     """How far the control leaves the path between two moves."""
     name: str = "the control"
     """Name for messages; a control gives its own title."""
+
+    @property
+    def inert_g(self) -> frozenset[int]:
+        """G codes in tenths that change no path."""
+        return frozenset(code for code, _ in self.inert)
 
     @property
     def chord_slack(self) -> float:

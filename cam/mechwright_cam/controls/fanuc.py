@@ -25,13 +25,14 @@ class Fanuc(GcodeControl):
     dialect = Dialect(
         g_codes=MILLING | {541},
         unsupported=NOT_SIMULATED,
-        inert=((90, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
+        inert=((90, ""), (970, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
         inert_with=frozenset({51, 80}),
         m_codes=USUAL_M | {19},
         bare_dwell_unit=0.001,
         semicolon_comments=False,
         peck_clearance=1.0,
         decimals=3,
+        decimals_inch=4,
         point_needed=True,
         ascii_comments=True,
         capitals=True,
@@ -46,6 +47,7 @@ class Fanuc(GcodeControl):
         one_unit=True,
         change_stops_coolant=True,
         ends_cycles=True,
+        feed_mode_stays=True,
         whole_dwells=True,
         # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and
         # with Q2 or more it puts curves through the places of the program.
@@ -90,6 +92,15 @@ class Fanuc(GcodeControl):
         """The same, and the D offsets: geometry (L12) as planned, wear (L13) 0."""
         return self._offsets_file(tools, self.offsets.of_tools(tools, settings))
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Offsets that were typed in under the other units may be taken as they stand."""
+        if self.units == "mm":
+            return []
+        return [
+            "The offsets are typed in inches: whether those of metric jobs are converted, a parameter of the "
+            "machine says (5006, bit 0)."
+        ]
+
     def table_words(self, table: str) -> str:
         """What to do with the file of offsets."""
         return (
@@ -104,10 +115,18 @@ class Fanuc(GcodeControl):
         what = "TOOL LENGTHS, RUN ONCE"
         if offsets:
             what = f"TOOL LENGTHS, {offsets[0].quantity.upper()} IN D, RUN ONCE FOR NEW CUTTERS"
-        lines = ["%", f"O{OFFSETS_NUMBER:04d}", f"({what})", "G21 G90"]
+        lines = [
+            "%",
+            f"O{OFFSETS_NUMBER:04d}",
+            f"({what})",
+            f"{self.unit_word} G90",
+        ]
         for _, tool in sorted(measured.items()):
             lines += self.tool_words(tool)
+            if tool.wear_length:
+                lines.append(f"G10 L11 P{tool.number} R{self.length(tool.wear_length)}")
         for offset in sorted(offsets, key=lambda offset: offset.number):
             value = self.length(offset.planned)
-            lines += [f"G10 L12 P{offset.number} R{value}", f"G10 L13 P{offset.number} R0."]
+            lines.append(f"G10 L12 P{offset.number} R{value}")
+            lines.append(f"G10 L13 P{offset.number} R{self.length(offset.wear)}")
         return "tool-offsets.nc", "\n".join([*lines, self.m(30), "%"]) + "\n"

@@ -30,7 +30,7 @@ class GcodeControl(Sections):
             that it should set have not been measured.
         """
         self._check_program(program)
-        out = Writer(program, self.decimals, self.dialect.point_needed)
+        out = Writer(program, self.decimals, self.dialect.point_needed, self.scale)
         self.frame(out)
         self.head(out)
         self.safe_start(out)
@@ -94,7 +94,10 @@ class GcodeControl(Sections):
         self.comment(out, f"program {program.name}, {self.title}")
         for note in program.notes:
             self.comment(out, note)
-        self.comment(out, f"origin {program.work_offset}, Z0 on top of the stock, units mm and mm/min")
+        self.comment(
+            out,
+            f"origin {program.work_offset}, Z0 on top of the stock, units {self.units} and {self.units}/min",
+        )
         for tool in program.tools:
             self.comment(out, self.tool_note(tool))
         for offset in self.offsets.of_program(program):

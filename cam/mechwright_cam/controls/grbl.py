@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
 from mechwright_cam.shop.machine import Machine
@@ -32,7 +33,7 @@ class Grbl(GcodeControl):
     dialect = Dialect(
         g_codes=frozenset(
             {0, 10, 20, 30, 40, 100, 280, RETURN, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900}
-            | {910, 911, 540, 550, 560, 570, 580, 590, 610, 940}
+            | {910, 911, 540, 550, 560, 570, 580, 590, 610, 921, 940}
         ),
         m_codes=USUAL_M - {6},
         unsupported=(
@@ -63,7 +64,7 @@ class Grbl(GcodeControl):
     forbidden = "%$;" + _REALTIME
     highest_tool = 255
     by_hand = "files"
-    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+    modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:
         """A file for each change of tool, or the program with a stop for each."""
@@ -82,13 +83,27 @@ class Grbl(GcodeControl):
         return files
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
-        """Also: the retract must stay off the homing switch."""
+        """Also: the retract must stay off the homing switch, and mist is an option of the build."""
         found, height = list(super().check(settings)), settings.machine.retract_z
         if height >= 0:
             where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
             remedy = "retract below it, by more than the pull-off ($27), such as -2"
             found.append(Finding.warning("cam.retract", where, message, height, 0.0, "mm", remedy))
+        if settings.coolant == "mist":
+            message = "M7 is read by a Grbl built with ENABLE_M7 alone; others stop with error 20"
+            remedy = 'use coolant = "flood" (M8) or "off", if yours is not'
+            found.append(Finding("cam.coolant", Severity.NOTE, "cam.coolant", message, remedy=remedy))
         return found
+
+    def needs(self, settings: CamSettings) -> Sequence[str]:
+        """Homing, for machine coordinates, and a build with mist."""
+        said = [
+            "Home the machine first ($22=1, then $H): G53 goes to machine coordinates, which without homing "
+            "are those of where it was switched on."
+        ]
+        if settings.coolant == "mist":
+            said.append("Mist (M7) takes a Grbl that was built with ENABLE_M7; others stop with error 20.")
+        return said
 
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
         """A tool that is loaded at a stop has to have a known length."""
@@ -132,7 +147,7 @@ class Grbl(GcodeControl):
         if section.tool.length is None:
             out.line("G49")
         else:
-            out.line(self.offsets.length_word, "Z" + out.length(section.tool.length))
+            out.line(self.offsets.length_word, "Z" + out.length(section.tool.worn_length))
         out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
 
     def drill(self, out: Writer, hole: Drill) -> None:

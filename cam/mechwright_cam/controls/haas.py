@@ -9,6 +9,7 @@ from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import G54_TO_G59, HAAS_OFFSETS
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill
+from mechwright_cam.shop.settings import CamSettings
 
 
 class Haas(Fanuc):
@@ -22,12 +23,13 @@ class Haas(Fanuc):
     dialect = replace(
         Fanuc.dialect,
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},
-        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, "")),
+        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, ""), (970, "")),
         inert_with=frozenset(),
         inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,
         whole_dwells=False,
+        feed_mode_stays=False,  # M30 and RESET bring G94 back
         # Corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further.
         corners=Corners(looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),)),
     )
@@ -39,6 +41,11 @@ class Haas(Fanuc):
     def retract_lines(self, z: float) -> Sequence[str]:
         """To the upper end of travel, in machine coordinates."""
         return GcodeControl.retract_lines(self, z)
+
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """G20 and G21 do not switch the control: they have to agree with it."""
+        unit = "INCH" if self.units == "inch" else "MM"
+        return [f"Setting 9 has to be {unit}: {self.unit_word} only checks it, and offsets are shown in it."]
 
     def drill(self, out: Writer, hole: Drill) -> None:
         """Drill with a cycle, stated in full: an edited or restarted block then means what it says."""

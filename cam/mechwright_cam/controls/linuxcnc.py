@@ -1,7 +1,7 @@
 """LinuxCNC 2.9 and later, from its documents and sources."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Corners, Dialect
@@ -10,14 +10,20 @@ from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
-from mechwright_cam.controls.writing.text import comment_lines, number
+from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.shop.formats.linuxcnc import Row, table_text
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
 ROUGH = 0.02
 """Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing, and no program
 gets faster by more."""
+
+IN_INCHES = 6
+"""Decimals of a tolerance in inches: less would make it a third larger or smaller."""
+TABLE = "tool.tbl"
+"""Name of the tool table's file."""
 
 
 class LinuxCnc(GcodeControl):
@@ -44,8 +50,9 @@ class LinuxCnc(GcodeControl):
         both_coolants=False,
         mode_ends_feed=True,
         one_use_of_axes=True,
+        inert=((970, ""),),
         tables=frozenset({1, 2, 10, 11, 20}),
-        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911},
+        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},
         unsupported=(
             (RETURN, "retract with G53 G0 Z0 or G28"),
             (840, "tapping is not simulated"),
@@ -77,26 +84,26 @@ class LinuxCnc(GcodeControl):
 
     def rounding(self, tolerance: float) -> list[str]:
         """Rounding within P, and Q0: no lines are merged."""
-        return ["G64", "P" + number(tolerance), "Q0"] if tolerance > 0 else ["G61"]
+        digits = self.decimals if self.units == "mm" else IN_INCHES
+        word = "P" + number(floored(tolerance / self.scale, digits), digits)
+        return ["G64", word, "Q0"] if tolerance > 0 else ["G61"]
 
     def message(self, out: Writer, text: str) -> None:
         """Show a message on the control's screen."""
         for line in comment_lines(text):
             out.line(f"(MSG, {line})")
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Tables are in the units of the machine, whatever those of the program."""
+        inch = f"{TABLE} is in inches, for a machine with LINEAR_UNITS = inch in its INI file."
+        return [inch] if self.units == "inch" else []
+
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
-        """``tool.tbl``: pocket, length, diameter and name; a length not measured yet stands at 0."""
-        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
+        """``tool.tbl``: pocket, length, diameter and what it is; a length not measured yet stands at 0."""
+        each = {tool.number: tool for tool in tools}.values()
+        return TABLE, table_text((Row(tool.number, tool, tool.diameter) for tool in each), self.units)
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
-        return _table(self.offsets.rows(tools, settings))
-
-
-def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
-    return "tool.tbl", "".join(
-        f"T{place} P{place} Z{number(tool.length or 0.0)} D{number(value)} "
-        + " ".join(filter(None, (f";{tool.name} {tool.kind}", note)))
-        + "\n"
-        for place, (tool, value, note) in sorted(rows.items())
-    )
+        rows = self.offsets.rows(tools, settings)
+        return TABLE, table_text((Row(place, row[0], row[1]) for place, row in rows.items()), self.units)

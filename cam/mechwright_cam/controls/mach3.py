@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
-from mechwright_cam.controls.writing.text import number
+from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program
 from mechwright_cam.shop.settings import CamSettings
@@ -19,9 +19,10 @@ class Mach3(GcodeControl):
     name = "mach3"
     title = "Mach3"
     dialect = Dialect(
-        g_codes=MILLING | {901, 911},
+        g_codes=MILLING | {901, 911, 921},
         unsupported=NOT_SIMULATED,
-        inert=((500, ""), (690, "")),
+        inert=((500, ""), (690, ""), (970, "")),
+        feed_mode_stays=True,
         inert_m=frozenset({48, 49}),
         semicolon_comments=False,
         numbers_needed="H",
@@ -30,7 +31,7 @@ class Mach3(GcodeControl):
     )
     forbidden = "%;"
     highest_tool = 254
-    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+    modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def head(self, out: Writer) -> None:
         """Tell the setting that the program relies on, where it does."""
@@ -38,24 +39,29 @@ class Mach3(GcodeControl):
         if _waits(out.program):
             self.comment(out, "dwells are in seconds: G04 dwell in ms must be off")
 
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Its tool table is in the units that it was set up with."""
+        said = "The lengths in the table are in inches: so have to be the native units of the profile."
+        return [said] if self.units == "inch" else []
+
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
-        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
+        return self._table({tool.number: (tool, tool.diameter, "") for tool in tools})
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
-        return _table(self.offsets.rows(tools, settings))
+        return self._table(self.offsets.rows(tools, settings))
 
-
-def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(["tool", "description", "diameter", "height"])
-    for place, (tool, diameter, note) in sorted(rows.items()):
-        height = "" if tool.length is None else number(tool.length)
-        words = ", ".join(filter(None, (f"{tool.name} {tool.kind}", note)))
-        table.writerow([place, words, number(diameter), height])
-    return "mach3-tools.csv", text.getvalue()
+    def _table(self, rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
+        text = io.StringIO()
+        table = csv.writer(text, lineterminator="\n")
+        unit = "" if self.units == "mm" else " in"
+        table.writerow(["tool", "description", f"diameter{unit}", f"height{unit}"])
+        for place, (tool, diameter, note) in sorted(rows.items()):
+            height = "" if tool.length is None else self._said(tool.worn_length)
+            words = ", ".join(filter(None, (f"{tool.name} {tool.kind}", note)))
+            table.writerow([place, words, self._said(diameter), height])
+        return "mach3-tools.csv", text.getvalue()
 
 
 def _waits(program: Program) -> bool:

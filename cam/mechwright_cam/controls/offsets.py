@@ -32,6 +32,8 @@ class DOffset:
     quantity: Quantity
     planned: float
     limit: float
+    wear: float = 0.0
+    """What it has become since, of the same quantity, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,8 @@ class OffsetTables:
         """A table whose D are numbers of tools: to each number the tool, its diameter or D, and a note."""
         rows = {tool.number: (tool, tool.diameter, "") for tool in tools}
         return rows | {
-            d.number: (d.tool, d.planned, f"D of T{d.tool.number}") for d in self.of_tools(tools, cam)
+            d.number: (d.tool, d.planned + d.wear, f"D of T{d.tool.number}")
+            for d in self.of_tools(tools, cam)
         }
 
     def d_offset(self, tool: Tool, posting: Posting, compensation: Compensation, wear: float) -> DOffset:
@@ -83,7 +86,7 @@ class OffsetTables:
         quantity = posting.d_value if self.d == "setting" else self.d
         factor = 1 if quantity == "radius" else 2
         planned = 0.0 if compensation == "wear" else factor * tool.radius
-        return DOffset(tool.d_number, tool, quantity, planned, factor * wear)
+        return DOffset(tool.d_number, tool, quantity, planned, factor * wear, factor * tool.wear_diameter / 2)
 
 
 @dataclass(frozen=True)

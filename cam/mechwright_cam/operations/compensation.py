@@ -191,13 +191,15 @@ class CompensatedFinishing:
         good = ~shapely.contains_xy(self.near, x, y)
         largest = self._blocked[self.offsets.most]
         for d, blocked in self._blocked.items():
-            local = ways(shape.radius, shape.straight, sweep, d)
-            x, y = self._world(places, headings, local, out=out).reshape(-1, 2).T
-            free = shapely.contains_xy(self.air, x, y) & ~shapely.contains_xy(blocked, x, y)
+            left = np.flatnonzero(good)  # most places fail at the first question
+            local = ways(shape.radius, shape.straight, sweep[left], d)
+            x, y = self._world(places[left], headings[left], local, out=out).reshape(-1, 2).T
+            free = shapely.contains_xy(self.air, x, y)
+            free[free] = ~shapely.contains_xy(blocked, x[free], y[free])
             # What is not on the contour yet keeps off all other walls, however they are moved.
-            high = local[..., 1].ravel() > self.offsets.most + HEAVY
-            free &= ~(high & shapely.contains_xy(largest, x, y))
-            good &= free.reshape(len(places), -1).all(axis=1)
+            high = free & (local[..., 1].ravel() > self.offsets.most + HEAVY)
+            free[high] = ~shapely.contains_xy(largest, x[high], y[high])
+            good[left] = free.reshape(local.shape[:2]).all(axis=1)
         return np.asarray(good)
 
     def _tried(

@@ -12,9 +12,11 @@ from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.engrave import Engrave
 from mechwright_cam.operations.face import Face
 from mechwright_cam.operations.groove import Groove
+from mechwright_cam.operations.ream import Ream
 from mechwright_cam.operations.thread import ThreadOperation
 
 BUILT_IN: tuple[Operation, ...] = (
+    Ream(),
     BoreOperation(),
     Groove(),
     Face(),

@@ -17,12 +17,14 @@ from mechwright_cam.shop.tool import ToolKind
 
 AROUND = 0.1
 """Air all round a thread mill in its hole, mm."""
+NECK_AIR = 0.02
+"""Air between a thread mill's neck and the core, mm: the proof lets the neck touch nothing."""
 CORE_PLAY = 0.25
 """By how much, in pitches, a hole may miss the core diameter of its thread: ISO 965's tolerance, roughly."""
 
 
 class ThreadOperation(DetailOperation):
-    """Mills a right-hand thread."""
+    """Mills a thread, right-hand or left-hand."""
 
     name = "thread"
     detail = Thread
@@ -40,24 +42,27 @@ class ThreadOperation(DetailOperation):
                 f"mm that is {detail.depth:g} mm deep; draw one"
             )
         for tool in job.tools_of(ToolKind.THREAD_MILL):
-            if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
+            necked = detail.diameter / 2 - tool.radius + tool.hollow <= hole.diameter / 2 - NECK_AIR
+            fits = tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth
+            if fits and necked:
                 write = partial(_turns, detail=detail, climb=job.settings.climb)
                 return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)
         raise ToolError(
             f"cam.tools: no thread mill cuts {detail.name} of part {job.part.name}; list one of at most "
-            f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm"
+            f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm, with teeth of at least "
+            f"{detail.diameter / 2 - hole.diameter / 2 + NECK_AIR:.2f} mm beside its neck"
         )
 
 
 def _turns(pen: Pen, detail: Thread, climb: bool) -> None:
-    """A right-hand helix: upwards counter-clockwise to climb, downwards clockwise against it."""
+    """A helix: counter-clockwise to climb, and then a right-hand one upwards, a left-hand one downwards."""
     radius = detail.diameter / 2 - pen.tool.radius
     turn = round_from_right(printed(detail.centre), radius, climb)
     lead_in, lead_out = half_circles(detail.centre, turn)
     turns = math.ceil(detail.depth / detail.pitch) + 1
     bottom = -detail.depth
     heights = [bottom + number * detail.pitch for number in range(turns + 1)]
-    if not climb:
+    if climb == detail.left:
         heights.reverse()
     feed = pen.rates.inside(radius, pen.tool.radius)
     pen.above(detail.centre)

@@ -67,12 +67,13 @@ class _Planner:
         else:
             sections = self._sections(inner | outer)
         drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
+        reamers = any(step.tool.kind is ToolKind.REAMER for step in self.steps)
         return Program(
             job.part.name,
             job.settings.work_offset,
             self.clearance,
             _merged(sections),
-            notes(self.job, drills, self._through_with_round_ends()),
+            notes(self.job, drills, self._through_with_round_ends(), reamers=reamers),
             compensation=job.settings.compensation,
             wear_limit=job.settings.wear_limit,
         )

@@ -8,15 +8,21 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, err
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.in_hand import from_hand
 from mechwright_cam.planning.nesting import arranged
+from mechwright_cam.planning.remarks import judged_together
 from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.planning.to_buy import to_buy
+from mechwright_cam.planning.uses import uses
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.setup.measured import check_measured
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.table import settings_of
 
 
@@ -46,7 +52,8 @@ def cut_plates(
 def library_of(design: Design) -> Library:
     """The cutters at hand; the name of one that is none of them is a mistake in the file."""
     settings = settings_of(design)
-    library = load_library(settings.tool_library)
+    shop = shop_of(design)
+    library = load_library(settings.tool_library, None if shop is None else shop.library)
     tables = {"cam": settings.cam, **{f"cam.part.{name}": cam for name, cam in settings.parts.items()}}
     for where, cam in tables.items():
         named = {"tools": cam.tools, "cutting": cam.cutting, "measured.lengths": cam.measured.lengths}
@@ -67,7 +74,7 @@ def prepare(
     each part, with one more where the underside is milled as well; fewer if a finding is an error.
     """
     assignments = assignments or Assignments()
-    library = library_of(design)
+    library, shop = library_of(design), shop_of(design)
     cut = cut_plates(design, parts, library, assignments)
     findings: list[Finding] = [*_incomplete(library, design)]
     jobs: list[Job] = []
@@ -75,16 +82,48 @@ def prepare(
         cam = settings_of(design).of(part.name)
         own = library.cutting(cam.cutting).measured(cam.measured.lengths)
         laid, found = lay_out_setups(part, cam, own, assignments)
+        if shop is not None and laid and not errors(found):
+            blank, more = from_hand(laid[0], shop, design)
+            if blank is not None:
+                cam = cam.model_copy(update={"stock": blank})
+                laid, found = lay_out_setups(part, cam, own, assignments)
+            found += more
         found += [finding for job in laid for finding in check_machine(job)]
+        if shop is not None and errors(found):
+            buy = to_buy(part, cam, own, assignments, shop)
+            found += [] if buy is None else [buy]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
-    findings += check_measured(jobs)
+    findings += [*check_measured(jobs), *dict.fromkeys(worn(jobs))]
     tops = [job for job in jobs if job.side == "top"]
     if len(tops) == len(cut):
+        findings = judged_together(findings, _used(jobs, assignments))
         findings += _as_cut(design, tops, assignments)
         findings += _unused_data(design, jobs)
     return at_stage(Stage.MACHINING, findings), jobs
+
+
+def worn(jobs: Sequence[Job]) -> Iterator[Finding]:
+    """What the wear of finishing mills is to a job: within D's limits, or with no place at all."""
+    for job in jobs:
+        cam = job.settings
+        for tool in job.end_mills:
+            off = abs(tool.wear_diameter) / 2
+            if cam.compensation == "computer" and off > TOLERANCES.leftover:
+                message = f"{tool.name} is worn by {off:g} mm as a radius, and paths are those of a new one"
+                remedy = 'use cam.compensation = "wear", and D allows for it'
+                yield Finding("cam.wear", Severity.NOTE, "cam.compensation", message, remedy=remedy)
+            elif cam.compensation != "computer" and off > cam.wear_limit:
+                message = f"the wear of {tool.name} is beyond what D may differ by, as a radius"
+                remedy = "raise wear_limit, or put in a new cutter"
+                where = "cam.wear_limit"
+                yield Finding.error("cam.wear", where, message, off, cam.wear_limit, "mm", remedy)
+
+
+def _used(jobs: Sequence[Job], assignments: Assignments) -> set[str]:
+    """Names of the tools that do something in some job."""
+    return {use.tool.name for job in jobs for use in uses(job, assignments.of(job))}
 
 
 def _incomplete(library: Library, design: Design) -> Iterator[Finding]:

@@ -1,7 +1,7 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 
 from mechwright.contracts.finding import Change, Finding, Severity
@@ -99,11 +99,28 @@ def _idling(job: Job, mill: Tool) -> Finding:
         why = f"its flutes are too short for what others cut, {mill.flute_length:g} mm"
     else:
         why = "the others reach as far"
-    return _unused(f"{mill.name} has nothing to do in {job.part.name}: {why}", "take it out of cam.tools")
+    return _unused(mill, f"has nothing to do in {job.part.name}: {why}", "take it out of cam.tools")
 
 
-def _unused(message: str, remedy: str) -> Finding:
-    return Finding.warning("cam.tool-unused", "cam.tools", message, remedy=remedy)
+UNUSED = "cam.tool-unused"
+"""Code of what is said of a tool that a part has no use for."""
+
+
+def _unused(tool: Tool, message: str, remedy: str) -> Finding:
+    return Finding.warning(UNUSED, "cam.tools", f"{tool.name} {message}", remedy=remedy)
+
+
+def judged_together(findings: Sequence[Finding], used: Set[str]) -> list[Finding]:
+    """What is said of tools of several parts: one that any of them uses is not unused, and is told once."""
+    said, told = [], set(used)
+    for finding in findings:
+        if finding.code == UNUSED:
+            name = finding.message.partition(" ")[0]  # as _unused begins
+            if name in told:
+                continue
+            told.add(name)
+        said.append(finding)
+    return said
 
 
 def _remarks(job: Job, depths: Mapping[str, float]) -> Iterator[Finding]:
@@ -115,7 +132,7 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> Iterator[Finding]:
                 f"add {material} to its table in the tool library, or give cutting_speed and chip_load in "
                 f"[cam.cutting.{tool.name}]"
             )
-            yield _unused(f"{tool.name} has no cutting data for {material} and is not used", remedy)
+            yield _unused(tool, f"has no cutting data for {material} and is not used", remedy)
             continue
         yield from _speeds(job, tool)
         if tool.kind in MILLS:

@@ -14,6 +14,7 @@ from mechwright_cam.operations.compensation import has_entries
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.rates import runs_too_fast
+from mechwright_cam.operations.ream import reaming
 from mechwright_cam.operations.recess_zone import first_look, floor_mill
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.twins import Twins
@@ -188,7 +189,9 @@ def _drills(every: Job) -> list[Tool]:
         if not through(every, feature.top + feature.depth):
             continue
         if isinstance(feature, Bore):
-            width, (drill, mill) = feature.diameter, cutters_of(every, feature)
+            way = reaming(every, feature)
+            drill, mill = (way.drill, way.mill) if way is not None else cutters_of(every, feature)
+            width = feature.diameter
             if drill is not None and mill is None:
                 width = drill.diameter  # no other makes the hole to size
         elif isinstance(feature, Profile) and feature.side == "inside":

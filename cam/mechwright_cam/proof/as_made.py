@@ -76,7 +76,7 @@ def fine_chords(group: Sweep) -> tuple[Chords, Ints]:
 
 def wall_sweeps(scene: Scene) -> Sweeps:
     """What the cutters that make walls sweep: chamfers and threads are cut into walls that stand already."""
-    makers = {*MILLS, ToolKind.DRILL}
+    makers = {*MILLS, ToolKind.DRILL, ToolKind.REAMER}
     if {tool.kind for tool in scene.paths.tools.values()} <= makers:
         return scene.sweeps
     return Sweeps(scene.paths.of_kinds(makers))

@@ -30,6 +30,10 @@ CHORD = 0.01
 """Chord error of arcs, mm: the cylinder counts so much wider."""
 STRIPS = np.sin(np.linspace(0.0, np.pi / 2, 9))
 """The ends of a capsule are in strips: from each of these shares of the radius to the next."""
+_SHARES = np.array([(sign, *pair) for pair in pairwise(STRIPS.tolist()) for sign in (-1, 1)])
+"""Those of the lower and of the upper end in turn (16, 3): its sign, and both shares."""
+TOGETHER = 20_000
+"""So many strips are asked about together."""
 
 Mask = NDArray[np.bool_]
 Geometry = Any
@@ -189,13 +193,17 @@ class _Level:
         self, axis: int, low: Array, high: Array, radius: Array, before: Ints, at_low: Mask, at_high: Mask
     ) -> Mask:
         """Which capsules (k,) around lines are clear, but for half discs that are, strip by strip."""
-        rest = np.arange(radius.size)
-        for y0, y1 in pairwise(STRIPS.tolist()):
-            for known, share in ((at_low, -y1), (at_high, y1)):
-                ask = rest if y0 == 0 else rest[~known[rest]]
-                up = np.where(known[ask], 0.0, share)
-                bad = self._strips(axis, low[ask], high[ask], radius[ask], y0, up) >= before[ask]
-                rest = np.setdiff1d(rest, ask[bad], assume_unique=True)
+        rest, first = np.arange(radius.size), 0
+        while first < len(_SHARES) and rest.size:
+            # Few capsules are asked about many strips at once, many about one strip after the other.
+            some = slice(first, first + max(TOGETHER // rest.size, 1))
+            sign, y0, y1 = _SHARES[some].T[:, :, None]
+            known = np.where(sign < 0, at_low[rest], at_high[rest])
+            up = np.where(known, 0.0, sign * y1)
+            ask, strip = np.broadcast_to(rest, up.shape).ravel(), np.broadcast_to(y0, up.shape).ravel()
+            latest = self._strips(axis, low[ask], high[ask], radius[ask], strip, up.ravel())
+            clear = (latest < before[ask]).reshape(up.shape) | (known & (y0 > 0))
+            rest, first = rest[clear.all(axis=0)], some.stop
         found = np.zeros(radius.size, dtype=np.bool_)
         found[rest] = True
         return found
@@ -204,7 +212,7 @@ class _Level:
         """The latest step in rectangles that are wider by a radius all around."""
         return self.area.latest(low - radius[:, None], high + radius[:, None])
 
-    def _strips(self, axis: int, low: Array, high: Array, radius: Array, y0: float, y1: Array) -> Ints:
+    def _strips(self, axis: int, low: Array, high: Array, radius: Array, y0: Array, y1: Array) -> Ints:
         """The latest step along an axis, as wide as the disc is at one share of its radius, up to another.
 
         That is before the lower end of the line if it is negative.

@@ -49,9 +49,14 @@ def coolant(scene: Scene) -> Check:
     return Check(True, f"coolant is {wanted} whenever the cutter is in the work")
 
 
+COARSE = 1.3
+"""Last decimals by which the radii of an arc may differ, where these are coarse: four of an inch."""
+
+
 def arcs(scene: Scene) -> Check:
     """Arcs end as far from their centre as they start."""
-    error, limit = scene.run.arc_error, TOLERANCES.arc_fit
+    # Where the last decimal is coarser than that, no writer could do better than to round to it.
+    error, limit = scene.run.arc_error, max(TOLERANCES.arc_fit, COARSE * scene.control.resolution)
     worst = int(np.argmax(error)) if error.size else 0
     if error.size and error[worst] > limit:
         found = float(error[worst])

@@ -168,9 +168,12 @@ def _thread(paths: Paths, detail: Thread) -> str:
     wide = np.abs(run.radius[arcs] + paths.radius[arcs] - detail.diameter / 2) < FITS
     arcs = arcs[centred & wide]
     rise = (paths.end[arcs, 2] - paths.start[arcs, 2]) / np.where(run.sweep[arcs] == 0, 1, run.sweep[arcs])
-    arcs = arcs[np.abs(rise * 2 * np.pi - detail.pitch) < FITS]
+    pitch = -detail.pitch if detail.left else detail.pitch
+    arcs = arcs[np.abs(rise * 2 * np.pi - pitch) < FITS]
     if arcs.size == 0:
-        return f"no helix of {detail.diameter:g} mm with a pitch of {detail.pitch:g} mm around its axis"
+        hand = "left-hand" if detail.left else "right-hand"
+        size = f"{detail.diameter:g} mm with a pitch of {detail.pitch:g} mm"
+        return f"no {hand} helix of {size} around its axis"
     low = float(np.minimum(paths.start[arcs, 2], paths.end[arcs, 2]).min())
     high = float(np.maximum(paths.start[arcs, 2], paths.end[arcs, 2]).max())
     turns = float(np.abs(run.sweep[arcs]).sum()) / (2 * np.pi)

@@ -23,8 +23,8 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-POINTS = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL})
-"""Tools that cut with their point alone, straight down."""
+POINTS = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER})
+"""Tools that cut with their end alone, straight down."""
 
 
 def edges(scene: Scene) -> Check:
@@ -42,12 +42,14 @@ def edges(scene: Scene) -> Check:
                     return scene.bad(step, f"{name} is fed sideways into material, and cuts downwards only")
         if tool.hollow == 0:
             continue
-        lift = float(cutter(tool).height_at(tool.hollow))
+        # What of the middle is below the plate meets nothing of it.
+        least = float(cutter(tool).height_at(tool.hollow))
+        lift = np.maximum(least, -scene.job.thickness - paths.low[mine])
         inner = np.isin(mine, stock.suspects(mine, lift=lift, radius=tool.hollow))
         down = (tool.kind is ToolKind.THREAD_MILL) & ~sideways[mine] & (way[mine, 2] < 0)
         for index in np.flatnonzero(inner | down).tolist():
             step = int(mine[index])
-            if inner[index] and stock.meets(step, lift=lift, radius=tool.hollow):
+            if inner[index] and stock.meets(step, lift=float(lift[index]), radius=tool.hollow):
                 return scene.bad(step, f"{name} {_hollow(tool)}", 2 * tool.hollow, 0.0, "mm")
             if down[index] and stock.meets(step, radius=tool.radius - SHAVES):
                 message = f"{name} is fed down into material, and cuts sideways only; make its hole first"
@@ -60,6 +62,11 @@ def _hollow(tool: Tool) -> str:
         return (
             f"is fed into material with its neck of {2 * tool.hollow:g} mm, and cuts with the teeth at its "
             "rim; make the hole of the thread's core first"
+        )
+    if tool.kind is ToolKind.REAMER:
+        return (
+            "is fed into material with its middle, and cuts with its rim; open its hole to "
+            f"{2 * tool.hollow:g} mm at least first"
         )
     return (
         "is fed into material with its point, which does not cut; keep the point beside the material, or set "

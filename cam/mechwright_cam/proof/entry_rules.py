@@ -30,7 +30,7 @@ def entries(scene: Scene) -> Check:
     angle = np.degrees(np.arctan2(drop, flat))
     limit = paths.of_tool(lambda tool: steepest(tool, scene.job.settings.ramp_angle))[steps]
     # Both ends are rounded in the text: a ramp may end a last decimal lower, and be one and a half shorter.
-    digit = 10.0**-scene.control.decimals
+    digit = scene.control.resolution
     steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(np.minimum(limit, UPRIGHT))) + digit
     plunges = [n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS]
     plunge = flat <= NEAR

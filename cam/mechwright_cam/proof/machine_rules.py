@@ -18,16 +18,16 @@ def retract(scene: Scene) -> str:
 def program_end(scene: Scene) -> Check:
     """The program says that it ends, with the tool up."""
     run = scene.run
-    if not run.ended:
-        where = "" if run.files else f"line {run.lines}: "
-        end = f"{scene.control.m(30)} or {scene.control.m(2)}"
-        return Check(False, f"{where}the program has no end; write {end}", run.lines)
     if run.beyond:
         message = (
             f"line {run.beyond}: this stands behind the program's end and is not run; delete it, or verify "
             "it as a program of its own"
         )
         return Check(False, message, run.beyond)
+    if not run.ended:
+        where = "" if run.files else f"line {run.lines}: "
+        end = f"{scene.control.m(30)} or {scene.control.m(2)}"
+        return Check(False, f"{where}the program has no end; write {end}", run.lines)
     moved = np.flatnonzero(run.moving | (run.kind == Kind.HOME))
     if moved.size == 0 or not run.cutting.any():
         return Check(False, "the program cuts nothing", run.lines)
@@ -39,9 +39,20 @@ def program_end(scene: Scene) -> Check:
 
 
 def modes(scene: Scene) -> Check:
-    """Units, distances, plane and compensation are set before the first move in work coordinates."""
+    """Units, distances, plane and compensation are set before the first move in work coordinates.
+
+    So are G94 and G98, where a move hangs on them and the control keeps them from program to program.
+    """
+    if scene.run.unsaid is not None:
+        line, word = scene.run.unsaid
+        message = (
+            f"line {line}: moves before {word}, so that what an earlier program has set holds; set it first"
+        )
+        return Check(False, message, line)
     if (step := first(scene.run.moving)) is not None:
-        missing = [word for group, word in SAFE_MODES.items() if group not in scene.state(step).stated]
+        inches = {"units": "G20"} if scene.control.units == "inch" else {}
+        words = {**SAFE_MODES, **inches}
+        missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
     return Check(True, "units, distance mode, plane and compensation are stated")

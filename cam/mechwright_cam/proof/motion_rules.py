@@ -50,7 +50,7 @@ def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -
         return None
     length = np.zeros(steps.size)
     if axis == "Z":
-        length = scene.paths.of_tool(lambda tool: tool.length)[steps]
+        length = scene.paths.of_tool(lambda tool: None if tool.length is None else tool.worn_length)[steps]
     over = np.fmax(low - (lower + place + length), upper + place + length - (low + limit))
     if np.isnan(over).all() or np.nanmax(over) <= NEAR:
         return None

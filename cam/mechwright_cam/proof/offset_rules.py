@@ -11,8 +11,9 @@ from mechwright_cam.controls.reading.run import TableWrite
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
-LAST_DECIMAL = 1e-3
-"""A length in the program is the measured one if it differs by its last decimal at most, mm."""
+LAST_DECIMAL = 1.3e-3
+"""A length in the program is the measured one if it differs by its last decimal at most, mm: a micrometre, or
+half of a ten-thousandth of an inch."""
 
 
 def length_offset(scene: Scene) -> Check:
@@ -42,7 +43,7 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
     """
     run, word = scene.run, scene.control.offsets.length_word
     given = scene.run.of_states(lambda state: np.nan if state.length is None else state.length)
-    measured = scene.paths.of_tool(lambda tool: tool.length)
+    measured = scene.paths.of_tool(lambda tool: None if tool.length is None else tool.worn_length)
     if (step := first(stated & (np.abs(given - measured) > LAST_DECIMAL))) is not None:
         message = (
             f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm"
@@ -115,7 +116,10 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
         }
     elif lengths is not None and write.table == lengths[0] and write.number in scene.tools:
         tool = scene.tools[write.number]
-        own = {lengths[1]: (f"cam.measured.lengths.{tool.name}", tool.length)}
+        length = tool.length
+        if length is not None and not scene.control.offsets.wear:
+            length = tool.worn_length  # one column holds both
+        own = {lengths[1]: (f"cam.measured.lengths.{tool.name}", length)}
     if not own or not write.values:
         return f"writes into a table that this job leaves alone ({_allowed(scene)}); take it out"
     for letter, value in write.values.items():

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import ProgramError
-from mechwright.geometry.prepared import prepared
+from mechwright.geometry.prepared import gridded
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
@@ -217,14 +217,14 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
 def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: float) -> NDArray[np.bool_]:
     """(ny, nx) whether the middle of each cell is in a shape."""
     x0, y0, _, _ = job.stock
-    x = x0 + (np.arange(grid[1]) + 0.5) * cell
-    y = y0 + (np.arange(grid[0]) + 0.5) * cell
+    x = np.asarray(x0 + (np.arange(grid[1]) + 0.5) * cell, dtype=np.float64)
+    y = np.asarray(y0 + (np.arange(grid[0]) + 0.5) * cell, dtype=np.float64)
     inside = np.zeros(grid, dtype=bool)
     if not shape.is_empty:
         west, south, east, north = shape.bounds
         i, k = np.searchsorted(y, south), np.searchsorted(y, north, side="right")
         j, n = np.searchsorted(x, west), np.searchsorted(x, east, side="right")
-        inside[i:k, j:n] = shapely.contains_xy(prepared(shape), *np.meshgrid(x[j:n], y[i:k]))
+        inside[i:k, j:n] = gridded(shape, x[j:n], y[i:k])
     return inside
 
 

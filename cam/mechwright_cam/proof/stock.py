@@ -130,7 +130,7 @@ class Stock:
         upright = np.hypot(*(paths.end - paths.start)[steps, :2].T) <= NEAR
         steps, fed, wanted = steps[upright], fed[upright], np.flatnonzero(upright & ~fed) - self.cuts.size
         place = np.column_stack((paths.run.tool[steps], np.round(paths.end[steps, :2] / NEAR)))
-        hole = np.unique(place, axis=0, return_inverse=True)[1].ravel()
+        hole = first_of_each(place.astype(np.int64))[1]
         order = np.lexsort((steps, hole))
         low, hole = np.concatenate((paths.low[self.cuts], z))[upright][order], hole[order]
         drop = float(np.ptp(low)) + 1.0 if low.size else 0.0

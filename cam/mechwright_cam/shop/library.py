@@ -1,13 +1,14 @@
 """The tool library: cutters in a TOML file that a person can extend, or in a file of another program."""
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright.designs.files import read_toml
+from mechwright.designs.inches import converted, told_in, units_of
 from mechwright.designs.tables import read_table
 from mechwright.errors import DesignError, ToolError
 from mechwright_cam.shop.crib import read_crib
@@ -90,15 +91,16 @@ def built_in() -> Library:
     return Library(read_tools(BUILT_IN))
 
 
-def load_library(path: Path | None = None) -> Library:
-    """Give the built-in library, extended and overridden by the cutters in ``path``.
+def load_library(path: Path | None = None, at_hand: Library | None = None) -> Library:
+    """Give the cutters at hand, by default the built-in ones, extended and overridden by those in ``path``.
 
     A library of another program is a whole crib, and so is one of ours that says ``built_in = false``: then
     the built-in cutters are not at hand. Raises OutputError where the file cannot be read; DesignError that
     names file, tool, key, value and limit, a line for each wrong key.
     """
+    at_hand = built_in() if at_hand is None else at_hand
     if path is None:
-        return built_in()
+        return at_hand
     form = format_of(path)
     if path.exists() and not path.is_file():
         raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
@@ -107,7 +109,7 @@ def load_library(path: Path | None = None) -> Library:
         tools, told, base = crib.tools, crib.told, Library(())
     else:
         tools, more = _read(path)
-        told, base = (), built_in() if more else Library(())
+        told, base = (), at_hand if more else Library(())
     try:
         return replace(base.extended(tools), told=told)
     except DesignError as error:
@@ -128,20 +130,30 @@ def read_tools(path: Path) -> tuple[Tool, ...]:
 def _read(path: Path) -> tuple[tuple[Tool, ...], bool]:
     """The cutters of a file of ours, and whether the built-in ones are at hand besides."""
     data = read_toml(path)[0]
-    rows, more = data.pop("tool", None), data.pop("built_in", True)
+    units, more = units_of(data, path), data.pop("built_in", True)
+    rows, _ = data.pop("tool", None), data.pop("units", None)
     if data:
         raise DesignError(f"{path}: unknown key {next(iter(data))!r}; a tool library holds [[tool]] tables")
     if not isinstance(more, bool):
         raise DesignError(f"{path}: built_in: is {more!r}; write true or false")
     if not isinstance(rows, list) or not rows:
         raise DesignError(f"{path}: holds no tool; add a [[tool]] table")
+    if units == "inch":
+        keys = Tool.model_json_schema()
+        rows = [converted(row, keys) for row in rows]
+    with told_in(units):
+        return tuple(tools_of(rows, path).values()), more
+
+
+def tools_of(rows: Sequence[object], path: Path) -> dict[str, Tool]:
+    """Name to tool of the ``[[tool]]`` tables of a file; raises DesignError for what is wrong with one."""
     tools: dict[str, Tool] = {}
     for position, row in enumerate(rows, start=1):
         tool = _read_tool(path, position, row)
         if tool.name in tools:
             raise DesignError(f"{path}: two tools are called {tool.name!r}; rename one")
         tools[tool.name] = tool
-    return tuple(tools.values()), more
+    return tools
 
 
 def _read_tool(path: Path, position: int, row: object) -> Tool:

@@ -35,7 +35,7 @@ def split(table: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[st
         for key in WHOLE_JOB:
             if key in own:
                 raise DesignError(f"{path}: cam.part.{name}.{key}: holds for the whole job; set it in [cam]")
-        parts[name] = _over(base, own)
+        parts[name] = over(base, own)
     return base, parts
 
 
@@ -44,7 +44,7 @@ def says_how(table: Mapping[str, Any]) -> bool:
     return not table or not ASKED.issuperset(table)
 
 
-def _over(base: Mapping[str, Any], table: Mapping[str, Any], where: str = "") -> dict[str, Any]:
+def over(base: Mapping[str, Any], table: Mapping[str, Any], where: str = "") -> dict[str, Any]:
     """One table laid over another, key by key."""
     merged = dict(base)
     if where == "stock":
@@ -54,6 +54,6 @@ def _over(base: Mapping[str, Any], table: Mapping[str, Any], where: str = "") ->
     for key, value in table.items():
         old = merged.get(key)
         if isinstance(old, Mapping) and isinstance(value, Mapping):
-            value = _over(old, value, key)
+            value = over(old, value, key)
         merged[key] = value
     return merged

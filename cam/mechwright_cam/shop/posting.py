@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from mechwright.contracts.parameters import Parameters
+from mechwright.designs.inches import Units
 from mechwright.units import Millimetres
 from mechwright_cam.shop.machine import Place
 
@@ -34,6 +35,9 @@ class Posting(Parameters):
     """How the program is written, whatever it does."""
 
     program_number: int = Field(1, ge=1, le=9999, description="O number of the first program, if it has one.")
+    units: Units | None = Field(
+        None, description="Of programs, tables and sheets; by default those of the shop, or mm."
+    )
     line_numbers: int = Field(0, ge=0, le=100, description="Step of the N numbers; 0 writes none.")
     restart: bool = Field(False, description="Every operation can be started from: it states all modes.")
     optional_stops: bool = Field(False, description="An M1 before every tool change.")

@@ -1,5 +1,6 @@
 """Cutters, machines, stock and holding: the tables under ``[cam]`` of a design file, and the tool library."""
 
+import datetime as dt
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -67,6 +68,13 @@ class PathSettings(Parameters):
         return (self.outer_tolerance + self.inner_tolerance) / 2 - TOLERANCES.flatten
 
 
+class Sheet(Parameters):
+    """What the setup sheets say of themselves."""
+
+    revision: str = Field("", max_length=20, description="Revision of the drawing or program, such as B.")
+    date: dt.date | None = Field(None, description="Date on the sheets; none by default.")
+
+
 class CamSettings(Parameters):
     """The table ``[cam]`` of a design file."""
 
@@ -101,6 +109,7 @@ class CamSettings(Parameters):
     )
     machine: Machine = Field(Machine(), description="The mill.")
     post: Posting = Field(Posting(), description="How the program is written.")
+    sheet: Sheet = Field(Sheet(), description="Revision and date on the setup sheets.")
     second_side: SecondSide = Field(SecondSide(), description="The second side.")
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
@@ -177,7 +186,7 @@ class Hole(Parameters):
     thread: str | None = Field(
         None,
         max_length=20,
-        description="Metric thread, such as M6 or M6x0.75; the hole gets its core diameter.",
+        description="Thread, such as M6, M6x0.75, 1/4-20 UNC or M6 LH; the hole gets its core diameter.",
     )
     depth: Millimetres | None = Field(
         None, gt=0, le=500, description="Depth of the thread; by default all of the hole."

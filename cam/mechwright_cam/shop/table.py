@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
@@ -16,7 +17,7 @@ from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
 from mechwright_cam.shop.library import library_files
 from mechwright_cam.shop.machine import Machine, machine_figures
-from mechwright_cam.shop.part_settings import says_how, split
+from mechwright_cam.shop.part_settings import over, says_how, split
 from mechwright_cam.shop.settings import CamSettings, PartSettings
 
 _OF_ONE_PART = (
@@ -83,7 +84,7 @@ class CamTable(Table[JobSettings]):
 
     def schema(self) -> dict[str, Any]:
         """The table with those of single parts; a machine may also be given by its name alone."""
-        whole, part = CamSettings.model_json_schema(), PartSettings.model_json_schema()
+        whole, part = model_schema(CamSettings), model_schema(PartSettings)
         known = whole["properties"]["machine"]
         for table in (whole, part):
             table["properties"]["machine"] = {"anyOf": [known, {"type": "string"}]}
@@ -100,6 +101,10 @@ class CamTable(Table[JobSettings]):
         from mechwright_cam.shop.asked import asked
 
         return asked(value.cam, value.tables, parts, path)
+
+    def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
+        """As tables of single parts lie over it."""
+        return over(lent, own) if isinstance(own, Mapping) else own
 
     def inputs(self, value: JobSettings, path: Path) -> dict[str, Path]:
         """The tool library, and machine files."""

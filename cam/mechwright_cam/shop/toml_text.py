@@ -1,28 +1,35 @@
 """A tool library of ours as a text."""
 
 from collections.abc import Iterable
+from typing import Any
 
+from mechwright.designs.inches import Units, written
 from mechwright.designs.text import toml
-from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
+from mechwright_cam.shop.tool import HOLLOW, Tool
 
 HEAD = "# A tool library: the whole crib, so the built-in cutters are not at hand.\nbuilt_in = false\n"
 
 
 def library_text(tools: Iterable[Tool]) -> str:
     """The TOML of a library that holds these tools and nothing else; what is as by default is left out."""
-    return "\n".join([HEAD, *(_table(tool) for tool in tools)])
+    return "\n".join([HEAD, *(tool_table(tool) for tool in tools)])
 
 
-def _table(tool: Tool) -> str:
+def tool_table(tool: Tool, units: Units = "mm") -> str:
+    """A tool as a table of a file in these units; in an inch file millimetres stand with their unit."""
     said = tool.model_dump(mode="json", exclude={"cutting", "centre_cutting"}, exclude_defaults=True)
-    lines = ["[[tool]]", *(f"{key} = {toml(value)}" for key, value in said.items())]
-    if tool.centre_cutting == (tool.kind in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}):
+    lines = ["[[tool]]", *(f"{key} = {toml(value)}" for key, value in _in(units, said).items())]
+    if tool.centre_cutting == (tool.kind in HOLLOW):
         lines.append(f"centre_cutting = {toml(tool.centre_cutting)}")
     if tool.cutting:
         lines.append("[tool.cutting]")
-    return "\n".join([*lines, *(f"{name} = {_data(data)}" for name, data in tool.cutting.items())]) + "\n"
+    for name, data in tool.cutting.items():
+        keys = _in(units, data.model_dump(exclude_defaults=True), f"cutting.{name}.")
+        lines.append(f"{name} = {{ {', '.join(f'{key} = {toml(value)}' for key, value in keys.items())} }}")
+    return "\n".join(lines) + "\n"
 
 
-def _data(data: CuttingData) -> str:
-    said = data.model_dump(exclude_defaults=True)
-    return "{ " + ", ".join(f"{key} = {toml(value)}" for key, value in said.items()) + " }"
+def _in(units: Units, said: dict[str, Any], where: str = "") -> dict[str, Any]:
+    change = {f"tool.{where}{key}": value for key, value in said.items()}
+    schemas = {} if units == "mm" else {"tool": Tool.model_json_schema()}
+    return {key.rpartition(".")[2]: value for key, value in written(change, units, schemas).items()}

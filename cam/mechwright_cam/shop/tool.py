@@ -20,17 +20,23 @@ class ToolKind(StrEnum):
     BALL = "ball"
     CHAMFER = "chamfer-mill"
     THREAD_MILL = "thread-mill"
+    REAMER = "reamer"
 
 
 MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
 """Cutters that clear and finish with end and side."""
 
 
+HOLLOW = frozenset({ToolKind.CHAMFER, ToolKind.THREAD_MILL, ToolKind.REAMER})
+"""Tools that by default do not cut with their middle."""
 NECK = 0.7
 """Diameter of a thread mill's neck in that of its teeth, if nothing is said of it: then the teeth are higher
 by a third than the coarsest thread for that diameter asks."""
 BLUNT_TIP = 0.05
 """Radius of the point of a chamfer mill that is ground to one, mm: there it presses and does not cut."""
+
+REAMED = 0.26
+"""How far in from its rim a reamer cuts, mm: half of the greatest allowance, and a last digit."""
 
 
 class CuttingData(Parameters):
@@ -75,7 +81,7 @@ class Tool(Parameters):
     centre_cutting: bool = Field(
         True,
         description="Whether its middle cuts, so that it may be plunged straight down; by default that of "
-        "all tools does but of chamfer and thread mills.",
+        "all does but of chamfer and thread mills and reamers.",
     )
     ramp_angle: Degrees | None = Field(
         None, gt=0, le=90, description="Steepest ramp into full material, if its maker says one."
@@ -103,6 +109,14 @@ class Tool(Parameters):
     holder_diameter: Millimetres = Field(
         40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
     )
+    holder: str = Field("", max_length=40, description="Its holder, as the setup sheet names it.")
+    purpose: str = Field("", max_length=80, description="What it is for, as lists and sheets say it.")
+    wear_length: Millimetres = Field(
+        0.0, ge=-2, le=2, description="Wear of its length, below 0 for one that is shorter than measured."
+    )
+    wear_diameter: Millimetres = Field(
+        0.0, ge=-2, le=2, description="Wear of its diameter, below 0 for one that has become thinner."
+    )
     life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
         None, description="Minutes in cut after which an edge is worn."
     )
@@ -121,7 +135,7 @@ class Tool(Parameters):
     @model_validator(mode="before")
     @classmethod
     def _middle(cls, said: Any) -> Any:
-        if isinstance(said, dict) and said.get("kind") in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}:
+        if isinstance(said, dict) and said.get("kind") in HOLLOW:
             return {"centre_cutting": False, **said}
         return said
 
@@ -131,8 +145,9 @@ class Tool(Parameters):
             self.kind is not ToolKind.THREAD_MILL or self.neck_diameter >= self.diameter
         ):
             raise ValueError("neck_diameter is that of a thread mill, and below its diameter")
-        if self.kind is ToolKind.THREAD_MILL and self.centre_cutting:
-            raise ValueError("a thread mill cuts with the teeth at its rim; leave centre_cutting out")
+        if self.kind in {ToolKind.THREAD_MILL, ToolKind.REAMER} and self.centre_cutting:
+            what = str(self.kind).replace("-", " ")
+            raise ValueError(f"a {what} cuts with the teeth at its rim; leave centre_cutting out")
         if self.corner_radius > self.diameter / 2:
             raise ValueError("corner_radius must be at most half of the diameter")
         if self.tip_diameter >= self.diameter:
@@ -154,6 +169,11 @@ class Tool(Parameters):
         return self.number if self.diameter_offset is None else self.diameter_offset
 
     @property
+    def worn_length(self) -> float:
+        """Length offset with its wear, mm, for tables of one column; that of an unmeasured tool is 0."""
+        return 0.0 if self.length is None else self.length + self.wear_length
+
+    @property
     def nose(self) -> float:
         """Radius of the rounded corner between end and side, mm: 0 for a flat end, the radius for a ball."""
         return self.radius if self.kind is ToolKind.BALL else self.corner_radius
@@ -162,13 +182,15 @@ class Tool(Parameters):
     def hollow(self) -> float:
         """Radius, mm, within which its end does not cut: 0 if it is centre-cutting.
 
-        That of a thread mill's neck, or of a chamfer mill's tip; of other mills it is not known, and they may
-        ramp.
+        That of a thread mill's neck, of a chamfer mill's tip, or within a reamer's allowance; of other mills
+        it is not known, and they may ramp.
         """
         if self.kind is ToolKind.THREAD_MILL:
             return NECK * self.radius if self.neck_diameter is None else self.neck_diameter / 2
         if self.kind is ToolKind.CHAMFER and not self.centre_cutting:
             return max(self.tip_diameter / 2, BLUNT_TIP)
+        if self.kind is ToolKind.REAMER:
+            return max(self.radius - REAMED, 0.0)
         return 0.0
 
 

@@ -43,7 +43,7 @@ def assert_read_back(control: Control, program: Program) -> None:
         for step in steps:
             _assert_state(run, step, section, program, words)
             off = np.abs(run.end[step] - place)
-            if off.max() <= _SLACK * 10.0**-control.decimals and abs(run.feed[step] - feed) <= 0.1:
+            if off.max() <= _SLACK * control.resolution and abs(run.feed[step] - feed) <= 0.13:
                 break
             above = pecks and off[:2].max() <= 1e-3 and run.end[step, 2] > place[2]
             assert above, f"line {run.line[step]}: {words} is read as one to {run.end[step]}"

@@ -22,7 +22,9 @@ class MotionTables(Page):
     doing = "motion"
 
     def files(self, build: Build) -> dict[str, str | Iterable[bytes]]:
-        """The channels over the motion, and its figures by name with their units."""
+        """The channels over the motion and its figures by name with units; none of what stands still."""
+        if not build.design.family.moves:
+            return {}
         scalars = build.motion.scalars.items()
         figures = {name: {"value": scalar.value, "unit": scalar.unit} for name, scalar in scalars}
         return {"motion.csv": motion_csv(build.motion), "summary.json": json.dumps(figures, indent=2) + "\n"}

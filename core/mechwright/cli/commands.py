@@ -109,7 +109,8 @@ class Schema(Command):
         family: Annotated[
             str,
             typer.Argument(
-                help="A family's name; all families if not given.", autocompletion=completing.families
+                help="A family's name, or shop; all families if not given.",
+                autocompletion=completing.families,
             ),
         ] = "",
         output: Annotated[
@@ -119,6 +120,9 @@ class Schema(Command):
         requirement: Annotated[
             bool, typer.Option("--requirement", help="Of requirement files instead of design files.")
         ] = False,
+        study: Annotated[
+            bool, typer.Option("--study", help="Of study files, which sweep takes, instead of design files.")
+        ] = False,
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
         """Write a JSON schema of design files.
@@ -127,7 +131,7 @@ class Schema(Command):
         """
         from mechwright.cli import listing
 
-        listing.schema(family, requirement, output, force)
+        listing.schema(family, requirement, study, output, force)
 
 
 class Check(Command):
@@ -205,7 +209,8 @@ class Solve(Command):
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("solve", samples), Stage.MOTION, as_json=as_json)
+        still = "stands still: there is no motion to write; build writes its drawings and programs"
+        perform(design, output, Wanted("solve", samples), Stage.MOTION, still, as_json=as_json)
 
 
 class Build(Command):

@@ -108,7 +108,9 @@ def keys(model: "type[BaseModel]", incomplete: str, without: Container[str] = ()
 def _fields(model: "type[BaseModel]", before: str) -> "Iterator[tuple[str, FieldInfo, dict[str, Any]]]":
     from pydantic import BaseModel
 
-    schema = model.model_json_schema()["properties"]
+    from mechwright.contracts.model_schema import model_schema
+
+    schema = model_schema(model)["properties"]
     for name, field in model.model_fields.items():
         kind = field.annotation
         if isinstance(kind, type) and issubclass(kind, BaseModel):

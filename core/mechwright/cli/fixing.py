@@ -15,6 +15,8 @@ from mechwright.contracts.finding import Change, Stage
 from mechwright.designs.change import changed, rewritten
 from mechwright.designs.design import Design, design_of, load
 from mechwright.designs.files import read_bytes, read_text
+from mechwright.designs.hints import schemas_of
+from mechwright.designs.inches import written
 from mechwright.errors import DesignError, OutputError
 from mechwright.output.folder import rewrite
 from mechwright.plugins.host import Host
@@ -43,7 +45,8 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
         repair = repaired(design, found, stages[to], progress)
     new = text
     if repair.change:
-        new = rewritten(text, repair.change)
+        change = written(repair.change, design.units, schemas_of(found, design.content, "parameters"))
+        new = rewritten(text, change)
         _reads(design, repair.change, target or path, found)
     if target == path and not repair.change:
         target = None  # nothing to change

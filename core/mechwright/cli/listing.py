@@ -8,9 +8,10 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
 from mechwright.designs.requirement import require_synthesis
-from mechwright.designs.schema import file_schema, schema_name
+from mechwright.designs.schema import as_file, file_schema, schema_name
 from mechwright.designs.tables import unknown
 from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
@@ -53,8 +54,8 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
         "title": family.title,
         "summary": family.summary,
         "distribution": entry.distribution,
-        "parameters": family.Params.model_json_schema(),
-        "requirements": {kind: model.model_json_schema() for kind, model in family.requirements.items()},
+        "parameters": model_schema(family.Params),
+        "requirements": {kind: model_schema(model) for kind, model in family.requirements.items()},
     }
 
 
@@ -83,9 +84,25 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
             )
 
 
-def schema(name: str, requirement: bool, output: Path | None, force: bool) -> None:
-    """Write or print the JSON schema of design or requirement files."""
-    text = json.dumps(file_schema(open_host(), name, requirement=requirement), indent=2) + "\n"
+def schema(name: str, requirement: bool, study: bool, output: Path | None, force: bool) -> None:
+    """Write or print the JSON schema of design, requirement or study files, or of what a table names."""
+    if requirement and study:
+        raise DesignError("--study and --requirement: a file is one of them; give one")
+    found = open_host()
+    named = found.of(Table).get(name)
+    schema = named.item.file_schema() if named is not None else {}
+    if schema and (requirement or study):
+        option = "--study" if study else "--requirement"
+        raise DesignError(f"{option}: {name} is the file of a table; leave it out")
+    if schema:
+        schema = as_file(schema)
+    elif study:
+        from mechwright.sweep.schema import study_schema
+
+        schema = study_schema(found, name)
+    else:
+        schema = file_schema(found, name, requirement=requirement)
+    text = json.dumps(schema, indent=2) + "\n"
     if output is None:
         typer.echo(text, nl=False)
     else:

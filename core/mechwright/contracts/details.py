@@ -6,7 +6,7 @@ top face.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from mechwright.errors import GeometryError
@@ -38,9 +38,10 @@ class Chamfer:
 
 @dataclass(frozen=True)
 class Thread:
-    """An internal right-hand metric thread in a Bore of its core diameter, from the top face on.
+    """An internal thread with a profile of 60° in a Bore of its core diameter, from the top face on.
 
-    ``diameter`` is the nominal one (M6: 6), ``depth`` that of the last full turn.
+    ``diameter`` is the nominal one (M6: 6), ``depth`` that of the last full turn. A ``left`` one turns to the
+    left. ``inch`` names a unified one, such as ``"1/4-20 UNC"``; empty for a metric one.
     """
 
     name: str
@@ -48,6 +49,8 @@ class Thread:
     diameter: float
     pitch: float
     depth: float
+    left: bool = False
+    inch: str = ""
 
     def __post_init__(self) -> None:
         if not 0 < self.pitch < self.diameter / 2:
@@ -57,16 +60,18 @@ class Thread:
 
     @property
     def designation(self) -> str:
-        """Nominal diameter and pitch as ISO 261 writes them.
+        """Nominal diameter and pitch as ISO 261 writes them, or as a unified thread is called.
 
         >>> Thread("t", (0, 0), 6.0, 1.0, 8.0).designation
         'M6x1'
+        >>> Thread("t", (0, 0), 6.35, 1.27, 8.0, left=True, inch="1/4-20 UNC").designation
+        '1/4-20 UNC LH'
         """
-        return f"M{self.diameter:g}x{self.pitch:g}"
+        return (self.inch or f"M{self.diameter:g}x{self.pitch:g}") + (" LH" if self.left else "")
 
     @property
     def core(self) -> float:
-        """Diameter of the hole to be threaded, mm: D - 1.0825 P (ISO 724, D1)."""
+        """Diameter of the hole to be threaded, mm: D - 1.0825 P (ISO 724, D1; ASME B1.1 alike)."""
         return self.diameter - 1.0825 * self.pitch
 
 
@@ -100,7 +105,7 @@ def moved(detail: Detail, x: float, y: float, angle: float = 0.0) -> Detail:
         case Chamfer():
             return Chamfer(detail.name, detail.loop.moved(x, y, angle), detail.side, detail.width)
         case Thread():
-            return Thread(detail.name, at(detail.centre), detail.diameter, detail.pitch, detail.depth)
+            return replace(detail, centre=at(detail.centre))
         case Engraving():
             strokes = tuple(tuple(at(point) for point in stroke) for stroke in detail.strokes)
             return Engraving(detail.name, strokes, detail.depth, detail.width)

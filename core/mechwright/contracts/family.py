@@ -47,6 +47,8 @@ class Family(Plugin, Generic[P]):
     """The table ``[parameters]``."""
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
     """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
+    moves: ClassVar[bool] = True
+    """Whether there is a motion; families of what stands still derive from ``Standing``."""
     batch: ClassVar[int] = 256
     """Designs of a study that are evaluated together: half a minute's work of one core, or 10^5 and more."""
 

@@ -1,48 +1,21 @@
 """Holes of a plate made to a fit, or threaded: the same hole in the outline, the features and the details."""
 
 import math
-import re
 from dataclasses import replace
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
 from mechwright.contracts.part import Bore, Part, is_outside
 from mechwright.contracts.sections import plan_view
+from mechwright.contracts.threads import COARSE, UNIFIED, named
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.tolerances import TOLERANCES
 
-COARSE = {
-    1.6: 0.35, 2: 0.4, 2.5: 0.45, 3: 0.5, 3.5: 0.6, 4: 0.7, 5: 0.8, 6: 1, 7: 1, 8: 1.25, 10: 1.5, 12: 1.75,
-    14: 2, 16: 2, 18: 2.5, 20: 2.5, 22: 2.5, 24: 3, 27: 3, 30: 3.5, 33: 3.5, 36: 4, 39: 4, 42: 4.5, 45: 4.5,
-    48: 5, 52: 5, 56: 5.5, 60: 5.5, 64: 6,
-}  # fmt: skip
-"""Nominal diameter to coarse pitch, mm (ISO 261)."""
-
-_THREAD = re.compile(r"M(\d+(?:\.\d+)?)(?:\s*[x×]\s*(\d+(?:\.\d+)?))?")
 CLEARANCE = 1.2
 """A clearance hole is at most so many times as wide as its screw (ISO 273, medium: 2.4 mm for M2)."""
 PLAY = 0.25
 """A hole may be drawn narrower than the core of its thread by so many pitches: as a tapping drill is."""
-
-
-def metric(designation: str) -> tuple[float, float]:
-    """Nominal diameter and pitch of a thread, mm; the coarse pitch if none is said.
-
-    Raises GeometryError for what is no such designation, has no coarse pitch, or too coarse a one.
-
-    >>> metric("M6"), metric("M8x1")
-    ((6.0, 1.0), (8.0, 1.0))
-    """
-    found = _THREAD.fullmatch(designation.strip())
-    if found is None:
-        raise GeometryError(f"{designation!r} is no metric thread; write M6, or M6x0.75 for a fine pitch")
-    diameter = float(found[1])
-    if found[2] is None and diameter not in COARSE:
-        raise GeometryError(f"{designation} has no coarse pitch in ISO 261; say which, as M{diameter:g}x1")
-    pitch = float(found[2] or COARSE[diameter])
-    Thread("thread", (0.0, 0.0), diameter, pitch, 1.0)  # says what is wrong with the pitch
-    return diameter, float(pitch)
 
 
 def hole(part: Part, name: str) -> Bore:
@@ -68,17 +41,19 @@ def fitted(part: Part, name: str, fit: HoleClass) -> Part:
 def threaded(part: Part, name: str, designation: str, depth: float | None = None) -> Part:
     """The part with a hole threaded from the top face on; the hole gets the core diameter.
 
-    The ``designation`` is such as ``"M6"`` or ``"M6x0.75"``, the ``depth`` that of the last full turn, mm;
+    The ``designation`` is such as ``"M6"``, ``"M6x0.75"`` or ``"1/4-20 UNC"``, with LH behind it for a
+    left-hand one, the ``depth`` that of the last full turn, mm;
     left out it is all through, or one pitch less than a blind hole. Raises GeometryError where there is no
     hole of this name at the top face; it is much wider than the thread, or narrower; it is less deep; or less
     than one pitch of the plate would stay round the thread.
     """
     bore = hole(part, name)
-    nominal, pitch = metric(designation)
+    said = named(designation)
+    nominal, pitch = said.diameter, said.pitch
     through = bore.depth > part.thickness - TOLERANCES.closure
     if depth is None:
         depth = part.thickness if through else bore.depth - pitch
-    thread = Thread(f"thread-{name}", bore.centre, nominal, pitch, depth)
+    thread = Thread(f"thread-{name}", bore.centre, nominal, pitch, depth, said.left, said.inch)
     if any(
         isinstance(d, Thread) and math.dist(d.centre, bore.centre) < TOLERANCES.closure for d in part.details
     ):
@@ -89,7 +64,7 @@ def threaded(part: Part, name: str, designation: str, depth: float | None = None
         )
     if not thread.core - PLAY * pitch <= bore.diameter <= CLEARANCE * nominal:
         able = [
-            f"M{d:g}" for d, p in COARSE.items() if d - (1.0825 + PLAY) * p <= bore.diameter <= CLEARANCE * d
+            name for name, d, p in _known(thread) if d - (1.0825 + PLAY) * p <= bore.diameter <= CLEARANCE * d
         ]
         raise GeometryError(
             f"{thread.designation} is no thread for {name} of part {part.name}, a hole of "
@@ -109,6 +84,14 @@ def threaded(part: Part, name: str, designation: str, depth: float | None = None
     # Nine digits: the last of a binary fraction would stand in drawings.
     made = _with(part, bore, replace(bore, diameter=round(thread.core, 6), fit=None))
     return replace(made, details=(*made.details, thread))
+
+
+def _known(like: Thread) -> list[tuple[str, float, float]]:
+    """Name, diameter and pitch of usual threads, unified ones where the wished one is."""
+    if not like.inch:
+        return [(f"M{d:g}", float(d), float(p)) for d, p in COARSE.items()]
+    names = [f"{size}-{count} {series}" for series, sizes in UNIFIED.items() for size, count in sizes.items()]
+    return [(name, named(name).diameter, named(name).pitch) for name in names]
 
 
 def joined(part: Part) -> Part:

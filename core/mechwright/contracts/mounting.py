@@ -282,6 +282,9 @@ class Flange:
         The design-file keys of the square's side, and of the angle, in degrees, between axis and foot's z.
     bond
         Length of what is bonded to the shaft there, mm, and the key of the shaft's diameter.
+    opposite
+        Whether the flange is at the other end of the axis from which ``tilt_key`` counts: it says 180 degrees
+        less the angle.
     """
 
     body: str
@@ -296,6 +299,7 @@ class Flange:
     size_key: str
     tilt_key: str
     bond: tuple[float, str]
+    opposite: bool = False
 
     def __post_init__(self) -> None:
         if not 0 < self.inner < self.outer < self.end:

@@ -27,6 +27,8 @@ class Table(Plugin, Generic[V]):
     plural = "tables"
     settings: ClassVar[type[Parameters] | None] = None
     """The model of its keys, whose bounds and choices a search for remedies keeps to; None if it has none."""
+    lender: ClassVar[bool] = False
+    """Whether it lends keys to other tables, see :meth:`lends`; it is read before them then."""
 
     @abstractmethod
     def read(self, content: object, path: Path) -> V:
@@ -48,9 +50,25 @@ class Table(Plugin, Generic[V]):
         """The lines of the keys that one sets first, for the short form of a new file; none by default."""
         return []
 
+    def head(self, value: V | None = None) -> list[str]:  # noqa: ARG002 - for tables that are one key
+        """Lines above all tables, for what a file says in one key of its head; none by default."""
+        return []
+
+    def lends(self, value: V) -> Mapping[str, Mapping[str, Any]]:  # noqa: ARG002 - for lenders
+        """Name of another table to keys that it has where the file does not say them; none by default."""
+        return {}
+
+    def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
+        """What the file says of this table, laid over what another one lends it; key by key by default."""
+        return laid_over(own, lent)
+
     def schema(self) -> dict[str, Any]:
         """The JSON schema of the table, for editors; by default any table will do."""
         return {"type": "object"}
+
+    def file_schema(self) -> dict[str, Any]:
+        """The JSON schema of the file that the table names, for ``mechwright schema``; empty without one."""
+        return {}
 
     def parts(self, value: V, parts: Sequence[Part], path: Path) -> Sequence[Part]:  # noqa: ARG002
         """The parts of the design with what the table asks of them, such as broken edges.
@@ -98,3 +116,18 @@ class Table(Plugin, Generic[V]):
             New name to the file that is copied beside them.
         """
         return value, {}
+
+
+def laid_over(own: object, lent: Mapping[str, Any]) -> object:
+    """One table over another, key by key; what is no table stands for itself.
+
+    >>> laid_over({"post": {"cycles": False}}, {"post": {"restart": True}, "clearance": 7})
+    {'post': {'restart': True, 'cycles': False}, 'clearance': 7}
+    """
+    if not isinstance(own, Mapping):
+        return own
+    merged = dict(lent)
+    for key, value in own.items():
+        under = merged.get(key)
+        merged[key] = laid_over(value, under) if isinstance(under, Mapping) else value
+    return merged

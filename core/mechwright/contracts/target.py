@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 
 Place = tuple[float, ...]
@@ -55,7 +56,7 @@ def point_targets(requirement: Parameters) -> tuple[Target, ...]:
     >>> point_targets(Path())[1].moved((5.0, 5.0))
     {'points': [[0.0, 1.0], [5.0, 5.0]]}
     """
-    schema = type(requirement).model_json_schema()
+    schema = model_schema(type(requirement))
     found: list[Target] = []
     for name in type(requirement).model_fields:
         facts = schema["properties"][name]

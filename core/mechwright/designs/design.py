@@ -13,7 +13,7 @@ A design file is data. It names a family, gives its parameters and says how the 
     work_offset = "G54"
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -22,12 +22,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
 from mechwright.designs.change import changed
 from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
+from mechwright.designs.inches import Units, in_millimetres, told_in
 from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
@@ -56,7 +58,9 @@ class Design:
     readers
         Those tables.
     content
-        What the file says, as plain data.
+        What the file says, as plain data; lengths in mm and speeds in mm/min and m/min, whatever its units.
+    units
+        Those of its bare numbers.
     """
 
     name: str
@@ -67,6 +71,7 @@ class Design:
     tables: Mapping[str, Any] = field(default_factory=dict)
     readers: tuple[Table[Any], ...] = ()
     content: Mapping[str, Any] = field(default_factory=dict)
+    units: Units = "mm"
 
     def table(self, contract: type[Table[V]]) -> V:
         """The value of a registered table, by the class that reads it."""
@@ -136,14 +141,11 @@ class Design:
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)
-        params = read_table(self.family.Params, content.get("parameters", {}), str(self.path), "parameters")
+        own = content.get("parameters", {})
+        params = read_table(self.family.Params, own, str(self.path), "parameters", self.path)
         touched = {key.partition(".")[0] for key in change}
-        tables = {
-            reader.name: reader.read(content.get(reader.name, {}), self.path)
-            for reader in self.readers
-            if reader.name in touched
-        }
-        return replace(self, params=params, tables={**self.tables, **tables}, content=content)
+        tables = table_values(self.readers, content, self.path, self.tables, touched)
+        return replace(self, params=params, tables=tables, content=content)
 
 
 def load(path: Path, host: Host) -> Design:
@@ -179,14 +181,46 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
             f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
         )
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
-    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
     readers = tuple(entry.item for entry in tables.values())
-    return Design(name, family, params, path, digest, read_tables(content, path, host), readers, content)
+    units, content = in_millimetres(content, path, {"parameters": model_schema(family.Params)}, readers)
+    with told_in(units):
+        params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters", path)
+        values = table_values(readers, content, path)
+    return Design(name, family, params, path, digest, values, readers, content, units)
 
 
 def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:
     """The values of all registered tables of a file; raises as :meth:`Table.read` does."""
-    return {name: entry.item.read(content.get(name, {}), path) for name, entry in host.of(Table).items()}
+    return table_values(host.all(Table), content, path)
+
+
+def table_values(
+    readers: Iterable[Table[Any]],
+    content: Mapping[str, Any],
+    path: Path,
+    known: Mapping[str, Any] | None = None,
+    touched: Set[str] = frozenset(),
+) -> dict[str, Any]:
+    """The values of tables of a file, with what some of them lend to others.
+
+    Those that are ``known`` stay, but for the ``touched`` ones; all are read anew where a touched one lends.
+    Raises as :meth:`Table.read` does.
+    """
+    values: dict[str, Any] = {}
+    lent: dict[str, Mapping[str, Any]] = {}
+    readers = tuple(readers)
+    if known is None or any(reader.lender and reader.name in touched for reader in readers):
+        known = {}
+    stays = known.keys() - touched
+    for reader in sorted(readers, key=lambda reader: not reader.lender):
+        name, own = reader.name, content.get(reader.name, {})
+        if name in stays:
+            values[name] = known[name]
+        else:
+            values[name] = reader.read(reader.laid_over(own, lent[name]) if name in lent else own, path)
+        if reader.lender:
+            lent |= reader.lends(values[name])
+    return {reader.name: values[reader.name] for reader in readers}
 
 
 def read_head(

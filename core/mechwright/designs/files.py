@@ -5,40 +5,14 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.inputs import INPUT_LIMIT as INPUT_LIMIT
+from mechwright.contracts.inputs import beside as beside
+from mechwright.contracts.inputs import read_bytes as read_bytes
 from mechwright.designs.toml_hints import toml_hint
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import DesignError
 
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
-
-INPUT_LIMIT = 20_000_000
-"""Bytes: files of other programs that a design names, such as libraries of thousands of tools."""
-
-
-def beside(path: Path, name: str, key: str) -> Path:
-    """A file in or below the folder of the design file ``path``; raises DesignError if it leads out of it."""
-    folder = path.resolve().parent
-    try:
-        found = (folder / name).resolve()
-    except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
-        raise DesignError(f"{path}: {key}: {name!r} is no file: {error}") from error
-    if not found.is_relative_to(folder):
-        raise DesignError(
-            f"{path}: {key}: {name!r} leads out of the folder of the design file; put the file beside it"
-        )
-    return found
-
-
-def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
-    """Content of a file of any kind; raises OutputError or DesignError that names it."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(limit + 1)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
-    if len(data) > limit:
-        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
-    return data
 
 
 def read_text(

@@ -5,8 +5,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
-from mechwright.designs.schema import HEAD, table_schema
+from mechwright.designs.schema import HEAD
 from mechwright.plugins.host import Host
 
 _TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(?:#.*)?$")
@@ -79,6 +80,14 @@ def homes(host: Host, content: Mapping[str, Any], own: str) -> dict[str, list[st
     ``own`` is ``parameters`` or ``requirement``.
     """
     found: dict[str, list[str]] = {key: [""] for key in HEAD}
+    for name, schema in schemas_of(host, content, own).items():
+        for table, key in _keys(schema, schema.get("$defs", {}), name):
+            found.setdefault(key, []).append(table)
+    return found
+
+
+def schemas_of(host: Host, content: Mapping[str, Any], own: str) -> dict[str, dict[str, Any]]:
+    """Name of each table of a file to its schema; ``own`` only as far as its family is known."""
     schemas = {table.name: table.schema() for table in host.all(Table)}
     family = host.of(Family).get(str(content.get("family")))
     if family is not None:
@@ -86,11 +95,8 @@ def homes(host: Host, content: Mapping[str, Any], own: str) -> dict[str, list[st
         kind = asked.get("kind") if isinstance(asked, Mapping) else None
         model = family.item.Params if own == "parameters" else family.item.requirements.get(str(kind))
         if model is not None:
-            schemas = {own: table_schema(model), **schemas}
-    for name, schema in schemas.items():
-        for table, key in _keys(schema, schema.get("$defs", {}), name):
-            found.setdefault(key, []).append(table)
-    return found
+            schemas = {own: model_schema(model), **schemas}
+    return schemas
 
 
 def _keys(schema: Mapping[str, Any], defs: Mapping[str, Any], where: str) -> Iterator[tuple[str, str]]:

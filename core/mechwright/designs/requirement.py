@@ -23,10 +23,12 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
+from mechwright.designs.inches import in_millimetres, told_in
 from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
@@ -93,19 +95,25 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
     require_synthesis(family, str(path))
     table = content.get("requirement", {})
     kinds = tuple(family.requirements)
-    rest = table
     kind: object = kinds[0] if len(kinds) == 1 else None
     if isinstance(table, dict):
-        rest = {key: value for key, value in table.items() if key != "kind"}
         kind = table.get("kind", kind)
     if kind is None:
         raise DesignError(f"{path}: requirement.kind: is missing; one of: {', '.join(kinds)}")
     if not isinstance(kind, str) or kind not in kinds:
         raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
+    model = family.requirements[kind]
+    schema = {"requirement": model_schema(model)}
+    units, content = in_millimetres(content, path, schema, host.all(Table))
+    rest = content.get("requirement", {})
+    if isinstance(rest, dict):
+        rest = {key: value for key, value in rest.items() if key != "kind"}
+    with told_in(units):
+        given = read_tables(content, path, host)
+        asked = read_table(model, rest, str(path), "requirement")
     tables: list[tuple[Table[Any], Any]] = []
     files: dict[str, Path] = {}
     inputs: dict[str, Path] = {}
-    given = read_tables(content, path, host)
     for key, value in given.items():
         reader = registered[key].item
         inputs |= reader.inputs(value, path)
@@ -116,7 +124,7 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
         name,
         family,
         kind,
-        read_table(family.requirements[kind], rest, str(path), "requirement"),
+        asked,
         tuple(tables),
         given,
         files,

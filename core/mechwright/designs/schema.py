@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.contracts.table import Table
 from mechwright.errors import DesignError
@@ -18,7 +19,7 @@ from mechwright.plugins.host import Host
 FORMAT = 1
 """Version of the design file's own layout."""
 
-HEAD = ("format", "family", "name")
+HEAD = ("format", "family", "name", "units")
 """Keys of every file; what else it may hold are tables."""
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -38,7 +39,7 @@ def schema_line(family: str, *, requirement: bool = False) -> str:
 
 
 def schema_name(family: str, *, requirement: bool = False) -> str:
-    """Name of the file that holds the schema."""
+    """Name of the file that holds the schema of design files, or of requirement files."""
     return f"{family}-requirement.schema.json" if requirement else f"{family}.schema.json"
 
 
@@ -62,7 +63,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     names = sorted(one.name for one in families)
     own = "requirement" if requirement else "parameters"
     asked = {
-        one.name: _asked(one, defs) if requirement else _model(one.Params, one.name, defs)
+        one.name: _asked(one, defs) if requirement else placed_schema(one.Params, one.name, defs)
         for one in sorted(families, key=lambda one: one.name)
     }
     # Editors complete what stands under properties; what depends on the family they can only check.
@@ -85,6 +86,10 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
                 "pattern": f"^(?:{NAME_PATTERN})$",
                 "description": "Name of the files.",
             },
+            "units": {
+                "enum": ["mm", "inch"],
+                "description": "Of bare lengths and feeds; cutting speeds are in m or feet per minute.",
+            },
             own: asked[family] if family else {"type": "object"},
             **tables,
         },
@@ -100,7 +105,7 @@ def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
     kinds = list(family.requirements)
     cases = []
     for kind, model in family.requirements.items():
-        table = _model(model, f"{family.name}.{kind}", defs)
+        table = placed_schema(model, f"{family.name}.{kind}", defs)
         table["properties"] = {"kind": {"const": kind}, **table["properties"]}
         cases.append(
             table if len(kinds) == 1 else {**table, "required": [*table.get("required", ()), "kind"]}
@@ -108,13 +113,16 @@ def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
     return cases[0] if len(cases) == 1 else {"anyOf": cases}
 
 
-def table_schema(model: type[BaseModel]) -> dict[str, Any]:
-    """The schema of a table by its model, as a :class:`~mechwright.contracts.table.Table` gives it."""
-    return model.model_json_schema()
+def as_file(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """The schema of a file by that of its values: quantities may be texts with a unit."""
+    defs: dict[str, Any] = {}
+    found = _placed(schema, "file", defs)
+    return {"$schema": DIALECT, **found, "$defs": defs}
 
 
-def _model(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
-    return _placed(table_schema(model), owner, defs)
+def placed_schema(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+    """The schema of a table as files are written; its definitions go to ``defs``, named after the owner."""
+    return _placed(model_schema(model), owner, defs)
 
 
 def _placed(schema: Mapping[str, Any], owner: str, defs: dict[str, Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import difflib
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -20,12 +21,15 @@ _MESSAGES = {
 """Where pydantic speaks of Python's types, by its own name of the error."""
 
 
-def read_table(model: type[T], table: object, source: str, where: str) -> T:
-    """Validate one table; raises DesignError with a line for each wrong key."""
+def read_table(model: type[T], table: object, source: str, where: str, path: Path = Path("design.toml")) -> T:
+    """Validate one table; raises DesignError with a line for each wrong key.
+
+    Files that it names lie in or below the folder of the file ``path``.
+    """
     if not isinstance(table, Mapping):
         raise DesignError(f"{source}: {where}: is {table!r}; write a table [{where}]")
     try:
-        return model.model_validate(dict(table))
+        return model.model_validate(dict(table), context={"path": path})
     except ValidationError as error:
         lines = [f"{source}: {line}" for line in _explain(error, model, where)]
         raise DesignError("\n".join(lines)) from None
@@ -45,7 +49,7 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
             for start in ("Value error, ", "Input ", "String "):
                 message = message.removeprefix(start)
             value = item.get("input")
-            if isinstance(value, (str, int, float)) and item["type"] != "unit" and keys:
+            if isinstance(value, (str, int, float)) and item["type"] not in {"unit", "file"} and keys:
                 message = f"{value!r} {message}"
             yield f"{place}: {message}"
 

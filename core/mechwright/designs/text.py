@@ -7,6 +7,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.inputs import InputFile
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.schema import FORMAT, schema_line
@@ -52,17 +54,20 @@ def design_text(
     family: Family[Any], name: str, params: Parameters, tables: Iterable[tuple[Table[Any], Any]] = ()
 ) -> str:
     """The design file of given parameters, and of tables with their values."""
+    tables = list(tables)
+    head = [line for table, value in tables for line in table.head(value)]
     texts = (table.text(value) for table, value in tables)
-    return _file(family, name, table_lines(type(params), "parameters", params), *texts)
+    return _file(family, name, table_lines(type(params), "parameters", params), *texts, head=head)
 
 
-def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
+def _file(family: Family[Any], name: str, *tables: list[str], head: Iterable[str] = ()) -> str:
     lines = [
         f"# {family.title}: {family.summary}",
         '# Lengths in mm, angles in degrees, speeds in rev/min; a text may carry another unit: "2 in".',
         f"format = {FORMAT}",
         f"family = {toml(family.name)}",
         f"name = {toml(name)}",
+        *head,
     ]
     for table in tables:
         lines += ["", *table] if table else []
@@ -83,7 +88,7 @@ def table_lines(
     such as the name of a machine, is not barred by defaults that nobody asked for.
     """
     lines, tables = [f"[{where}]"], []
-    schema = model.model_json_schema()["properties"]
+    schema = model_schema(model)["properties"]
     chosen = first_fields(model) if first else tuple(model.model_fields)
     for key in chosen:
         field = model.model_fields[key]
@@ -137,6 +142,6 @@ def toml(value: Any) -> str:
         return "[" + ", ".join(toml(item) for item in value) + "]"
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{json.dumps(key)} = {toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, str):
+    if isinstance(value, str | InputFile):
         return json.dumps(str(value), ensure_ascii=False)
     return repr(value)

@@ -14,6 +14,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
+from mechwright.geometry.beziers import by_degree, flattened, sampled
 from mechwright.geometry.segments import Arc, Line, Point, Segment
 from mechwright.tolerances import TOLERANCES
 
@@ -23,6 +24,14 @@ if TYPE_CHECKING:
 # Gauss points per smooth piece. Twenty are exact for polynomials of degree 39: second moments of splines
 # up to degree 10 (4 k - 1), their area up to degree 20 (2 k - 1); for quarter arcs the rest is rounding.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+
+
+def _at_nodes(segment: Segment) -> tuple[Array, Array]:
+    """Points (n, 2) and weighted rates (n, 2) at the Gauss points of every smooth piece."""
+    breaks = segment.breaks()
+    half = np.diff(breaks) / 2
+    t = ((breaks[:-1] + half)[:, None] + half[:, None] * _NODES).ravel()
+    return segment.at(t), segment.derivative(t) * (half[:, None] * _WEIGHTS).ravel()[:, None]
 
 
 @dataclass(frozen=True)
@@ -87,7 +96,13 @@ class Loop:
         return corners
 
     def _flattened(self, tolerance: float) -> Array:
-        corners = np.concatenate([segment.flatten(tolerance)[:-1] for segment in self.segments])
+        found: dict[int, Array] = {}
+        for places, nets in by_degree(self.segments):
+            found |= zip(places, flattened(nets, tolerance), strict=True)
+        every = (
+            found[i] if i in found else segment.flatten(tolerance) for i, segment in enumerate(self.segments)
+        )
+        corners = np.concatenate([points[:-1] for points in every])
         # A segment of next to no length would fold the polygon back on itself by a rounding error.
         apart = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) > TOLERANCES.closure
         return corners if apart.all() else corners[apart]
@@ -108,15 +123,13 @@ class Loop:
 
         All change sign where the loop runs clockwise.
         """
-        points, rates = [], []
-        for segment in self.segments:
-            breaks = segment.breaks()
-            half = np.diff(breaks) / 2
-            t = ((breaks[:-1] + half)[:, None] + half[:, None] * _NODES).ravel()
-            points.append(segment.at(t))
-            rates.append(segment.derivative(t) * (half[:, None] * _WEIGHTS).ravel()[:, None])
-        x, y = np.concatenate(points).T
-        dx, dy = np.concatenate(rates).T
+        found: dict[int, tuple[Array, Array]] = {}
+        for places, nets in by_degree(self.segments):
+            points, rates = sampled(nets, 0.5 + 0.5 * _NODES)
+            found |= zip(places, zip(points, rates * (0.5 * _WEIGHTS)[:, None], strict=True), strict=True)
+        every = [found.get(i) or _at_nodes(segment) for i, segment in enumerate(self.segments)]
+        x, y = np.concatenate([points for points, _ in every]).T
+        dx, dy = np.concatenate([rates for _, rates in every]).T
         return np.array(
             [
                 (x @ dy - y @ dx) / 2,

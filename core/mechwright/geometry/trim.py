@@ -75,10 +75,10 @@ def _inserted(degree: int, knots: Array, net: Array, value: float) -> tuple[Arra
     return np.insert(knots, span + 1, value), points
 
 
-def stretches(loop: Loop, region: "shapely.Geometry") -> list[Segment]:
-    """The stretches of a loop that run inside a region or along its edge, in order.
+def stretches(loop: Loop, region: "shapely.Geometry", *, outside: bool = False) -> list[Segment]:
+    """The stretches of a loop that run inside a region or along its edge, in order; or those ``outside``.
 
-    A segment that lies inside as a whole comes as it is.
+    A segment that lies there as a whole comes as it is.
     """
     import shapely
 
@@ -87,7 +87,7 @@ def stretches(loop: Loop, region: "shapely.Geometry") -> list[Segment]:
 
     def inside(points: Array) -> Array:
         found: Array = shapely.contains_xy(grown, points[:, 0], points[:, 1])
-        return found
+        return np.not_equal(found, outside)
 
     found: list[Segment] = []
     for segment in loop.segments:

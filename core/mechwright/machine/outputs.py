@@ -6,6 +6,7 @@ import numpy as np
 
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Motion
+from mechwright.contracts.mounting import MountingError
 from mechwright.errors import DesignError
 
 TURNS = 1e-9
@@ -52,7 +53,8 @@ def output_of(motion: Motion, wanted: str) -> str:
             "leave load out"
         )
     if len(found) > 1:
-        raise DesignError(
-            f"machine.output: {', '.join(found)} turn in the frame; name the one that bears the load"
+        raise MountingError(
+            f"machine.output: {', '.join(found)} turn in the frame; name the one that bears the load",
+            tuple({"machine.output": one} for one in found),
         )
     return found[0]

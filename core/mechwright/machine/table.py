@@ -1,9 +1,11 @@
 """The table ``[machine]`` of a design file."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
@@ -22,9 +24,13 @@ class MachineTable(Table[MachineSettings]):
         """The settings; the defaults where the file has no table."""
         return read_table(MachineSettings, content, str(path), self.name)
 
+    def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
+        """A design without the table stays without a machine."""
+        return super().laid_over(own, lent) if own else own
+
     def schema(self) -> dict[str, Any]:
         """Of the settings."""
-        return MachineSettings.model_json_schema()
+        return model_schema(MachineSettings)
 
     def text(self, value: MachineSettings | None = None) -> list[str]:
         """The whole table for a new design; nothing where a design says nothing of a machine."""

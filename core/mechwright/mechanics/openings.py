@@ -1,10 +1,107 @@
-"""What is wrong with the opening for a shaft by itself: sizes that no mill cuts, and keys that do not fit."""
+"""The opening for a shaft of a design table, and what is wrong with it by itself.
+
+Sizes that no mill cuts, and keys that do not fit.
+"""
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import Protocol
 
-from mechwright.contracts.finding import Finding
-from mechwright.geometry.keyway import LEAST_WIDTH, SMALLEST_EDGE, Opening, key_for_bore
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.errors import GeometryError
+from mechwright.geometry.keyway import (
+    KEYS,
+    LEAST_WIDTH,
+    SMALLEST_EDGE,
+    Opening,
+    key_for_bore,
+    key_of_width,
+)
+
+
+class Keyed(Protocol):
+    """What a design table says of a bore with a keyway, mm; 0 for none, None for the standard depth."""
+
+    @property
+    def bore(self) -> float:
+        """Diameter."""
+
+    @property
+    def keyway_width(self) -> float:
+        """Width of the hub keyway."""
+
+    @property
+    def keyway_depth(self) -> float | None:
+        """Hub depth t2 over the bore (DIN 6885)."""
+
+    @property
+    def keyway_relief(self) -> float:
+        """Diameter of the reliefs in its corners."""
+
+
+def opening_of(table: Keyed) -> Opening | None:
+    """The shaft opening, None without a bore.
+
+    Raises
+    ------
+    GeometryError
+        The keyway's width is not standard and its depth is not given.
+    """
+    if table.bore == 0:
+        return None
+    if table.keyway_width == 0:
+        return Opening(table.bore)
+    depth = table.keyway_depth
+    if depth is None:
+        key = key_of_width(table.keyway_width)
+        if key is None:
+            raise GeometryError(
+                f"keyway_depth: no standard key is {table.keyway_width:g} mm wide; give a depth"
+            )
+        depth = key.hub_depth
+    return Opening(table.bore, table.keyway_width, depth, table.keyway_relief)
+
+
+def keyed_findings(table: Keyed) -> Iterator[Finding]:
+    """Judge the keyway of a table that has one: its depth, its width, its reliefs."""
+    standard = key_of_width(table.keyway_width)
+    if table.keyway_depth is None and standard is None:
+        fitting = key_for_bore(table.bore)
+        yield Finding.error(
+            "bore.keyway-depth",
+            "keyway_depth",
+            f"no standard key is {table.keyway_width:g} mm wide, so its depth is not known",
+            table.keyway_width,
+            unit="mm",
+            remedy=f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
+            proposed=({"parameters.keyway_width": fitting.width},) if fitting else (),
+        )
+        return
+    opening = opening_of(table)
+    assert opening is not None  # noqa: S101 - a keyway comes with a bore
+    found = list(keyway_findings(opening))
+    yield from found
+    if standard is not None and not errors(found):
+        yield from _depth(opening, standard.hub_depth, standard.height - standard.shaft_depth)
+
+
+def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Finding]:
+    if opening.depth == standard:
+        return
+    too_shallow = opening.depth < key_height
+    yield Finding(
+        "bore.keyway-depth",
+        Severity.ERROR if too_shallow else Severity.WARNING,
+        "keyway_depth",
+        f"the standard key stands {key_height:g} mm out of the shaft and does not go in"
+        if too_shallow
+        else "the depth is not that of DIN 6885-1",
+        opening.depth,
+        key_height if too_shallow else standard,
+        "mm",
+        f"use keyway_depth = {standard:g}, or leave it out",
+        proposed=({"parameters.keyway_depth": None},),
+    )
 
 
 def too_small(sizes: Mapping[str, float | None]) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.designs.design import Design
 from mechwright.units import convert
 
@@ -107,7 +108,7 @@ def meant(words: str, keys: Mapping[str, Key]) -> list[Key]:
 @cache
 def _keys(model: type[BaseModel], table: str) -> tuple[Key, ...]:
     """Keys of a table; a schema takes a tenth of a second, and every bench asks for the same ones."""
-    schema = model.model_json_schema()
+    schema = model_schema(model)
     return tuple(_of(schema, schema.get("$defs", {}), table))
 
 

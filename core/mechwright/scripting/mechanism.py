@@ -8,7 +8,7 @@ from typing import Any
 from mechwright.build import Build, Inspection, Page
 from mechwright.contracts.finding import Finding, Findings, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.errors import MechwrightError
+from mechwright.errors import DesignError, MechwrightError
 from mechwright.output.folder import write_new
 from mechwright.scripting.changes import change_of
 from mechwright.scripting.performing import Written, perform
@@ -97,8 +97,12 @@ class Mechanism(Build):
     def page(self) -> str:
         """The page on which it moves, one file of HTML, as ``mechwright solve`` writes it.
 
-        Raises RefusedError where it does not move, PluginError where no such page is installed.
+        Raises RefusedError where it does not move, DesignError for a family of what stands still, PluginError
+        where no such page is installed.
         """
+        if not self.design.family.moves:
+            name = self.design.family.name
+            raise DesignError(f"{self.path}: family {name} stands still: there is no motion to show")
         found = self.host.get(Page, MOTION_PAGE)
         self.require(errors(self.findings, Stage.MOTION))
         with self._as("solve") as build:

@@ -6,6 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.inputs import input_files
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
 from mechwright.designs.files import digest_of, read_bytes
@@ -13,8 +14,9 @@ from mechwright.plugins.host import Host
 
 
 def facts(design: Design, found: Host) -> dict[str, Any]:
-    """Facts of a run on a design: the hash of its file and of all that its tables name."""
+    """Facts of a run on a design: the hash of its file and of all that it names."""
     inputs = {design.path.name: design.digest or digest_of(design.text)}
+    inputs |= {file.name: file.digest for file in input_files(design.params).values()}
     for name, value in design.tables.items():
         named = found.get(Table, name).inputs(value, design.path)
         inputs |= {name: digest_of(read_bytes(file)) for name, file in named.items()}

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mechwright.contracts.bought import Bought
-from mechwright.contracts.holes import COARSE
 from mechwright.contracts.shape import Revolve, Shape, hexagon, ring
+from mechwright.contracts.threads import COARSE
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.standards.table import table

@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +19,17 @@ SHOWN = 100_000
 
 
 def page_of(
-    study: Study, counts: Counts, front: Front, chosen: Iterable[Chosen], tables: Sequence[Path]
+    study: Study,
+    counts: Counts,
+    front: Front,
+    chosen: Iterable[Chosen],
+    tables: Sequence[Path],
+    pictures: Mapping[str, Any],
 ) -> str:
-    """The page; of many designs every so-manieth is on it, and the whole front."""
+    """The page; of many designs every so-manieth is on it, and the whole front.
+
+    ``pictures`` are those of :func:`mechwright.sweep.moving.moving`, by the names of the designs.
+    """
     shown, every = _shown(study, counts, front, tables)
     best = np.isin(shown[NUMBER], front.columns[NUMBER]) if len(front) else np.zeros(len(shown[NUMBER]), bool)
     columns = [_column(name, unit, shown[name]) for name, unit in study.units.items()]
@@ -33,15 +41,19 @@ def page_of(
         "count": len(best),
     }
     picked = list(chosen)
-    # Nothing in the text of a script may end it.
-    text = json.dumps(data).replace("<", "\\u003c")
     forbidden = sorted(counts.forbidden.items(), key=lambda one: -one[1])
     return (
         templates(Path(__file__).parent)
         .get_template("study.html")
-        .render(study=study, counts=counts, front=len(front), chosen=picked, every=every, data=text,
-                forbidden=forbidden, shown=len(best))
+        .render(study=study, counts=counts, front=len(front), chosen=picked, every=every,
+                data=_told(data), forbidden=forbidden, shown=len(best), pictures=list(pictures),
+                moving=_told(list(pictures.values())))
     )  # fmt: skip
+
+
+def _told(data: Any) -> str:
+    """Data for a script; nothing in it may end that."""
+    return json.dumps(data).replace("<", "\\u003c")
 
 
 def _shown(

@@ -18,6 +18,7 @@ from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.sweep.folder import SHARDS, SUFFIX, SweepFolder
 from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
+from mechwright.sweep.moving import moving
 from mechwright.sweep.page import page_of
 from mechwright.sweep.pareto import spread
 from mechwright.sweep.shard import NUMBER, Counts, read, written
@@ -162,11 +163,13 @@ def _written(
     place: SweepFolder, study: Study, counts: Counts, front: Front, chosen: Iterable[Chosen]
 ) -> Swept:
     picked = tuple(chosen)
-    output = Output()
+    output, pictures = Output(), dict[str, Any]()
     for one in picked:
         if one.name:
             number = front.columns[NUMBER].tolist().index(one.design)
-            output.add(f"{one.name}.toml", _mechanism(study, front, number, one.name, place.host).toml)
+            mechanism = _mechanism(study, front, number, one.name, place.host)
+            output.add(f"{one.name}.toml", mechanism.toml)
+            pictures[one.name] = moving(mechanism)
     if len(front):
         output.add(f"front{SUFFIX}", written(front.columns, study.units))
     summary = {
@@ -179,7 +182,9 @@ def _written(
     }
     output.add("summary.json", json.dumps(summary, indent=2) + "\n")
     tables = sorted((place.path / SHARDS).glob(f"*{SUFFIX}"))
-    output.add("study.html", page_of(study, counts, front, picked, tables))
+    output.add(
+        "study.html", page_of(study, counts, front, picked, tables, {k: v for k, v in pictures.items() if v})
+    )
     files = tuple(sorted(output.files))
     place.write(output)
     return Swept(counts, len(front), picked, files)

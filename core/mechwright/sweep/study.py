@@ -38,10 +38,13 @@ from pydantic import Field
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage
+from mechwright.contracts.inputs import input_files
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
+from mechwright.designs.inches import units_of
 from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, MechwrightError
@@ -171,10 +174,14 @@ def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
     """The study that a file ``path`` with this content holds; raises as ``load_study`` does."""
     tables = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "parameters", TABLE, *tables))
+    if units_of(content, path) != "mm":
+        raise DesignError(f'{path}: units: a study is in mm; leave units out, or write "2 in" for a length')
     if TABLE not in content:
         raise DesignError(f"{path}: has no table [{TABLE}]; give [{TABLE}.ranges], or use mechwright check")
     given = content.get("parameters", {})
-    params = read_table(family.Params, given, str(path), "parameters")
+    params = read_table(family.Params, given, str(path), "parameters", path)
+    for key in input_files(params):
+        raise DesignError(f"{path}: parameters.{key}: a study carries no files; vary the design by hand")
     asked = read_table(Asked, content[TABLE], str(path), TABLE)
     axes = _axes(family, asked, path)
     if asked.method == "sobol" and asked.count > 1 << BITS:
@@ -225,7 +232,7 @@ def grid_size(axes: tuple[Axis, ...]) -> int:
 
 def unit_of(model: type[Parameters], name: str) -> str:
     """Unit of a parameter, as its field declares it; empty for a number, a choice or a name."""
-    schema = model.model_json_schema()
+    schema = model_schema(model)
     table = schema
     for step in name.split("."):
         table = table.get("properties", {}).get(step, {})

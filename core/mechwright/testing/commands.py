@@ -2,7 +2,6 @@
 
 import contextlib
 import io
-import json
 import os
 import subprocess
 import sys
@@ -55,20 +54,20 @@ def run(*arguments: object) -> Done:
 
 
 def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]]:
-    """Run ``mechwright cam`` on the content of a design file, in an empty folder to work in.
+    """The programs that ``mechwright cam`` writes for the content of a design file, in an empty folder.
 
-    Gives part name to its proof, as ``proof.json`` holds it. Raises AssertionError with what the command
-    printed where it failed, or where a program is missing.
+    Gives part name to its proof, as ``proof.json`` holds it. Raises AssertionError with what is said where
+    there are no programs, or where a text is missing. Pages and drawings are not made: those are no family's.
     """
-    output = folder / "out"
-    done = _run(design, folder, "cam", "-o", output)
-    if done.returncode:
-        raise AssertionError(f"mechwright cam ends with {done.returncode}:\n{done.stdout}{done.stderr}")
-    proofs: dict[str, dict[str, Any]] = json.loads((output / "proof.json").read_text(encoding="utf-8"))
-    for part in proofs:
-        if not list(output.glob(f"{part}.*")):
-            raise AssertionError(f"there is a proof of {part}, but no file")
-    return proofs
+    with Build(_written(design, folder), host(), Wanted(command="cam")) as build:
+        try:
+            made = build.programs
+        except MechwrightError as error:
+            raise AssertionError(f"there are no programs:\n{error}") from error
+    for one in made:
+        if not any(text.strip() for text in one.files.values()):
+            raise AssertionError(f"there is a proof of {one.name}, but no text")
+    return {one.name: one.proof.as_dict() for one in made}
 
 
 def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list[str]:
@@ -88,10 +87,6 @@ def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list
     if refused:
         raise AssertionError("\n".join(f"{one.code}: {one.message}" for one in refused))
     return [finding.message for finding in found if finding.code == _COLLISION]
-
-
-def _run(design: Mapping[str, Any], folder: Path, command: str, *options: str | Path) -> Done:
-    return run(command, _written(design, folder), *options)
 
 
 def _written(design: Mapping[str, Any], folder: Path) -> Path:

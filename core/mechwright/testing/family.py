@@ -25,6 +25,7 @@ from pydantic import ValidationError
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.inputs import input_files
 from mechwright.contracts.materials import material
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
@@ -215,7 +216,7 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
 
     def test_programs_are_proven(self, design: Mapping[str, Any], tmp_path: Path) -> None:
         """Every plate part of the design is machined, by a program that has been proven."""
-        file = self._file(design)
+        file = self._file(design, tmp_path)
         if not any(contract.kind == "control" for contract in host().registered):
             pytest.skip("no control is installed")
         proofs = commands.machine(file, tmp_path)
@@ -228,14 +229,18 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
     def test_no_interference(self, design: Mapping[str, Any], tmp_path: Path) -> None:
         """No two bodies stand in each other at any instant of the motion."""
         solids = any(part.outline is None for part in self._parts(design))
-        _none(commands.collisions(self._file(design), tmp_path, solids=solids))
+        _none(commands.collisions(self._file(design, tmp_path), tmp_path, solids=solids))
 
-    def _file(self, design: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The design file of an example; skips the test if the family is not installed."""
+    def _file(self, design: Mapping[str, Any], folder: Path) -> Mapping[str, Any]:
+        """The design file of an example, whose files go into the folder; skips if it is not installed."""
         registered = host().of(Family).get(self.family.name)
         if registered is None or type(registered.item) is not self.family:
             pytest.skip(f"family {self.family.name} is not installed")
-        table = self.params(design).model_dump(mode="json", exclude_none=True)
+        params = self.params(design)
+        for file in input_files(params).values():
+            (folder / file.name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / file.name).write_bytes(file.data)
+        table = params.model_dump(mode="json", exclude_none=True)
         return {"format": 1, "family": self.family.name, "parameters": table, "cam": dict(self.cam)}
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
@@ -263,14 +268,13 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
         assert all(0 <= done <= 1 for done in heard), f"{kind}: progress {heard} leaves 0 to 1"
         assert heard == sorted(heard), f"{kind}: progress goes backwards"
         assert errors(result.findings) == [], f"{kind} finds no design"
-        designs = [candidate.params for candidate in result.candidates]
+        designs = [one.params for one in result.candidates]
         assert designs, f"{kind} finds no design, and no error says so"
-        for number, design in enumerate(designs):
+        for number, (design, candidate) in enumerate(zip(designs, result.candidates, strict=True)):
             assert isinstance(design, self.family.Params)
             assert design not in designs[:number], f"{kind}: a design is given twice"
             assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
-        for number, candidate in enumerate(result.candidates, start=1):
-            assert limits_broken(requirement, candidate) == [], f"{kind}: design {number} breaks a limit"
+            assert limits_broken(requirement, candidate) == [], f"{kind}: {number + 1} breaks a limit"
 
     # All designs
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.motion import TIME, Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Part, Pocket, Profile, is_outside
@@ -25,7 +26,7 @@ _CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'.-]*")
 
 def schema_faults(params: type[Parameters]) -> list[str]:
     """Fields without a description, and numbers without bounds or a known unit, in nested tables as well."""
-    schema = params.model_json_schema()
+    schema = model_schema(params)
     found = []
     for table, where in _tables(schema):
         for name, field in table.get("properties", {}).items():

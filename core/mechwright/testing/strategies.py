@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
+from mechwright.contracts.inputs import InputFile
 from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import Parameters
 
@@ -110,6 +111,8 @@ def _values(kind: Any, rule: dict[str, Any], where: str, default: Any) -> st.Sea
 def _plain(kind: type, rule: dict[str, Any], where: str, default: Any) -> st.SearchStrategy[Any]:
     if issubclass(kind, Parameters):
         return tables(kind)
+    if issubclass(kind, InputFile):
+        return st.just(str(default))
     if issubclass(kind, Enum):
         return st.sampled_from([member.value for member in kind])
     if issubclass(kind, bool):

@@ -41,9 +41,11 @@ def test_a_program_is_fanuc_s_but_for_the_words_of_coolant():
 
 def test_words_that_are_not_its_own_are_refused():
     one = made()
-    with pytest.raises(ProgramError, match=r"^line \d+: M8 is no code that Larch 300 is known to read"):
+    with pytest.raises(
+        ProgramError, match=r"^line \d+: M8 is no code that is read in programs for Larch 300"
+    ):
         prove(one.text.replace("M108", "M8"), one.job, LARCH)
-    with pytest.raises(ProgramError, match="M108 is no code that Fanuc is known to read"):
+    with pytest.raises(ProgramError, match="M108 is no code that is read in programs for Fanuc"):
         prove(one.text, one.job, Fanuc())
 
 

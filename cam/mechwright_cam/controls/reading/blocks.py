@@ -21,10 +21,21 @@ LARGEST_NUMBER = 1e9
 _WORD = re.compile(rf"([A-Z@^])({NUMBER})")
 _LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
 _LENGTHS = frozenset("IJKQRXYZ")
+_JUMP = re.compile(r"(IF|GOTO|WHILE|THEN|DO(?=[0-9])|END(?=[0-9]))")
 _PROGRAM = re.compile(r"[O:][0-9]{1,5}")
 POLAR = frozenset("@^")
 """LinuxCNC's polar coordinates: distance from X0 Y0, and angle, degrees."""
 _OTHER_AXES = frozenset("ABCUVW")
+_COMMENT = re.compile(r"\([^)]*\)|;.*")
+_MARK = "\1"
+_IN_WORD = re.compile(
+    rf"[^0-9.\]>\s/{_MARK}]\s*{_MARK}"  # behind a letter, or in a value
+    rf"|[^\s{_MARK}]\s*/\s*{_MARK}|{_MARK}\s*[^A-Z@^#;\s{_MARK}]",
+    re.IGNORECASE,
+)
+"""Places of comments, each of which is :data:`_MARK`, where no word could begin."""
+_O_WORD = re.compile(rf"[\s{_MARK}]*/?\s*(?:N[0-9]+\s*)?O", re.IGNORECASE)
+_NOT_LAST = re.compile(rf"{_MARK}[\s{_MARK}]*[^\s{_MARK}]")
 _BLANKS = {ord(" "): None, ord("\t"): None}
 
 
@@ -41,6 +52,18 @@ class Block:
     deleted: bool = False
     title: bool = False
     """Whether it is a program number, such as O1234."""
+    late_number: bool = False
+    """Whether a line number would stand behind a comment."""
+
+    def again(self, line: int) -> "Block":
+        """The same for another line, with words of its own to be taken out."""
+        words = self.words.copy()
+        return Block(line, self.g, self.m, words, self.comments, self.bare, self.deleted, self.title)
+
+
+def no_code(word: str, dialect: Dialect) -> str:
+    """What is said of a code that the interpreter does not have: the control itself may know it."""
+    return f"{word} is no code that is read in programs for {dialect.name}; post the program without it"
 
 
 def fail(line: int, reason: str) -> ProgramError:
@@ -67,6 +90,9 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
         if character in text:
             raise fail(line, f"{dialect.name} obeys {character!r} wherever it stands; take it out")
     code = _strip_comments(block, text, dialect) if "(" in text or ";" in text or ")" in text else text
+    if block.comments and code and not code.isspace():
+        check_comments(line, text)
+        block.late_number = text.lstrip().startswith("(")
     code = code.translate(_BLANKS)
     small = next((c for c in code if c.islower()), "") if dialect.capitals else ""
     code = code.upper()
@@ -90,6 +116,19 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
     if dialect.one_m and len(block.m) > 1:
         raise fail(line, f"several M codes; {dialect.name} obeys one in a line, write a line for each")
     return block
+
+
+def check_comments(line: int, text: str) -> None:
+    """Raise ProgramError if a comment stands in a word or a value, or in an O-word other than at its end.
+
+    >>> check_comments(3, "G1 X1 (to the edge) Y2 (and up)")
+    >>> check_comments(3, "G1 X1(2).5")
+    Traceback (most recent call last):
+    mechwright.errors.ProgramError: line 3: a comment stands inside of a word; put it at the end of the line
+    """
+    marked = _COMMENT.sub(lambda match: _MARK if match[0][0] == "(" else "", text)
+    if (_NOT_LAST if _O_WORD.match(marked) else _IN_WORD).search(marked):
+        raise fail(line, "a comment stands inside of a word; put it at the end of the line")
 
 
 def check_points(block: Block, dialect: Dialect) -> None:
@@ -144,6 +183,8 @@ def _keep_comment(block: Block, comment: str, dialect: Dialect) -> None:
 
 def _explain(rest: str) -> str:
     letter = rest[0]
+    if (jump := _JUMP.match(rest)) is not None:
+        return f"jumps and loops of macros ({jump[1]}) are not read; post the program without them"
     if letter in "#[O=<" or (letter in _LETTERS | _OTHER_AXES and rest[1:2] in {"#", "["}):
         return "parameters, expressions and O-words are not read; post the program without them"
     if letter == "%":
@@ -166,10 +207,10 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     elif letter == "M":
         usual = dialect.usual_m(round(value))
         if usual is None:
-            raise fail(block.line, f"M{number} is no code that {dialect.name} is known to read")
+            raise fail(block.line, no_code(f"M{number}", dialect))
         _add_code(block, "M", block.m, usual, value + usual - round(value), M_GROUP)
     elif letter == "N":
-        if not first:
+        if not first or (dialect.macros and block.late_number):
             raise fail(block.line, "a line number stands at the start of its line")
         whole = number.isdigit() or (dialect.parts_of_n and number[0] not in "+-")
         if not whole or value > dialect.largest_n:

@@ -12,7 +12,7 @@ GROUPS: dict[str, frozenset[int]] = {
     "return": frozenset({980, 990}),
     "work offset": frozenset({540, 541, 550, 560, 570, 580, 590, 591, 592, 593, 1540}),
     "path": frozenset({610, 611, 640}),
-    "non-modal": frozenset({40, 100, 280, 300, 530}),
+    "non-modal": frozenset({40, 100, 280, 300, 530, 921, 922}),
 }
 """G groups, codes in tenths."""
 

@@ -8,13 +8,14 @@ import math
 from collections.abc import Mapping
 
 from mechwright_cam.controls.dialect import RETURN, Dialect
-from mechwright_cam.controls.reading.blocks import Block, check_points, fail
+from mechwright_cam.controls.reading.blocks import Block, check_points, fail, no_code
 from mechwright_cam.controls.reading.groups import GROUPS, spell
 from mechwright_cam.controls.reading.motions import Moving
 from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
 
 AXES_TAKEN = frozenset({100, 280, RETURN, 431})
 """G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
+MOTIONS = GROUPS["motion"]
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
@@ -27,6 +28,8 @@ class Machine(Moving):
         self.upper_end = upper_end
         self.diameters = diameters
         self.sticky = {}
+        self.usual: set[tuple[int, ...]] = set()
+        """Codes of blocks, G, 0 and M, that are known to go together on this control."""
 
     def system_value(self, name: float | str) -> float:
         """A parameter that the machine keeps; numbered ones that nothing has set are 0."""
@@ -61,8 +64,11 @@ class Machine(Moving):
             self.remarks.append(Remark(block.line, comment, self.steps))
         if not (block.g or block.m or block.words):
             return
-        if block.g or block.m:
+        codes = (*block.g, 0, *block.m)
+        if codes not in self.usual:
             self._check_codes(block)
+            if not self.dialect.inert_g & set(block.g):  # their letters are taken out each time
+                self.usual.add(codes)
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect)
         words, before = block.words, self.state
@@ -71,7 +77,7 @@ class Machine(Moving):
         self._tool(block, words)
         if block.m:
             self._spindle_and_coolant(block)
-        if self.state.turning != before.turning:
+        if self.state is not before and self.state.turning != before.turning:
             place = self.x, self.y, self.z
             self.spindle_changes.append(SpindleChange(block.line, before.tool, place, self.steps))
         if 40 in block.g:
@@ -80,7 +86,7 @@ class Machine(Moving):
             if seconds < 0:
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
-        if block.g:
+        if not MOTIONS.issuperset(block.g):
             self._modes(block, words)
             self._length_offset(block)
             self._work_offset(block, words)
@@ -108,11 +114,11 @@ class Machine(Moving):
             for refused, remedy in self.dialect.unsupported:
                 if code == refused:
                     raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
-            raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
+            raise fail(block.line, no_code(spell(code), self.dialect))
         self._check_together(block)
         for code in block.m:
             if code not in self.dialect.m_codes | self.dialect.inert_m:
-                raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+                raise fail(block.line, no_code(f"M{code}", self.dialect))
 
     def _check_together(self, block: Block) -> None:
         """Refuse codes that the control does not take in one line."""

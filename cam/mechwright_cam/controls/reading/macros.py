@@ -11,11 +11,14 @@ O-word
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
-from mechwright_cam.controls.reading.blocks import fail
+import numpy as np
+
+from mechwright_cam.controls.reading.blocks import check_comments, fail
 from mechwright_cam.controls.reading.expressions import Reader
-from mechwright_cam.controls.reading.values import COMMENT, OWN, Frame, Values, whole
+from mechwright_cam.controls.reading.plain import PlainLines, Row
+from mechwright_cam.controls.reading.values import COMMENT, OWN, BehindError, Frame, Values, whole
 
 _USES = re.compile(
     r"^(?:[^(;\n]|\([^)\n]*\))*?[#\[]|^\s*(?:n[0-9]+\s*)?/?(?:o\s*[0-9<\[#]|m\s*0*9\s*[89](?![0-9]))",
@@ -34,6 +37,10 @@ def uses_macros(text: str) -> bool:
 
 MOST_LINES = 500_000
 """A program that runs more lines than this is taken for an endless loop: ten seconds."""
+MOST_ROWS = 5000
+"""So many rows of numbers are run together."""
+FEW_LINES = 500
+"""Fewer plain lines wait for what follows on them."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 _O_WORD = re.compile(
@@ -57,6 +64,10 @@ class Macros(Values):
     ) -> None:
         super().__init__(lines, system)
         self.returned = returned
+        self.readable = len(lines)
+        """Index of the first line that no control reads."""
+        self.follow: Sequence[int] = [0] * len(lines)
+        """How many plain lines follow on each other from each line on, 0 where it is not plain."""
         self.words: dict[int, tuple[str, str, str]] = {}
         self.places: dict[str, list[int]] = {}
         """Lines of each label, in order."""
@@ -77,27 +88,63 @@ class Macros(Values):
             elif match := _M98.fullmatch(code):
                 self.words[index] = ("", f"m9{match[1]}", match[2])
 
-    def run(self) -> Iterator[tuple[int, str]]:
-        """Index and text of each line that the machine has to obey, in the order of running."""
+    def run(self) -> Iterator[tuple[int, str | list[Row]]]:
+        """What the machine has to obey, in the order of running: a line by index and text, or rows."""
         done = 0
         while self.at < len(self.lines):
             done += 1
             if done > MOST_LINES:
+                yield from self._rows()
                 raise fail(self.at + 1, f"more than {MOST_LINES} lines are run; does a loop not end?")
             index = self.at
-            self.at += 1
+            if index in self.words and (comments := COMMENT.findall(self.lines[index])):
+                yield from self._rows()
+                check_comments(index + 1, self.lines[index])
+                yield index, "".join(comments)
             try:
-                if index in self.words:
-                    if comments := COMMENT.findall(self.lines[index]):
-                        yield index, "".join(comments)
-                    self._obey(index, *self.words[index])
-                else:
-                    yield index, self._plain(self.lines[index])
-                    done += self.at - index - 1
+                try:
+                    line = self._next(index)
+                except BehindError:
+                    yield from self._rows()
+                    line = self._next(index)
             except (ValueError, OverflowError) as error:
+                yield from self._rows()  # what goes wrong in them has gone wrong before
                 if str(error).startswith("line "):
                     raise
                 raise fail(index + 1, str(error)) from None
+            if isinstance(line, Row):
+                self.waiting.append(line)
+                if len(self.waiting) < MOST_ROWS:
+                    continue
+            elif line is not None:
+                yield from self._rows()
+                yield index, line
+                done += self.at - index - 1
+                continue
+            else:
+                continue
+            yield from self._rows()
+        yield from self._rows()
+
+    def _rows(self) -> Iterator[tuple[int, list[Row]]]:
+        """The rows that the machine has still to run, if there are any."""
+        if self.waiting:
+            rows, self.waiting = self.waiting, []
+            yield rows[0].index, rows
+
+    def _next(self, index: int) -> str | Row | None:
+        """Work out a line; a structure gives none."""
+        self.at = index + 1
+        if index in self.words:
+            self._obey(index, *self.words[index])
+            return None
+        line = self.lines[index]
+        if index >= self.readable:
+            return line
+        if "#" in line or "[" in line:
+            return self._worked_out(index)
+        # A few plain lines in a loop or a subroutine wait; many are run as they stand.
+        return Row(index, None, []) if 0 < self.follow[index] < FEW_LINES else line
 
     # -- structures -------------------------------------------------------------------------------------
 
@@ -181,6 +228,13 @@ class Macros(Values):
             start = self._start(str(whole(words["p"])), "")
             self._enter(Frame(self.at, start, by_m98=True, rounds=rounds, own=self.frames[-1].own))
 
+    def read(self, lines: PlainLines, readable: int) -> None:
+        """Say which lines are plain, and up to which one all are read."""
+        self.readable = readable
+        number = np.arange(len(lines))
+        other = np.where(lines.plain, len(lines), number)
+        self.follow = (np.minimum.accumulate(other[::-1])[::-1] - number).tolist()
+
     def _return(self, word: str, rest: str) -> None:
         result = Reader(rest, self._value).real() if rest and word != "m99" else None
         frame = self.frames[-1]
@@ -190,6 +244,13 @@ class Macros(Values):
             raise ValueError("a subroutine ends that was not called")
         if frame.by_m98 != (word == "m99"):
             raise ValueError("O sub is called by call and ends with endsub, M98 calls what ends with M99")
+        if frame.rounds == 1:
+            try:
+                self.returned()
+            except ValueError:
+                if self.waiting:
+                    raise BehindError from None
+                raise
         self.names["_value"] = 0.0 if result is None else result
         self.names["_value_returned"] = float(result is not None)
         frame.rounds -= 1
@@ -198,7 +259,6 @@ class Macros(Values):
             return
         self.frames.pop()
         self.at = frame.back
-        self.returned()
 
     def _branch(self, index: int, label: str, rest: str) -> None:
         taken = self.condition(rest)

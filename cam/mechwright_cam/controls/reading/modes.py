@@ -77,7 +77,8 @@ class Modal(Compensation):
             self.state = replace(self.state, **changes)
 
     def _state(self, group: str) -> None:
-        self._set(stated=self.state.stated | {group})
+        if group not in self.state.stated:
+            self._set(stated=self.state.stated | {group})
 
     def _keep_state(self) -> None:
         kept = self.states[self.index]
@@ -155,6 +156,12 @@ class Modal(Compensation):
             elif code in {980, 990}:
                 self._without_compensation(block, spell(code))
                 self.to_initial = code == 980
+                self._state("return")
+            elif code == 940:
+                self._state("feed mode")
+            elif code in {921, 922}:
+                self._without_compensation(block, spell(code))
+                self._lose_place()
             elif code in PLANES:
                 if self.side or (before and code != self.plane):  # G40 in the same line comes too late
                     raise fail(block.line, "the plane changes while compensation is on; write G40 before")

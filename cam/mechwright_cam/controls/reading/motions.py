@@ -220,6 +220,8 @@ class Moving(Modal):
 
     def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
         line, name = block.line, spell(code)
+        if "return" not in self.state.stated:
+            self.unsaid.append((line, "G98"))
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
         asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else "")

@@ -14,6 +14,8 @@ motion line
 """
 
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -29,6 +31,8 @@ Bools = NDArray[np.bool_]
 LETTERS = "NGXYZIJRF"
 """Letters of a plain line; words stand in columns of this order."""
 N, G, X, Y, Z, I, J, R, F = range(len(LETTERS))
+DECIMALS = 10
+"""So many decimals of a value that a program works out count."""
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
 _KINDS = 8  # kinds of character, 0 for any other, rounded up
 _MAY_FOLLOW = {
@@ -71,8 +75,31 @@ _COLUMN = _table(
 _DROPPED = bytes(set(range(256)) - set(_NAMES + _NAMES.lower() + b".\n"))
 
 
-class PlainLines:
-    r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
+def spelt(value: float) -> str:
+    """A value that has been worked out, as a program has it."""
+    return f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".") if value else "0"
+
+
+@dataclass(slots=True)
+class Row:
+    """The words of a plain line, already worked out."""
+
+    index: int
+    """Of the line in the text, from 0."""
+    columns: tuple[int, ...] | None
+    """Columns of the words, by :data:`LETTERS`; None for the plain line as it stands in the text."""
+    values: list[float]
+
+    @property
+    def text(self) -> str:
+        """The line as a program has it."""
+        return " ".join(
+            f"{LETTERS[c]}{spelt(v)}" for c, v in zip(self.columns or (), self.values, strict=True)
+        )
+
+
+class Rows:
+    """Lines as words in columns.
 
     Attributes
     ----------
@@ -81,49 +108,13 @@ class PlainLines:
     words
         (9, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
         is not plain.
-
-    Examples
-    --------
-    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", Dialect(frozenset({10})))
-    >>> lines.plain.tolist(), lines.words[X].tolist()
-    ([True, False, True], [1.5, nan, -0.5])
+    number
+        (n,) number of each line in the text, from 1.
     """
 
-    def __init__(self, text: str, dialect: Dialect) -> None:
-        data = b"\n" + text.encode("utf-8", "surrogatepass") + b"\n"
-        kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
-        ends = np.flatnonzero(kind == _END)
-        length = np.diff(ends)
-        self.plain: Bools = length <= dialect.line_length + 1  # with its end
-        wrong = _wrong_places(data, kind)
-        self.plain[np.searchsorted(ends, wrong) - 1] = False
-        kept = np.repeat(np.concatenate(([True], self.plain)), np.concatenate(([1], length)))
-        kept[ends] = True
-        clean = np.where(kept, np.frombuffer(data, dtype=np.uint8), ord(" ")).tobytes()
-        self.words: Array = np.full((len(LETTERS), length.size), np.nan)
-        self._fill(clean, dialect)
-
-    def _fill(self, clean: bytes, dialect: Dialect) -> None:
-        """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
-        marks = np.frombuffer(clean.translate(_COLUMN, _DROPPED), dtype=np.uint8)
-        at = np.flatnonzero(marks < _POINT_MARK)
-        column = marks[at].astype(np.int64)
-        line = np.cumsum(marks == _END_MARK, dtype=np.int64)[at] - 1
-        value: Array = np.fromstring(clean.translate(_ONLY_NUMBERS), sep=" ")
-        word = line * len(LETTERS) + column
-        wrong = np.bincount(word, minlength=1)[word] > 1
-        wrong[1:] |= (line[1:] == line[:-1]) & (column[1:] == N)
-        wrong |= (column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))
-        wrong |= (column == F) & (value < 0)
-        wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.largest_n))
-        wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
-        if dialect.point_needed:
-            length = (column >= X) & (column <= R)
-            wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
-        self.words[column, line] = value
-        struck = line[wrong]
-        self.plain[struck] = False
-        self.words[:, struck] = np.nan
+    plain: Bools
+    words: Array
+    number: Ints
 
     def __len__(self) -> int:
         return int(self.plain.size)
@@ -154,6 +145,83 @@ class PlainLines:
     def until(self, line: int, arc: bool) -> int:
         """Index of the first line from ``line`` on that is no motion line; ``arc`` is the motion in force."""
         return int(self._ends[arc][line])
+
+
+class WorkedOut(Rows):
+    """Rows that a program has worked out, and plain lines of its text between them."""
+
+    def __init__(self, rows: Sequence[Row], text: "PlainLines") -> None:
+        self.number = np.array([row.index for row in rows], dtype=np.int64) + 1
+        self.words = text.words[:, self.number - 1]
+        at = np.repeat(np.arange(len(rows)), [len(row.values) for row in rows])
+        column = np.array([column for row in rows for column in row.columns or ()], dtype=np.int64)
+        value = np.array([value for row in rows for value in row.values], dtype=np.float64)
+        wrong = ~(np.abs(value) <= LARGEST_NUMBER) | _meaningless(column, value)
+        self.plain = np.ones(len(rows), dtype=np.bool_)
+        self.plain[at[wrong]] = False
+        self.words[column, at] = value
+        self.words[:, ~self.plain] = np.nan
+
+
+class PlainLines(Rows):
+    r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
+
+    Attributes
+    ----------
+    plain
+        (n,) whether each line is plain.
+    words
+        (9, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
+        is not plain.
+
+    Examples
+    --------
+    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", Dialect(frozenset({10})))
+    >>> lines.plain.tolist(), lines.words[X].tolist()
+    ([True, False, True], [1.5, nan, -0.5])
+    """
+
+    def __init__(self, text: str, dialect: Dialect) -> None:
+        data = b"\n" + text.encode("utf-8", "surrogatepass") + b"\n"
+        kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
+        ends = np.flatnonzero(kind == _END)
+        length = np.diff(ends)
+        self.plain = length <= dialect.line_length + 1  # with its end
+        wrong = _wrong_places(data, kind)
+        self.plain[np.searchsorted(ends, wrong) - 1] = False
+        kept = np.repeat(np.concatenate(([True], self.plain)), np.concatenate(([1], length)))
+        kept[ends] = True
+        clean = np.where(kept, np.frombuffer(data, dtype=np.uint8), ord(" ")).tobytes()
+        self.words = np.full((len(LETTERS), length.size), np.nan)
+        self.number = np.arange(1, length.size + 1)
+        self._fill(clean, dialect)
+
+    def _fill(self, clean: bytes, dialect: Dialect) -> None:
+        """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
+        marks = np.frombuffer(clean.translate(_COLUMN, _DROPPED), dtype=np.uint8)
+        at = np.flatnonzero(marks < _POINT_MARK)
+        column = marks[at].astype(np.int64)
+        line = np.cumsum(marks == _END_MARK, dtype=np.int64)[at] - 1
+        value: Array = np.fromstring(clean.translate(_ONLY_NUMBERS), sep=" ")
+        word = line * len(LETTERS) + column
+        wrong = np.bincount(word, minlength=1)[word] > 1
+        wrong[1:] |= (line[1:] == line[:-1]) & (column[1:] == N)
+        wrong |= _meaningless(column, value)
+        wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.largest_n))
+        wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
+        if dialect.point_needed:
+            length = (column >= X) & (column <= R)
+            wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
+        self.words[column, line] = value
+        struck = line[wrong]
+        self.plain[struck] = False
+        self.words[:, struck] = np.nan
+
+
+def _meaningless(column: Ints, value: Array) -> Bools:
+    """Which words (k,) no plain line has: of G what is none of its motions, of F what is below 0."""
+    wrong: Bools = ((column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))) | ((column == F) & (value < 0))
+    return wrong
 
 
 def _wrong_places(data: bytes, kind: NDArray[np.uint8]) -> Ints:

@@ -8,17 +8,19 @@ from typing import Any
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.blocks import fail, read_block
+from mechwright_cam.controls.reading import stretch
+from mechwright_cam.controls.reading.blocks import Block, fail, read_block
 from mechwright_cam.controls.reading.characters import Faults
 from mechwright_cam.controls.reading.machine import Machine
 from mechwright_cam.controls.reading.macros import uses_macros
-from mechwright_cam.controls.reading.plain import PlainLines
+from mechwright_cam.controls.reading.plain import PlainLines, Row, WorkedOut
 from mechwright_cam.controls.reading.run import Run, joined
-from mechwright_cam.controls.reading.stretch import run_stretch
 from mechwright_cam.controls.reading.values import Lines
 
 CODE = re.compile(r"\s*/?\s*[A-Z:]\s*[-+.#\[\d]", re.IGNORECASE)
 """How a line of a program begins, and no line of prose."""
+MOST_BLOCKS = 20_000
+"""So many texts of lines are remembered."""
 
 
 def interpret(
@@ -52,12 +54,16 @@ def interpret(
     if dialect.macros and uses_macros("\n".join(compress(lines, ~plain.plain))):
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
     percents = 0
-    faults = Faults(text, lines, dialect)
+    faults, blocks = Faults(text, lines, dialect), Blocks(dialect)
+    source.read(plain, faults.at)
     for index, raw in source.run():
+        if not isinstance(raw, str):
+            _run_rows(machine, raw, plain, lines, blocks)
+            continue
         faults.check(index)
         # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
         if plain.plain[index]:
-            after = run_stretch(machine, plain, index)
+            after = stretch.run_stretch(machine, plain, index)
             if after > index:
                 source.at = after
                 machine.check_steps(after)
@@ -68,9 +74,9 @@ def interpret(
                 raise fail(index + 1, "a % without one in the first line; put one there, or take this out")
             if percents == 2:
                 machine.ended = machine.ended or dialect.percent_ends
-                break
+                return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
             continue
-        block = read_block(index + 1, raw, dialect)
+        block = blocks.read(index + 1, raw)
         if block.title and any(map(CODE.match, lines[:index])):
             raise fail(index + 1, "a program number begins another program; keep one program in a file")
         if block.deleted and block_delete:
@@ -80,6 +86,37 @@ def interpret(
         if machine.ended:
             return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
     return machine.result(len(lines))
+
+
+class Blocks:
+    """Blocks of lines, each text taken apart once: those of loops and subroutines come again and again."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        self.dialect = dialect
+        self._known: dict[str, Block] = {}
+
+    def read(self, line: int, text: str) -> Block:
+        """The same as :func:`read_block`."""
+        if text not in self._known:
+            block = read_block(line, text, self.dialect)
+            if len(self._known) >= MOST_BLOCKS:
+                return block
+            self._known[text] = block
+        return self._known[text].again(line)
+
+
+def _run_rows(
+    machine: Machine, rows: Sequence[Row], text: PlainLines, lines: Sequence[str], blocks: Blocks
+) -> None:
+    """Run rows of numbers: those that are motions together, others one by one."""
+    worked, at = WorkedOut(rows, text) if len(rows) >= stretch.FEWEST_LINES else None, 0
+    while at < len(rows):
+        after = stretch.run_stretch(machine, worked, at) if worked and worked.plain[at] else at
+        if after == at:
+            row, after = rows[at], at + 1
+            machine.run(blocks.read(row.index + 1, lines[row.index] if row.columns is None else row.text))
+        machine.check_steps(rows[after - 1].index + 1)
+        at = after
 
 
 def _beyond(lines: Sequence[str], end: int, dialect: Dialect) -> int:

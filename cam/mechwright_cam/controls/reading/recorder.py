@@ -45,6 +45,8 @@ class Recorder:
         self.tables: list[Array] = []
         self.rows: list[tuple[float, ...]] = []
         """Steps since the last table."""
+        self.unsaid: list[tuple[int, str]] = []
+        """Lines that go as an earlier program may have said, and the word that says it anew."""
         self.before = 0
         """Number of steps in all tables."""
         self.pieces: list[int] = []
@@ -164,12 +166,17 @@ class Recorder:
         columns: dict[str, Any] = {name: table[:, at].copy() for name, at in COLUMNS.items()}
         for name in ("kind", "line", "state"):
             columns[name] = columns[name].astype(np.int64)
+        if self.dialect.feed_mode_stays:
+            said = np.array(["feed mode" in state.stated for state in self.states])[columns["state"]]
+            fed = np.isin(columns["kind"], (Kind.FEED, Kind.ARC)) & ~said
+            self.unsaid += [(int(line), "G94") for line in columns["line"][fed][:1]]
         return Run(
             **columns,
             states=tuple(self.states),
             remarks=tuple(self.remarks),
             ended=self.ended,
             lines=lines,
+            unsaid=min(self.unsaid, default=None),
             piece=np.isin(np.arange(len(table)), self.pieces),
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),

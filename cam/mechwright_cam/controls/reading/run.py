@@ -61,8 +61,8 @@ class State:
     diameter_offset: int | None = None
     """D number of that; None without compensation, or if the program gives the diameter itself."""
     stated: frozenset[str] = frozenset()
-    """The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
-    that the program has set itself.
+    """The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``,
+    ``"feed mode"``, ``"return"``) that the program has set itself.
     """
     off_path: float = 0.0
     """How far the control may leave the programmed path between two moves, mm; inf without a bound."""
@@ -174,6 +174,8 @@ class Run:
     """Number of lines read."""
     beyond: int = 0
     """Number of the first line of a program that stands behind its end, and is not run; 0 if none does."""
+    unsaid: tuple[int, str] | None = None
+    """Line of the first move that goes as an earlier program may have said, and the word to say it anew."""
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     """(n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one."""
     machine_xy: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
@@ -272,6 +274,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         ended=all(run.ended for run in runs),
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),
+        unsaid=next((run.unsaid for run in runs if run.unsaid), None),
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
     )

@@ -7,14 +7,14 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.arcs import centres_of
 from mechwright_cam.controls.reading.modes import Modal
-from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines, R, X, Z
+from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, R, Rows, X, Z
 from mechwright_cam.controls.reading.run import WIDTH, Kind
 
 FEWEST_LINES = 8
 """A stretch of fewer lines is not worth it: so many run as quickly one by one."""
 
 
-def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
+def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     """Run the motion lines that begin at index ``at``, if they are many.
 
     Returns
@@ -30,10 +30,10 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     end = lines.until(at, known and motion in {20, 30})
     if end - at < FEWEST_LINES:
         return at
-    number = at + np.flatnonzero(lines.said[G:, at:end].any(axis=0))  # without empty lines
-    if number.size == 0:
+    index = at + np.flatnonzero(lines.said[G:, at:end].any(axis=0))  # without empty lines
+    if index.size == 0:
         return end
-    words = lines.words[:, number]
+    words = lines.words[:, index]
     words[X : F + 1] *= machine.scale
     _hold(words[G], (motion or 0) / 10)
     _hold(words[F], machine.feed)
@@ -42,9 +42,9 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     g, feed, place = words[G], words[F], words[X : Z + 1].T
     start = np.concatenate(([here], place[:-1]))
     arc = g >= 2
-    table = np.zeros((number.size, WIDTH))
+    table = np.zeros((index.size, WIDTH))
     table[:, 0] = np.where(arc, Kind.ARC, np.where(g == 1, Kind.FEED, Kind.RAPID))
-    table[:, 1] = number + 1
+    table[:, 1] = lines.number[index]
     table[:, 2:5], table[:, 5:8] = start, place
     table[:, 8:10] = math.nan
     table[:, 12] = np.where(g > 0, feed, 0.0)
@@ -53,12 +53,12 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
     faults = np.flatnonzero(wrong)
-    count = int(faults[0]) if faults.size else number.size
+    count = int(faults[0]) if faults.size else index.size
     if count:
         table = table[:count]
         machine.append(table)
         machine.motion, machine.feed = 10 * int(g[count - 1]), float(feed[count - 1])
-    return int(number[count]) if faults.size else end
+    return int(index[count]) if faults.size else end
 
 
 def _hold(row: Array, before: float) -> None:

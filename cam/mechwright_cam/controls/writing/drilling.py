@@ -54,7 +54,7 @@ class Drilling(Spelling):
         elif hole.dwell > 0:
             words.append("P" + self.waiting(hole.dwell))
         # The cycle itself returns to the height it started from, so z stays what it is.
-        feed = "F" + number(hole.feed, 1, self.dialect.point_needed)
+        feed = out.feed_text(hole.feed)
         again = out.cycle == (*words, feed)
         if again and not every_word:
             place = out.axis_words(hole.x, hole.y, None)

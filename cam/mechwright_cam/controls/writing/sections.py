@@ -69,7 +69,7 @@ class Sections(Drilling):
 
     def safe_start(self, out: Writer) -> None:
         """Set every mode that the program relies on; an operation may ask for other corners."""
-        out.line(*self.modes)
+        out.line(*self.safe_modes)
         out.corners = self.blending(out.program.posting.exact_stop)
         out.line(*out.corners)
 

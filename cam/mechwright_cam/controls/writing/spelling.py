@@ -12,6 +12,11 @@ from mechwright_cam.program.moves import ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
 
+METRIC, INCH = "G21", "G20"
+"""The words for the units of a program."""
+SHORT = {"mm": "mm", "inch": "in"}
+"""Units as they stand behind a number."""
+
 
 class Spelling(Control):
     """A control that reads RS274 words, and how it spells what differs."""
@@ -28,13 +33,23 @@ class Spelling(Control):
     """The largest T number that it takes."""
     retract_motion: ClassVar[str] = "G0"
     """The motion in force after a retract."""
-    modes: ClassVar[tuple[str, ...]] = ("G17", "G21", "G40", "G49", "G80", "G90", "G94")
-    """The safe start: every mode that the program relies on."""
+    modes: ClassVar[tuple[str, ...]] = ("G17", METRIC, "G40", "G49", "G80", "G90", "G94")
+    """The safe start: every mode that the program relies on; in inches with G20 for G21."""
 
     @property
     def decimals(self) -> int:
-        """Decimals of a coordinate, mm, that the control keeps."""
-        return self.dialect.decimals
+        """Decimals of a coordinate, in its units, that the control keeps."""
+        return self.dialect.decimals_inch if self.units == "inch" else self.dialect.decimals
+
+    @property
+    def safe_modes(self) -> tuple[str, ...]:
+        """The safe start in the units of the program."""
+        return tuple(self.unit_word if word == METRIC else word for word in self.modes)
+
+    @property
+    def unit_word(self) -> str:
+        """The word for the units of its programs."""
+        return INCH if self.units == "inch" else METRIC
 
     @property
     def corners(self) -> Corners:
@@ -48,7 +63,7 @@ class Spelling(Control):
 
     def length(self, value: float) -> str:
         """A coordinate or another length, mm."""
-        return number(value, self.decimals, self.dialect.point_needed)
+        return number(value / self.scale, self.decimals, self.dialect.point_needed)
 
     def m(self, code: int) -> str:
         """The control's word for a usual M code."""
@@ -98,7 +113,7 @@ class Spelling(Control):
 
     def tool_words(self, tool: Tool) -> list[str]:
         """The lines that set a tool's measured length."""
-        return [f"G10 L1 P{tool.number} Z{self.length(tool.length or 0.0)}"]
+        return [f"G10 L1 P{tool.number} Z{self.length(tool.worn_length)}"]
 
     def comment(self, out: Writer, text: str) -> None:
         """Write a comment, as many lines as it takes."""
@@ -108,7 +123,12 @@ class Spelling(Control):
     def tool_note(self, tool: Tool) -> str:
         """A tool in the head: its numbers, diameter, name and kind."""
         kind = str(tool.kind).replace("-", " ")
-        return f"T{tool.number} H{tool.number} D {number(tool.diameter)} mm: {tool.name}, {kind}"
+        size = f"{self._said(tool.diameter)} {SHORT[self.units]}"
+        return f"T{tool.number} H{tool.number} D {size}: {tool.name}, {kind}"
+
+    def _said(self, value: float) -> str:
+        """A length for people, mm, in the units of the program."""
+        return number(value / self.scale, max(self.decimals, 4))
 
     def d_note(self, offset: DOffset) -> str:
         """What a D offset has to hold."""
@@ -116,5 +136,5 @@ class Spelling(Control):
         if offset.planned == 0:
             value, what = "0 for a cutter as planned", f"wear on the {what}"
         else:
-            value = f"{number(offset.planned)} as planned"
-        return f"D{offset.number} holds the {what}: {value}, at most {number(offset.limit)} more or less"
+            value = f"{self._said(offset.planned)} as planned"
+        return f"D{offset.number} holds the {what}: {value}, at most {self._said(offset.limit)} more or less"

@@ -16,13 +16,14 @@ class Writer:
     """Program text under way, with what the control remembers.
 
     Positions are exact as planned (``x``, ``y``, ``z``) and, in the text, rounded to so many ``decimals`` of
-    a mm; a centre is written from the rounded start, so that rounding never adds up. NaN stands for a
-    position the text has not stated. With ``point`` every length and feed has a decimal point.
+    a unit that is ``scale`` mm long; a centre is written from the rounded start, so that rounding never adds
+    up. NaN stands for a position the text has not stated. With ``point`` every length and feed has a decimal
+    point.
     """
 
-    def __init__(self, program: Program, decimals: int, point: bool) -> None:
+    def __init__(self, program: Program, decimals: int, point: bool, scale: float = 1.0) -> None:
         self.program = program
-        self.decimals, self.point = decimals, point
+        self.decimals, self.point, self.scale = decimals, point, scale
         self.lines: list[str] = []
         self.x = self.y = self.z = math.nan
         self.height_text = ""
@@ -45,18 +46,20 @@ class Writer:
 
     def length(self, value: float) -> str:
         """A coordinate or another length, mm."""
-        return number(value, self.decimals, self.point)
+        return number(value / self.scale, self.decimals, self.point)
 
     def height(self, value: float, *, up: bool = False) -> str:
         """A height, mm: never above the planned one by rounding, so that through cuts go through.
 
         With ``up`` never below it, so that rapids keep their height.
         """
-        return self.length(-floored(-value, self.decimals) if up else floored(value, self.decimals))
+        value /= self.scale
+        down = -floored(-value, self.decimals) if up else floored(value, self.decimals)
+        return number(down, self.decimals, self.point)
 
     def rounded(self, value: float) -> float:
         """A coordinate as the control will read it."""
-        return round(value, self.decimals)
+        return round(value / self.scale, self.decimals) * self.scale
 
     def motion_word(self, word: str) -> str:
         """The motion code if it is not in force already."""
@@ -70,11 +73,17 @@ class Writer:
         if feed == self._last_feed and self.feed:
             return ""
         self._last_feed = feed
-        word = "F" + number(feed, 1, self.point)
+        word = self.feed_text(feed)
         if self.feed == word:
             return ""
         self.feed = word
         return word
+
+    def feed_text(self, feed: float) -> str:
+        """A feed, mm/min: to a tenth of a millimetre or a hundredth of an inch a minute."""
+        if self.scale == 1.0:
+            return "F" + number(feed, 1, self.point)
+        return "F" + number(floored(feed / self.scale, 2), 2, self.point)  # a limit may be no round number
 
     def axis_words(
         self, x: float | None, y: float | None, z: float | None, *, rapid: bool = False
@@ -146,15 +155,17 @@ class Writer:
         """The centre from the rounded start, (i, j), rounded so that both ends of an arc agree best.
 
         ``end`` is the rounded end, from the rounded start. With three decimals, plain rounding could leave
-        the two radii 2 µm apart; of the nine nearest centres one is much better.
+        the two radii 2 µm apart; of the nine nearest centres one is much better. Four decimals of an inch are
+        coarser, and more centres are looked at.
         """
-        step = 10.0**-self.decimals
+        step = self.scale * 10.0**-self.decimals
         plain = self.rounded(i), self.rounded(j)
         if abs(math.hypot(*plain) - math.hypot(end[0] - plain[0], end[1] - plain[1])) <= AGREEING:
             return plain
         best, least = plain, math.inf
-        for di in (-step, 0.0, step):
-            for dj in (-step, 0.0, step):
+        near = [place * step for place in (range(-1, 2) if step <= AGREEING * 2 else range(-2, 3))]
+        for di in near:
+            for dj in near:
                 a, b = self.rounded(i + di), self.rounded(j + dj)
                 apart = abs(math.hypot(a, b) - math.hypot(end[0] - a, end[1] - b))
                 # Of centres that agree alike, the nearest to the planned one.

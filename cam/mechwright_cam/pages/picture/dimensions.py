@@ -49,20 +49,24 @@ def _listed(job: Job, frame: Frame) -> list[_Dimension]:
     step = 1.7 * frame.letters
     what = "parts" if isinstance(job.part, Nest) else "part"
     rows = [
-        _Dimension(0, (x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}"),
-        _Dimension(1, (y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}"),
+        _Dimension(0, (x0, x1), y0 - 2 * step, y0, f"stock {frame.words(x1 - x0, 1)}"),
+        _Dimension(1, (y0, y1), x0 - 2 * step, x0, f"stock {frame.words(y1 - y0, 1)}"),
     ]
     if job.side == "top":  # turned over, the target is all of the plate
         rows += [
-            _Dimension(0, (px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}"),
-            _Dimension(1, (py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}"),
+            _Dimension(0, (px0, px1), y1 + step, y1, f"{what} {frame.words(px1 - px0, 2)}"),
+            _Dimension(1, (py0, py1), x1 + step, x1, f"{what} {frame.words(py1 - py0, 2)}"),
         ]
     # How far the origin is from the edges that are probed, unless it is on them.
     x, y = job.datum
     if x != 0:
-        rows.append(_Dimension(0, (min(x, 0.0), max(x, 0.0)), y0 - step, y0, f"{abs(x):.2f}", "#b00020"))
+        rows.append(
+            _Dimension(0, (min(x, 0.0), max(x, 0.0)), y0 - step, y0, frame.words(abs(x), 2), "#b00020")
+        )
     if y != 0:
-        rows.append(_Dimension(1, (min(y, 0.0), max(y, 0.0)), x0 - step, x0, f"{abs(y):.2f}", "#b00020"))
+        rows.append(
+            _Dimension(1, (min(y, 0.0), max(y, 0.0)), x0 - step, x0, frame.words(abs(y), 2), "#b00020")
+        )
     return rows
 
 

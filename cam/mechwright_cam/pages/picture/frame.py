@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mechwright.designs.inches import FACTORS, Units
 from mechwright.output import svg
 from mechwright_cam.setup.job import Job
 
@@ -20,6 +21,14 @@ class Frame:
     y0: float
     x1: float
     y1: float
+    units: Units = "mm"
+    """Of the dimensions."""
+
+    def words(self, value: float, digits: int) -> str:
+        """A dimension, mm, in those units."""
+        if self.units == "inch":
+            return f"{value / FACTORS['mm']:.{digits + 2}f}"
+        return f"{value:.{digits}f}"
 
     @property
     def letters(self) -> float:

@@ -7,6 +7,7 @@ import shapely
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread, chamfer_lines
 from mechwright.contracts.sections import sections
+from mechwright.designs.inches import Units
 from mechwright.geometry.segments import Point
 from mechwright.output import svg
 from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, origin_mark
@@ -30,13 +31,14 @@ def plan_view(
     program: Program | None = None,
     traced: Sequence[Traced] = (),
     spots: Sequence[Point] = (),
+    units: Units = "mm",
 ) -> str:
     """A job seen from above, as an ``<svg>`` element that scales to its container.
 
     With a program its strokes are drawn; ``spots`` are places to mark, work coordinates, mm.
     """
     x0, y0, x1, y1 = job.stock
-    frame = Frame(x0, y0, x1, y1)
+    frame = Frame(x0, y0, x1, y1, units)
     layers = [_stock(job), _part(job, frame)]
     if program is not None:
         layers += path_layers(program, traced, frame)

@@ -11,8 +11,10 @@ from mechwright_cam.pages.picture import tool_colours
 from mechwright_cam.pages.trace import Stroke, Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
+MILLIMETRES = Lengths()
 MARKED = 3
 """So many places of each kind are marked on the walls."""
 
@@ -53,7 +55,7 @@ class OperationRow:
 
 
 def tool_rows(
-    job: Job, program: Program, traced: Sequence[Traced], proof: Mapping[str, Any]
+    job: Job, program: Program, traced: Sequence[Traced], proof: Mapping[str, Any], to: Lengths = MILLIMETRES
 ) -> list[ToolRow]:
     """One row per tool in the order of first use."""
     colours = tool_colours(program)
@@ -70,13 +72,13 @@ def tool_rows(
             ToolRow(
                 tool,
                 colours[tool.number],
-                describe(tool),
+                describe(tool, to),
                 bottom,
                 max(0.0, -bottom) + above + HOLDER_GAP,
                 over_clamp,
                 tool.flute_length >= -bottom,
                 _range([item.section.spindle for item in mine]),
-                _range(feeds),
+                _range([feed / to.scale for feed in feeds]),
                 ", ".join(dict.fromkeys(item.section.coolant for item in mine)),
                 seconds.get(str(tool.number)),
                 _in_cut(tool, proof),
@@ -111,13 +113,13 @@ def operation_rows(
     return rows
 
 
-def describe(tool: Tool) -> str:
+def describe(tool: Tool, to: Lengths = MILLIMETRES) -> str:
     """A tool in words.
 
     >>> describe(Tool(name="em6", number=3, kind="end-mill", diameter=6, flutes=3, flute_length=13))
     'end mill ⌀6, 3 flutes'
     """
-    words = f"{str(tool.kind).replace('-', ' ')} ⌀{tool.diameter:g}"
+    words = f"{str(tool.kind).replace('-', ' ')} ⌀{to.size(tool.diameter)}"
     words += f", {tool.coating}" if tool.coating else ""
     if tool.kind not in (ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER):
         plunge = "" if tool.centre_cutting else ", not centre cutting"

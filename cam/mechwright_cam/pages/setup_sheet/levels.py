@@ -3,6 +3,7 @@
 from mechwright.output import svg
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 
 _WIDTH, _SIZE = 132.0, 4.2
 """Width of the picture and height of its letters, in units of the picture."""
@@ -10,8 +11,8 @@ _WIDTH, _SIZE = 132.0, 4.2
 _INK, _RED = "#1b2733", "#b00020"
 
 
-def side_view(job: Job, program: Program, deepest: float) -> str:
-    """Heights in mm as an ``<svg>`` element: stock, holding, rapids, cuts down to ``deepest``, Z setter."""
+def side_view(job: Job, program: Program, deepest: float, to: Lengths) -> str:
+    """Heights as an ``<svg>`` element: stock, holding, rapids, cuts down to ``deepest``, Z setter."""
     rows = [("rapids", program.clearance, "#555555"), ("top of stock, Z0", 0.0, _RED)]
     if job.clamp is not None:
         rows.append(("top of clamp", job.clamp.top, "#8a6100"))
@@ -29,7 +30,7 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
     step = 9.0
     heights = {label: -place * step for place, (label, _, _) in enumerate(rows)}
     top, under = heights["top of stock, Z0"], heights["underside"]
-    layers = [_body(job, heights, top, under)]
+    layers = [_body(job, heights, top, under, to)]
     for label, value, colour in rows:
         y = heights[label]
         weight = "bold" if value == 0 else "normal"
@@ -40,7 +41,7 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
                 stroke_dasharray=dashes, fill="none",
             )
         )  # fmt: skip
-        words = f"Z {svg.signed(value)}  {label}" if value else "Z 0  top of stock"
+        words = f"Z {to.signed(value)}  {label}" if value else "Z 0  top of stock"
         layers.append(svg.text(78, y - 1.4, words, _SIZE, fill=colour, font_weight=weight))
     layers.append(_setter(top))
     bottom = min(heights.values()) - 8
@@ -48,12 +49,12 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
     return svg.picture("".join(layers), box, "Heights of the job and the Z setter")
 
 
-def _body(job: Job, heights: dict[str, float], top: float, under: float) -> str:
+def _body(job: Job, heights: dict[str, float], top: float, under: float, to: Lengths) -> str:
     bed = svg.element("rect", x=2, y=-under, width=74, height=6, fill="#d9c7a3", stroke="#7a705c")
     stock = svg.element(
         "rect", x=6, y=-top, width=66, height=top - under, fill="#c9d3dc", stroke=_INK, stroke_width=0.5
     )
-    words = svg.text(26, top - 6.2, f"stock {job.thickness:g} mm", _SIZE, text_anchor="middle")
+    words = svg.text(26, top - 6.2, f"stock {to.with_unit(job.thickness)}", _SIZE, text_anchor="middle")
     below = svg.text(39, under - 4.4, "spoil board", 3.4, text_anchor="middle", fill="#5c4000")
     clamp = ""
     if "top of clamp" in heights:

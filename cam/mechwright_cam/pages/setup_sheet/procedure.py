@@ -11,13 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.part import Bore
-from mechwright.output.svg import signed
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.lengths import Lengths
 
+TO_SIZE = "Set D, and bring the part to size"
+BEFORE = "Look at the control's settings"
 CHECK_HEIGHT = 50.0
 """Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
 
@@ -58,21 +60,27 @@ def steps(
     by_file
         Whether tools that are changed by hand have a file each.
     """
-    offset = job.settings.work_offset
+    offset, to = job.settings.work_offset, Lengths(control.units)
     over = job.side == "underside"
     by_hand = not control.offsets.lengths
     touched = by_hand and not _in_program(job, control, tools)
+    needs = tuple(control.needs(job.settings))
     return [
-        _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
-        _second_plane(job, offset) if over else _plane(job, offset),
+        *([Step(BEFORE, needs)] if needs else []),
+        _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
+        _second_plane(job, offset, to) if over else _plane(job, offset, to),
         *([] if touched else [_height(offset, control)]),
         *(
             [_touch_off(job, control, tools, by_file=by_file)]
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools, control)]
         ),
-        *([Step("Set D, and bring the part to size", lines(offsets, control.offsets))] if offsets else []),
-        _run(job, offset, file_names, touched=touched),
+        *(
+            [Step("Set D, and bring the part to size", lines(offsets, control.offsets, to))]
+            if offsets
+            else []
+        ),
+        _run(job, offset, file_names, to, touched=touched),
     ]
 
 
@@ -92,26 +100,27 @@ def quantity(job: Job) -> int:
     return max(1, len(job.part.instances))
 
 
-def _stock(job: Job, deepest: float) -> Step:
+def _stock(job: Job, deepest: float, to: Lengths) -> Step:
     x0, y0, x1, y1 = job.stock
     if job.jaws:
-        return _vice(job, deepest)
+        return _vice(job, deepest, to)
     lines = [
-        f"Plate of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z), "
-        "edges parallel to X and Y. Indicate the rear edge to 0.02 mm.",
+        f"Plate of {job.part.material}, {to.fixed(x1 - x0, 1)} × {to.fixed(y1 - y0, 1)} × "
+        f"{to.with_unit(job.thickness)} (X × Y × Z), "
+        f"edges parallel to X and Y. Indicate the rear edge to {to.with_unit(0.02)}.",
     ]
     if deepest < -job.thickness:
         lines.append(
-            f"Put a spoil board under it: cutters go down to Z {signed(deepest)}, "
-            f"{-deepest - job.thickness:.2f} mm below the plate."
+            f"Put a spoil board under it: cutters go down to Z {to.signed(deepest)}, "
+            f"{to.fixed(-deepest - job.thickness)} {to.unit} below the plate."
         )
     if job.tabs:
         lines.append(
             "Clamp the edge of the plate only. Keep clamps outside the picture's coloured band, and below "
-            f"Z {signed(job.settings.clearance, 1)} where rapids cross."
+            f"Z {to.signed(job.settings.clearance, 1)} where rapids cross."
         )
     elif job.settings.hold.method == "none":
-        lines += _held_from_below(job)
+        lines += _held_from_below(job, to)
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
@@ -123,20 +132,20 @@ BEDS = {
 }
 
 
-def _held_from_below(job: Job) -> list[str]:
+def _held_from_below(job: Job, to: Lengths) -> list[str]:
     """What holds the plate where neither tabs nor a bore nor a vice do."""
     bed = job.settings.hold.bed
     lines = [] if bed is None else [BEDS[bed]]
     for toe in job.toes:
-        x0, y0, x1, y1 = (signed(value, 1) for value in toe.shape.bounds)
+        x0, y0, x1, y1 = (to.signed(value, 1) for value in toe.shape.bounds)
         lines.append(
             f"Toe clamp {toe.number}: from X {x0} to {x1} and Y {y0} to {y1}, bolt and all, and no higher "
-            f"than Z {signed(toe.top, 1)}."
+            f"than Z {to.signed(toe.top, 1)}."
         )
     return lines
 
 
-def _vice(job: Job, deepest: float) -> Step:
+def _vice(job: Job, deepest: float, to: Lengths) -> Step:
     x0, y0, x1, y1 = job.stock
     edges = " and ".join(jaw.edge for jaw in job.jaws)
     along = job.jaws[0].face
@@ -145,24 +154,26 @@ def _vice(job: Job, deepest: float) -> Step:
         low, high, axis = along.bounds[1], along.bounds[3], "Y"
     finished = ", ".join(job.settings.stock.finished)
     lines = [
-        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). "
+        f"Bar of {job.part.material}, {to.fixed(x1 - x0, 1)} × {to.fixed(y1 - y0, 1)} × "
+        f"{to.with_unit(job.thickness)} (X × Y × Z). "
         f"Edges that stay as they are: {finished}. Measure them: they are edges of the finished part.",
-        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} "
-        f"and no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
-        f"{job.thickness + job.jaws[0].top:g} mm above the underside.",
+        f"Vice on the {edges} edges. The jaws may reach from {axis} {to.signed(low, 1)} to "
+        f"{to.signed(high, 1)} "
+        f"and no further: cutters pass beside them. Their tops are at Z {to.signed(job.jaws[0].top)}, "
+        f"{to.with_unit(job.thickness + job.jaws[0].top)} above the underside.",
     ]
     if deepest < -job.thickness:
         lines.append(
-            f"Keep parallels away from holes and ends: cutters go down to Z {signed(deepest)}, "
-            f"{-deepest - job.thickness:.2f} mm below the bar."
+            f"Keep parallels away from holes and ends: cutters go down to Z {to.signed(deepest)}, "
+            f"{to.fixed(-deepest - job.thickness)} {to.unit} below the bar."
         )
     return Step("Clamp the bar in a vice", tuple(lines))
 
 
-def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> Step:
+def _with_reach(step: Step, reach: tuple[float, float, float, float] | None, to: Lengths) -> Step:
     if reach is None:
         return step
-    x0, y0, x1, y1 = (signed(value, 1) for value in reach)
+    x0, y0, x1, y1 = (to.signed(value, 1) for value in reach)
     line = f"Cutters run from X {x0} to {x1} and Y {y0} to {y1}: no clamp in there."
     return Step(step.title, (*step.lines, line))
 
@@ -200,7 +211,7 @@ def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: boo
     return Step("Tools by hand", tuple(lines))
 
 
-def _turn(job: Job) -> Step:
+def _turn(job: Job, to: Lengths) -> Step:
     side = job.settings.second_side
     if side.flip == "x":
         edges = "front edge goes to the rear, left stays left"
@@ -215,30 +226,31 @@ def _turn(job: Job) -> Step:
     ]
     if side.locate == "dowels":
         lines.append(
-            f"Put it on two dowels of {side.dowel_diameter:g} mm, which stand in the table where the first "
+            f"Put it on two dowels of {to.size(side.dowel_diameter)} {to.unit}, which stand in the table "
+            "where the first "
             "side's holes were: deepen these before the plate is taken off."
         )
     else:  # that edge lay along X on the first side, another one need not be parallel to it
-        lines.append(f"Indicate {straight} to 0.02 mm.")
+        lines.append(f"Indicate {straight} to {to.with_unit(0.02)}.")
     return Step("Turn the plate over", tuple(lines))
 
 
-def _second_plane(job: Job, offset: str) -> Step:
+def _second_plane(job: Job, offset: str, to: Lengths) -> Step:
     match job.settings.second_side.locate:
         case "dowels":
-            places = " and ".join(f"X {signed(x)}, Y {signed(y)}" for x, y in job.pick_up)
-            how = f"The dowels are at {places} in {offset}: indicate one to 0.01 mm."
+            places = " and ".join(f"X {to.signed(x)}, Y {to.signed(y)}" for x, y in job.pick_up)
+            how = f"The dowels are at {places} in {offset}: indicate one to {to.with_unit(0.01)}."
             if job.settings.origin == "axis":
                 how += f" These are X and Y of the first side, so {offset} X and Y may be copied from it."
         case "bore":
             ((x, y),) = job.pick_up
-            how = (
-                f"Indicate the largest bore to 0.01 mm. Its axis is X {signed(x)}, Y {signed(y)} in {offset}."
-            )
+            axis = f"Its axis is X {to.signed(x)}, Y {to.signed(y)} in {offset}."
+            how = f"Indicate the largest bore to {to.with_unit(0.01)}. {axis}"
         case "edges":
-            one, two = datum_edges(job)
+            one, two = datum_edges(job, to)
             how = (
-                f"The {one.name} edge is X {signed(one.at)}, the {two.name} edge is Y {signed(two.at)}: they "
+                f"The {one.name} edge is X {to.signed(one.at)}, the {two.name} edge is Y "
+                f"{to.signed(two.at)}: they "
                 "are the first side's left and front edges, so that the plate's true size does not matter. "
                 f"With an edge finder of radius r: on the {one.name} edge X reads {one.reads}, on the "
                 f"{two.name} edge Y {two.reads}."
@@ -255,17 +267,17 @@ class Edge:
     reads: str
 
 
-def datum_edges(job: Job) -> tuple[Edge, Edge]:
+def datum_edges(job: Job, to: Lengths) -> tuple[Edge, Edge]:
     """The edges of the stock from which X0 and Y0 are found."""
     x, y = job.datum
     right, rear = x == job.stock[2], y == job.stock[3]
     return (
-        Edge("right" if right else "left", x, f"{signed(x)} {'+' if right else '−'} r"),
-        Edge("rear" if rear else "front", y, f"{signed(y)} {'+' if rear else '−'} r"),
+        Edge("right" if right else "left", x, f"{to.signed(x)} {'+' if right else '−'} r"),
+        Edge("rear" if rear else "front", y, f"{to.signed(y)} {'+' if rear else '−'} r"),
     )
 
 
-def _plane(job: Job, offset: str) -> Step:
+def _plane(job: Job, offset: str, to: Lengths) -> Step:
     x0, y0, _, _ = job.stock
     lines = [f"X0 Y0 is {origin_words(job)}."]
     if job.settings.origin == "corner":
@@ -275,9 +287,10 @@ def _plane(job: Job, offset: str) -> Step:
         )
     else:
         lines.append(
-            f"The stock's left edge is X {signed(x0)}, its front edge is Y {signed(y0)}. With an edge "
-            f"finder of radius r: on the left edge set {offset} X so that X reads {signed(x0)} − r, on the "
-            f"front edge Y so that Y reads {signed(y0)} − r."
+            f"The stock's left edge is X {to.signed(x0)}, its front edge is Y {to.signed(y0)}. With an edge "
+            f"finder of radius r: on the left edge set {offset} X so that X reads {to.signed(x0)} − r, on "
+            "the "
+            f"front edge Y so that Y reads {to.signed(y0)} − r."
         )
     return Step(f"Set {offset} X and Y", tuple(lines))
 
@@ -313,13 +326,14 @@ def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
 
 
 def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
-    first = tools[0] if tools else 1
+    first, to = tools[0] if tools else 1, Lengths(control.units)
+    height = CHECK_HEIGHT if to.units == "mm" else round(CHECK_HEIGHT / to.scale) * to.scale
     return Step(
         "Check before the first cut",
         (
             f"Beside the clamps, by hand: {control.change_words(first)}, {offset}, "
-            f"{control.length_words(first)}, then G0 Z{CHECK_HEIGHT:g}. "
-            f"The tip must stand {CHECK_HEIGHT:g} mm above the stock: measure it. Repeat for every tool.",
+            f"{control.length_words(first)}, then G0 Z{to.plain(height)}. "
+            f"The tip must stand {to.with_unit(height)} above the stock: measure it. Repeat for every tool.",
             "If it does not: stop. Length offset or work offset is wrong.",
         ),
     )
@@ -331,7 +345,7 @@ def _in_order(file_names: Sequence[str]) -> str:
     return f"{', '.join(file_names[:-1])} and {file_names[-1]}, one after the other"
 
 
-def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> Step:
+def _run(job: Job, offset: str, file_names: Sequence[str], to: Lengths, *, touched: bool) -> Step:
     lines = [
         f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
         f"{offset} must be the active offset.",
@@ -357,14 +371,15 @@ def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> 
         sides, what = "", "parts" if isinstance(job.part, Nest) else "part"
         if job.tabs[0].ramped:
             foot = width + 2 * height / job.tabs[0].slope
-            sides = f", on slopes that reach {foot:.1f} mm along the wall at the underside,"
+            sides = f", on slopes that reach {to.fixed(foot, 1)} {to.unit} along the wall at the underside,"
         lines.append(
-            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the {what} to the end. "
+            f"{len(job.tabs)} tabs of {to.plain(width)} × {to.with_unit(height)}{sides} hold the {what} "
+            "to the end. "
             "Saw them through, and file them flush."
         )
     if job.clamp is not None:
         lines.append(
-            f"At the programmed stop fit the bore clamp, at most ⌀{job.clamp.diameter:g} and "
-            f"{job.clamp.top:g} mm high, before going on. Only then is the outside cut."
+            f"At the programmed stop fit the bore clamp, at most ⌀{to.plain(job.clamp.diameter)} and "
+            f"{to.with_unit(job.clamp.top)} high, before going on. Only then is the outside cut."
         )
     return Step("Run", tuple(lines))

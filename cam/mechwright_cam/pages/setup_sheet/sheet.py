@@ -1,23 +1,26 @@
 """The setup sheet of a program as an HTML page. Imports jinja2."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import jinja2
 from markupsafe import Markup
 
-from mechwright.output.svg import signed
 from mechwright.output.templates import templates
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.picture import plan_view
+from mechwright_cam.pages.picture.isometric import isometric_view
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import value
+from mechwright_cam.pages.setup_sheet.inspection import inspection
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 
 
 def setup_html(
@@ -57,7 +60,8 @@ def setup_html(
     """
     proof, names = proof or {}, file_names(program, control.suffix, files)
     traced = trace(program)
-    tools = facts.tool_rows(job, program, traced, proof)
+    to = Lengths(control.units)
+    tools = facts.tool_rows(job, program, traced, proof, to)
     spots = proof.get("unreachable") or ()
     marks = [(spot["x"], spot["y"]) for spot in spots]
     offsets = {offset.tool.number: offset for offset in control.offsets.of_program(program)}
@@ -85,7 +89,9 @@ def setup_html(
             by_file=program.posting.tool_change == "files",
         ),
         "origin": origin_words(job),
-        "edges": datum_edges(job),
+        "edges": datum_edges(job, to),
+        "inspection": inspection(job, to),
+        **words(to),
         "quantity": quantity(job),
         "control": control.name,
         "by_hand": not control.offsets.lengths,
@@ -94,12 +100,27 @@ def setup_html(
         "summary": summary,
         "file_name": span(names),
         # Our own markup; all text in it is escaped where it is made.
-        "plan": Markup(plan_view(job, program, traced, marks)),  # noqa: S704
-        "side": Markup(side_view(job, program, deepest)),  # noqa: S704
+        "plan": Markup(plan_view(job, program, traced, marks, control.units)),  # noqa: S704
+        "side": Markup(side_view(job, program, deepest, to)),  # noqa: S704
+        "iso": Markup(isometric_view(job)),  # noqa: S704
         "simulated": Markup(picture),  # noqa: S704
         "deviation": Markup(deviation),  # noqa: S704
     }
     return environment().get_template("page.html").render(shown)
+
+
+def words(to: Lengths) -> dict[str, Any]:
+    """How the templates write lengths."""
+    return {
+        "unit": to.unit,
+        "unit_name": "mm" if to.units == "mm" else "inches",
+        "signed": to.signed,
+        "fixed": to.fixed,
+        "plain": to.plain,
+        "coarse": 2 if to.units == "mm" else 1,  # digits that a narrow table has room for
+        "size": to.size,
+        "d_value": partial(value, to=to),
+    }
 
 
 def file_names(program: Program, suffix: str, files: Sequence[str]) -> list[str]:
@@ -115,5 +136,5 @@ def span(names: Sequence[str]) -> str:
 def environment(*folders: Path) -> jinja2.Environment:
     """The templates of some folders and of this one, with the functions that they use."""
     found = templates(*folders, Path(__file__).parent)
-    found.globals.update(duration=facts.duration, signed=signed, d_value=value)
+    found.globals.update(duration=facts.duration)
     return found

@@ -7,10 +7,12 @@ from typing import Any
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.procedure import quantity
-from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span
+from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span, words
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
+from mechwright_cam.shop.settings import Sheet
 from mechwright_cam.shop.tool import Tool
 
 SHEET = ".setup.html"
@@ -38,10 +40,18 @@ def summary_html(
     ``bill`` is the name of the bill of materials, ``guide`` that of the page of the assembly, where they are
     written.
     """
+    to = Lengths(control.units)
     rows = [
-        _row(job, program, proof or {}, file_names(program, control.suffix, files.get(program.name, ())))
+        _row(
+            job,
+            program,
+            proof or {},
+            Lengths(control.units),
+            file_names(program, control.suffix, files.get(program.name, ())),
+        )
         for job, program, proof in programs
     ]
+    sheet = programs[0][0].settings.sheet if programs else Sheet()
     verdicts = [row["verdict"] for row in rows]
     times = [row["all_seconds"] for row in rows if row["all_seconds"] is not None]
     return (
@@ -54,6 +64,9 @@ def summary_html(
             guide=guide,
             table_words=control.table_words(tool_table) if tool_table else "",
             rows=rows,
+            revision=sheet.revision,
+            date=sheet.date,
+            **words(to),
             tools=_tools(programs, control),
             verdict=False if False in verdicts else None if None in verdicts else True,
             total=sum(times) if times else None,
@@ -61,7 +74,9 @@ def summary_html(
     )
 
 
-def _row(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
+def _row(
+    job: Job, program: Program, proof: Mapping[str, Any], to: Lengths, names: Sequence[str]
+) -> dict[str, Any]:
     x0, y0, x1, y1 = job.stock
     seconds = proof.get("time_estimate_s")
     count = quantity(job)
@@ -72,7 +87,7 @@ def _row(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[s
         "file_names": names,
         "file_name": span(names),
         "quantity": count,
-        "stock": f"{x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g}",
+        "stock": f"{to.fixed(x1 - x0, 1)} × {to.fixed(y1 - y0, 1)} × {to.plain(job.thickness)}",
         "material": job.part.material,
         "work_offset": program.work_offset,
         "tools": len(program.tools),
@@ -91,7 +106,7 @@ def _tools(
     found: dict[int, dict[str, Any]] = {}
     for job, program, proof in programs:
         compensated = {tool.number for tool in program.compensated}
-        for row in facts.tool_rows(job, program, trace(program), proof or {}):
+        for row in facts.tool_rows(job, program, trace(program), proof or {}, Lengths(control.units)):
             tool: Tool = row.tool
             mine = found.setdefault(
                 tool.number,

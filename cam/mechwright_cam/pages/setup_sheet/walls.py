@@ -16,6 +16,7 @@ from mechwright_cam.pages.picture.frame import outline_data
 from mechwright_cam.pages.setup_sheet.facts import MARKED
 from mechwright_cam.proof.walls import Place, Walls
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.lengths import Lengths
 
 SHOWN = 1500
 """Places along the walls in the picture: each is the worst of its neighbours."""
@@ -40,7 +41,8 @@ def walls_view(walls: Walls, job: Job) -> str:
     """The walls seen from above with the deviation along them, as an ``<svg>`` element."""
     x0, y0, x1, y1 = job.target.bounds
     margin = 0.09 * max(x1 - x0, y1 - y0)
-    frame = Frame(x0 - margin, y0 - margin, x1 + margin, y1 + margin)
+    units = job.settings.post.units or "mm"
+    frame = Frame(x0 - margin, y0 - margin, x1 + margin, y1 + margin, units)
     factor = exaggeration(walls, frame)
     part = svg.element("path", d=outline_data(job), fill=PART, fill_rule="evenodd", stroke="none")
     layers = [part, *_bands(walls, frame, factor), *_marks(walls, frame)]
@@ -108,7 +110,7 @@ def _marks(walls: Walls, frame: Frame) -> Iterator[str]:
         yield svg.element("circle", cx=place.x, cy=-place.y, r=0.5 * size, **look)
         side = 1.0 if place.x >= middle[0] else -1.0
         at = (place.x + side * 0.8 * size, place.y + 0.5 * size)
-        words = f"{number}: {svg.signed(place.off, 4)}"
+        words = f"{number}: {Lengths(frame.units).signed(place.off, 4)}"
         anchor = "start" if side > 0 else "end"
         if side > 0 and at[0] + 5.2 * size > frame.x1:  # no room beside it
             at, anchor = (frame.x1 - 0.2 * size, place.y + 0.9 * size), "end"
@@ -128,6 +130,7 @@ def _scale(frame: Frame, factor: float) -> str:
     x, y = frame.x0 + 0.5 * size, frame.y0 - 1.6 * size
     end = x + length * factor
     bar = f"M{svg.place(x, y + 0.4 * size)}V{svg.number(-y)}H{svg.number(end)}V{svg.number(-y - 0.4 * size)}"
-    words = f"{length:g} mm; deviations drawn {factor:,.0f} : 1".replace(",", " ")
+    length_words = Lengths(frame.units).with_unit(length)
+    words = f"{length_words}; deviations drawn {factor:,.0f} : 1".replace(",", " ")
     line = svg.element("path", d=bar, fill="none", stroke="#000000", stroke_width=0.08 * size)
     return line + svg.text(end + 0.5 * size, y, words, 0.85 * size)

@@ -34,6 +34,7 @@ KINDS = {
     "drill": ToolKind.DRILL,
     "spot drill": ToolKind.SPOT_DRILL,
     "thread mill": ToolKind.THREAD_MILL,
+    "reamer": ToolKind.REAMER,
 }
 NOSE = 20.0
 """Segments of a holder that begin within this height above its lower end count, mm: higher up nothing of a

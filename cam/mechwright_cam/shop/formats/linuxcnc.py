@@ -8,13 +8,16 @@ So the remark of a line says it, in the words of our own tables: its name, its k
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote, unquote
 
 from mechwright.designs.files import read_text
+from mechwright.designs.inches import FACTORS, Units, scaled
 from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import HOLLOW, Tool, ToolKind
 
 UNITS = {"mm": 1.0, "in": 25.4, "inch": 25.4}
 """What ``;units=`` may say, to mm."""
@@ -26,9 +29,17 @@ LENGTHS = (
     "shank_diameter",
     "stick_out",
     "holder_diameter",
+    "diameter",
+    "length",
+    "wear_length",
+    "wear_diameter",
 )
 OTHERS = ("flutes", "point_angle", "ramp_angle", "life", "diameter_offset", "centre_cutting", "substrate")
 """Keys that a remark may say besides lengths, which are in the units of the table."""
+TEXTS = ("holder", "purpose", "coating")
+"""Keys whose blanks are written as %20."""
+ROW_OF = "d-of"
+"""What a row says that holds a D offset, and no tool of its own: the T number of the tool."""
 LETTERS = frozenset("TPXYZABCUVWDIJQ")
 """Words of a line; offsets of other axes than Z are not taken over."""
 LINE = 250
@@ -56,12 +67,32 @@ class LinuxCncTable(Format):
                 "or ;units=in as its first line"
             )
         scale = UNITS[units[1].lower()]
-        return [_said(path, n, line, scale) for n, line in lines if not line.startswith(";")]
+        rows = [(n, line) for n, line in lines if not line.startswith(";")]
+        return [_said(path, n, line, scale) for n, line in rows if f" {ROW_OF}=" not in line]
 
     def files(self, tools: Sequence[Tool], path: Path) -> dict[Path, bytes]:
         """One table in mm, with the pocket of every tool's own number."""
-        lines = [";units=mm", *(_line(tool) for tool in sorted(tools, key=lambda tool: tool.number))]
-        return {path: "".join(line + "\n" for line in lines).encode()}
+        return {path: table_text(Row(tool.number, tool, tool.diameter) for tool in tools).encode()}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the table: its number, the tool, and what its D holds, mm."""
+
+    number: int
+    tool: Tool
+    d: float
+
+
+def table_text(rows: Iterable[Row], units: Units = "mm") -> str:
+    """The table of tools, by number, in the units of the machine; what it has no word for is in the remarks.
+
+    A row of another number than its tool's holds a D offset, and is no tool when the table is read again.
+    """
+    scale = FACTORS["mm"] if units == "inch" else 1.0
+    lines = [f";units={'in' if units == 'inch' else 'mm'}"]
+    lines += [_line(row, scale) for row in sorted(rows, key=lambda row: row.number)]
+    return "".join(line + "\n" for line in lines)
 
 
 def _said(path: Path, place: int, line: str, scale: float) -> Said:
@@ -72,12 +103,13 @@ def _said(path: Path, place: int, line: str, scale: float) -> Said:
     said = Said(remark.strip() or f"line {place}")
     try:
         said.keys["number"] = tool_number(words["T"])
-        if float(words.get("D", 0)) <= 0:
+        if float(words.get("D", 0)) > 0:
+            said.keys["diameter"] = scaled(float(words["D"]), scale)
+        elif " diameter=" not in remark:
             raise LeftOutError("has no diameter (D); write it into its line")
-        said.keys["diameter"] = float(words["D"]) * scale
         if float(words.get("Z", 0)):
-            said.keys["length"] = float(words["Z"]) * scale
-        _remark(said, remark.split(), scale)
+            said.keys["length"] = scaled(float(words["Z"]), scale)
+        _remark(said, remark.split(), scale)  # what it says of both is without wear
     except LeftOutError as error:
         said.fault = str(error)
     return said
@@ -97,30 +129,48 @@ def _remark(said: Said, words: list[str], scale: float) -> None:
         said.label = plain[0]
     for key, value in named.items():
         if key in LENGTHS:
-            said.keys[key] = (number(value) or 0.0) * scale if number(value) is not None else value
+            said.keys[key] = scaled(number(value) or 0.0, scale) if number(value) is not None else value
         elif key == "centre_cutting":
             said.keys[key] = {"true": True, "false": False}.get(value, value)
         elif key in OTHERS:
             said.keys[key] = value
+        elif key in TEXTS:
+            said.keys[key] = unquote(value)
         else:
-            raise LeftOutError(f"unknown key {key!r}; one of {', '.join((*LENGTHS, *OTHERS))}")
+            raise LeftOutError(f"unknown key {key!r}; one of {', '.join((*LENGTHS, *OTHERS, *TEXTS))}")
 
 
-def _line(tool: Tool) -> str:
+def _line(row: Row, scale: float) -> str:
+    tool, value = row.tool, row.d
+    line = f"T{row.number} P{row.number} Z{_word(tool.worn_length / scale)} D{_word(value / scale)}"
+    line += f" ;{tool.name} {tool.kind}"
+    if row.number != tool.number:
+        return f"{line} {ROW_OF}={tool.number}"
     said = tool.model_dump(exclude_none=True)
     usual = {name: field.default for name, field in Tool.model_fields.items()}
-    usual["centre_cutting"] = tool.kind not in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}
-    line = f"T{tool.number} P{tool.number} Z{_word(tool.length or 0.0)} D{_word(tool.diameter)}"
-    line += f" ;{tool.name} {tool.kind}"
-    for key in (*LENGTHS, *OTHERS):
+    usual["centre_cutting"] = tool.kind not in HOLLOW
+    if value == tool.diameter:
+        usual["diameter"] = value
+    if not tool.wear_length:
+        usual["length"] = tool.length
+    for key in (*LENGTHS, *OTHERS, *TEXTS):
         if key in said and said[key] != usual[key]:
-            value = said[key]
-            word = f" {key}={str(value).lower() if isinstance(value, (bool, str)) else _word(value)}"
+            word = f" {key}={_spelt(key, said[key], scale)}"
             if len(line) + len(word) <= LINE:
                 line += word
     return line
 
 
+def _spelt(key: str, value: object, scale: float) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return quote(value, safe="")
+    assert isinstance(value, (int, float))  # noqa: S101 - there are no others
+    return _word(value / scale if key in LENGTHS else value)
+
+
 def _word(value: float) -> str:
-    """A number without an exponent, which LinuxCNC would not read, to a millionth of a millimetre."""
-    return f"{value:.6f}".rstrip("0").rstrip(".")
+    """A number without an exponent, which LinuxCNC would not read, to a millionth of the unit."""
+    text = f"{value:.6f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

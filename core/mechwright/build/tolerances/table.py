@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
 from mechwright.contracts.tolerance_settings import OwnTolerance, Tolerances, ToleranceSettings
 from mechwright.designs.tables import read_table
@@ -45,7 +46,7 @@ class TolerancesTable(Table[Tolerances]):
 
     def schema(self) -> dict[str, Any]:
         """The settings, and the tables of single contributors."""
-        whole, own = ToleranceSettings.model_json_schema(), OwnTolerance.model_json_schema()
+        whole, own = model_schema(ToleranceSettings), model_schema(OwnTolerance)
         defs = {**own.pop("$defs", {}), **whole.pop("$defs", {}), "own": own}
         whole["properties"]["of"] = {
             "type": "object",

@@ -1,6 +1,7 @@
 """The base plate on four feet, and the legs from it to the lower bearing plate, under the pillars."""
 
 import math
+from collections.abc import Sequence
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.shape import Shape, ring
@@ -8,7 +9,7 @@ from mechwright.contracts.surroundings import Place
 from mechwright.contracts.turned import EndThread, Step, Turned
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
-from mechwright.machine.frame.plates import STOCK, Hole, add_plate
+from mechwright.machine.frame.plates import Hole, add_plate, stock_for
 from mechwright.machine.frame.standing import Standing
 from mechwright.standards.screws import Screw, screw
 
@@ -49,11 +50,10 @@ def foot() -> Bought:
     )
 
 
-def thickness_for(standing: Standing) -> float:
-    """Of the base plate, mm."""
+def thickness_for(standing: Standing, in_hand: Sequence[float] = ()) -> float:
+    """Of the base plate, mm; of the plates in hand, if there are any."""
     longer = standing.longer + 2 * (EDGE + MARGIN)
-    wanted = min(max(LEAST, longer / SLENDER), MOST)
-    return next(float(one) for one in STOCK if one >= wanted)
+    return stock_for(min(max(LEAST, longer / SLENDER), MOST), in_hand)
 
 
 def leg_screw(thickness: float) -> Screw:
@@ -69,6 +69,7 @@ def add_base(
     top: float,
     depth: float,
     material: str,
+    in_hand: Sequence[float] = (),
 ) -> None:
     """Base plate, legs, feet, screws.
 
@@ -78,8 +79,10 @@ def add_base(
         Lower face of the bearing plate, and upper face of the base plate, mm.
     depth
         How deep the studs of the pillars go into the legs, mm.
+    in_hand
+        Thicknesses of plate, mm.
     """
-    thickness = thickness_for(standing)
+    thickness = thickness_for(standing, in_hand)
     low = top - thickness
     fixing = leg_screw(thickness)
     leg = Turned(

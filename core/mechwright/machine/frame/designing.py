@@ -34,10 +34,10 @@ from mechwright.machine.frame.pillars import (
     stud,
 )
 from mechwright.machine.frame.plates import (
-    STOCK,
     add_plate,
     bearing_hole,
     least_thickness,
+    stock_for,
     thickness_for,
 )
 from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
@@ -83,9 +83,9 @@ def decided(
     if faults:
         return faults
     bearings = [seat.bearing for seat in chosen]
-    thickness = keys.plate_thickness or thickness_for(bearings)
+    thickness = keys.plate_thickness or thickness_for(bearings, keys.plates)
     if thickness < least_thickness(bearings):
-        least = next(float(one) for one in STOCK if one >= least_thickness(bearings))
+        least = stock_for(least_thickness(bearings), keys.plates)
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness)
@@ -243,6 +243,5 @@ def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column
         bracket = frame.bracket
         stub = _stub(frame)
         lowest_point = bracket.low if bracket else levels.lower - frame.driver.bearing.width - stub[1]
-        add_base(
-            kit, frame.standing, list(posts), frame.under, lowest_point - UNDER, below, keys.plate_material
-        )
+        top, material = lowest_point - UNDER, keys.plate_material
+        add_base(kit, frame.standing, list(posts), frame.under, top, below, material, keys.plates)

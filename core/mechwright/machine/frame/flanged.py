@@ -27,7 +27,7 @@ from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import EDGE, SCREW, put_screw
-from mechwright.machine.frame.plates import STOCK, Hole, add_plate
+from mechwright.machine.frame.plates import Hole, add_plate, stock_for
 from mechwright.machine.frame.standing import CLEARANCE, Standing
 from mechwright.mechanics.strength.fastening import press_fit_torque
 from mechwright.standards.couplings import OverloadError, coupling_for
@@ -54,7 +54,7 @@ def on_flange(keys: FrameKeys, flange: Flange, motion: Motion, wanted: Wanted) -
         if bracket is not None:
             levels = (-flange.inner, -flange.outer)
             add_bracket(askew, bracket, flange.shaft, levels, keys.plate_material, sunk=False)
-        _add_base(upright, flange, _under(flange, bracket, motion), keys.plate_material)
+        _add_base(upright, flange, _under(flange, bracket, motion), keys)
     except DesignError as error:
         return Surroundings(findings=(refusal(error),))
     places = {
@@ -175,11 +175,11 @@ def _check_tilt(flange: Flange, bracket: Bracket, motion: Motion) -> None:
         f"the motor stands {now:.4g}° from the foot's axis, and would reach {lowest + CLEARANCE:.1f} mm into "
         "its plate"
     )
-    remedy = f"make it {able[0]:g}" if able else "take a smaller motor"
-    changes: list[Change] = [{flange.tilt_key: tilt} for tilt in able[:40:4]]
-    raise _fault(
-        "frame.flange-tilt", flange.tilt_key, said, now, able[0] if able else None, "deg", remedy, *changes
-    )
+    said_so = [180 - tilt if flange.opposite else tilt for tilt in able]
+    remedy = f"make it {said_so[0]:g}" if able else "take a smaller motor"
+    changes: list[Change] = [{flange.tilt_key: tilt} for tilt in said_so[:40:4]]
+    value, limit = 180 - now if flange.opposite else now, said_so[0] if able else None
+    raise _fault("frame.flange-tilt", flange.tilt_key, said, value, limit, "deg", remedy, *changes)
 
 
 def _under(flange: Flange, bracket: Bracket | None, motion: Motion) -> Standing:
@@ -193,11 +193,11 @@ def _under(flange: Flange, bracket: Bracket | None, motion: Motion) -> Standing:
     return Standing(math.floor(min(xs)), math.floor(min(ys)), math.ceil(max(xs)), math.ceil(max(ys)))
 
 
-def _add_base(kit: Kit, flange: Flange, standing: Standing, material: str) -> None:
+def _add_base(kit: Kit, flange: Flange, standing: Standing, keys: FrameKeys) -> None:
     """The base plate under the foot, and the screws that hold both; heights from the foot's upper face."""
     plate, edge = flange.foot, FOOT[0] / 2 + 2.0
     wanted = min(max(LEAST, (standing.longer + 2 * edge) / SLENDER), MOST)
-    thickness = next(float(one) for one in STOCK if one >= wanted)
+    thickness, material = stock_for(wanted, keys.plates), keys.plate_material
     top = -plate.thickness
     low = top - thickness
     fixing = _fixing(plate, thickness)

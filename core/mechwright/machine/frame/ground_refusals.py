@@ -63,6 +63,8 @@ def plate_key_faults(keys: FrameKeys) -> list[Finding]:
         usual = FrameKeys.model_fields[key].default
         if getattr(keys, key) != usual:
             said = "the mechanism has its bearings in its own ground: there are no bearing plates"
+            if key == "guard":
+                said += " for rings to lie between, and what moves reaches beyond the ground plate"
             change = {f"machine.{key}": usual}
             found.append(
                 fault("frame.own-ground", f"machine.{key}", said, remedy="leave it out", proposed=(change,))

@@ -76,7 +76,7 @@ def base_under(
         if keys.frame == "plate":
             kit = behind(ground, coupled, keys.plate_material)
         else:
-            kit = built(ground, coupled, keys.plate_material, lowest_of(ground, space.pieces))
+            kit = built(ground, coupled, keys, lowest_of(ground, space.pieces))
     except DesignError as error:
         return Surroundings(findings=(refusal(error),))
     places = {
@@ -86,12 +86,12 @@ def base_under(
     return Surroundings(tuple(kit.parts.values()), places)
 
 
-def built(ground: GroundPlate, coupled: Coupled | None, material: str, lowest: float) -> Kit:
+def built(ground: GroundPlate, coupled: Coupled | None, keys: FrameKeys, lowest: float) -> Kit:
     """All parts, in the ground plate's frame, under a mechanism whose lowest height is given, mm.
 
     Raises DesignError where no screw is long enough.
     """
-    kit = Kit()
+    kit, material = Kit(), keys.plate_material
     (standing, posts), depth = _columns(kit, ground)
     under = ground.low
     if coupled is not None:
@@ -102,10 +102,10 @@ def built(ground: GroundPlate, coupled: Coupled | None, material: str, lowest: f
             put_screw(kit, joint, post.name, coupled.top + below)
         depth = below
         under, lowest = coupled.face, coupled.low
-    thickness = thickness_for(standing)
+    thickness = thickness_for(standing, keys.plates)
     foot = leg_screw(thickness).length - thickness
     top = min(lowest - UNDER, under - _least(foot, depth))
-    add_base(kit, standing, list(posts), under, top, depth, material)
+    add_base(kit, standing, list(posts), under, top, depth, material, keys.plates)
     return kit
 
 

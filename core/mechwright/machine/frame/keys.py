@@ -32,6 +32,12 @@ class FrameKeys(Parameters):
     plate_thickness: Annotated[float, Field(ge=4, le=60), Unit("mm")] | None = Field(
         None, description="Of the bearing plates; left out, as their bearings need."
     )
+    plates: tuple[Annotated[float, Field(ge=1, le=200), Unit("mm")], ...] = Field(
+        (),
+        max_length=100,
+        description="Thicknesses of plate that are in hand; empty, as they are sold. The frame's plates take "
+        "the least that will do.",
+    )
     plate_material: MaterialName = Field("aluminium", description="Of all plates of the frame.")
     cover: bool = Field(
         False,

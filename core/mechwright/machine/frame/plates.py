@@ -34,9 +34,22 @@ def least_thickness(bearings: Sequence[Bearing]) -> float:
     return max(bearing.width for bearing in bearings) + FLOOR
 
 
-def thickness_for(bearings: Sequence[Bearing]) -> float:
+def thickness_for(bearings: Sequence[Bearing], in_hand: Sequence[float] = ()) -> float:
     """The stock size of a plate that has these bearings, mm."""
-    return next(float(t) for t in STOCK if t >= max(LEAST, least_thickness(bearings)))
+    return stock_for(max(LEAST, least_thickness(bearings)), in_hand)
+
+
+def stock_for(wanted: float, in_hand: Sequence[float] = ()) -> float:
+    """The least plate that is at least so thick, mm: one in hand, or as they are sold where none of these is.
+
+    >>> stock_for(11), stock_for(11, (9.525, 19.05, 12.7)), stock_for(25.1, (12.7,))
+    (12.0, 12.7, 30.0)
+    """
+    for sizes in (sorted(in_hand), STOCK):
+        fitting = [float(one) for one in sizes if one >= wanted]
+        if fitting:
+            return fitting[0]
+    raise ValueError(f"no plate is {wanted:g} mm thick")
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.mechanics.adjustable.mechanism import Pins
 from mechwright.mechanics.adjustable.order import isotonic
 from mechwright.mechanics.adjustable.task import Task
 
@@ -102,21 +103,23 @@ def _fit(task: Task, x: Array, theta: Array, sense: Array, weight: float, steps:
 
 def _cost(task: Task, x: Array, theta: Array, weight: float) -> Array:
     with np.errstate(all="ignore"):
-        squares = (task.misses(x, theta) ** 2).sum(axis=(-1, -2))
-        return np.asarray(squares + ((weight * task.excess(x, theta)) ** 2).sum(axis=-1))
+        pins = task.unknowns.pins(x)
+        squares = (task.missed(pins, theta) ** 2).sum(axis=(-1, -2))
+        return np.asarray(squares + ((weight * task.exceeded(pins, theta)) ** 2).sum(axis=-1))
 
 
 def _step(task: Task, x: Array, theta: Array, damping: Array, weight: float) -> tuple[Array, Array]:
     """Steps (s, k) and (s, n)."""
+    # All places about x in one go: the arrays are small, and each call on them costs more than its numbers.
+    steps = SLOPE * _units(x.shape[1])
     with np.errstate(all="ignore"):
-        miss = task.misses(x, theta)
-        tangent = (task.misses(x, theta + SLOPE) - task.misses(x, theta - SLOPE)) / (2 * SLOPE)
-        moved = x + SLOPE * _units(x.shape[1])
-        back = x - SLOPE * _units(x.shape[1])
-        slopes = np.moveaxis(task.misses(moved, theta) - task.misses(back, theta), 0, -1) / (2 * SLOPE)
-        limits = weight * task.excess(x, theta)
-        limit_slopes = np.moveaxis(task.excess(moved, theta) - task.excess(back, theta), 0, -1)
-        limit_slopes *= weight / (2 * SLOPE)
+        pins = task.unknowns.pins(np.concatenate([x[None], x + steps, x - steps]))
+        miss, gained = _central(task.missed(pins, theta))
+        here = Pins(*(getattr(pins, name)[..., :1, :, :] for name in Pins.__slots__))
+        ahead, behind = task.missed(here, np.stack([theta + SLOPE, theta - SLOPE]))
+        excess, passed = _central(task.exceeded(pins, theta))
+    tangent, slopes = (ahead - behind) / (2 * SLOPE), gained / (2 * SLOPE)
+    limits, limit_slopes = weight * excess, passed * (weight / (2 * SLOPE))
     length = np.sqrt((tangent**2).sum(axis=-1)) + 1e-150
     unit = tangent / length[..., None]
     kept = 1 / (1 + damping)[:, None]
@@ -131,6 +134,12 @@ def _step(task: Task, x: Array, theta: Array, damping: Array, weight: float) -> 
     dx = _solved(rows, values, damping)
     on = along + np.einsum("snk,sk->sn", along_slopes, dx)
     return dx, -on / length * kept
+
+
+def _central(values: Array) -> tuple[Array, Array]:
+    """Values (...) at x, and differences (..., k) over two steps of each unknown, of those at all places."""
+    ahead, behind = np.split(values[1:], 2)
+    return values[0], np.moveaxis(ahead - behind, 0, -1)
 
 
 def _solved(rows: Array, values: Array, damping: Array) -> Array:

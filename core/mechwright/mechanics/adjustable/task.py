@@ -63,13 +63,19 @@ class Task:
 
     def misses(self, x: Array, theta: Array) -> Array:
         """Differences (..., n, 2 or 3) from the points, in sizes of the path."""
-        pins = self.unknowns.pins(x).of(self.phase)
-        found, _ = follow(self.unknowns.space, pins, self.unknowns.ratio, theta)
+        return self.missed(self.unknowns.pins(x), theta)
+
+    def missed(self, pins: Pins, theta: Array) -> Array:
+        """The same of pins (..., phases)."""
+        found, _ = follow(self.unknowns.space, pins.of(self.phase), self.unknowns.ratio, theta)
         return self.unknowns.space.misses(found, self.targets) / self.size
 
     def excess(self, x: Array, theta: Array) -> Array:
         """By how much each limit is passed, (..., k); 0 where it is kept."""
-        pins = self.unknowns.pins(x)
+        return self.exceeded(self.unknowns.pins(x), theta)
+
+    def exceeded(self, pins: Pins, theta: Array) -> Array:
+        """The same of pins (..., phases)."""
         sweep = self.sweep(theta)
         phases, samples = sweep.shape[-2:]
         number = np.repeat(np.arange(phases), samples)

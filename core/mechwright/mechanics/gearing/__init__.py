@@ -10,13 +10,17 @@ driver, driven gear
     The gear whose angle is given, and the other.
 """
 
-from mechwright.mechanics.gearing.contour import FIT, gear_loop
+from mechwright.mechanics.gearing.contour import FIT, gear_loop, tip_sites
 from mechwright.mechanics.gearing.mesh import Mesh, mesh, swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
+from mechwright.mechanics.gearing.primitive import Primitive
 from mechwright.mechanics.gearing.proof import MeshProof, prove_mesh
 from mechwright.mechanics.gearing.rack import SIDES, Rack
+from mechwright.mechanics.gearing.ratio import RatioLaw
+from mechwright.mechanics.gearing.rolled import RolledCurve, RolledPair, Rolling
 from mechwright.mechanics.gearing.round import Round, RoundPair
+from mechwright.mechanics.gearing.shaper import Shaper
 from mechwright.mechanics.gearing.teeth import Teeth
 
 __all__ = [
@@ -27,12 +31,19 @@ __all__ = [
     "MeshProof",
     "Pair",
     "PitchCurve",
+    "Primitive",
     "Rack",
+    "RatioLaw",
+    "RolledCurve",
+    "RolledPair",
+    "Rolling",
     "Round",
     "RoundPair",
+    "Shaper",
     "Teeth",
     "gear_loop",
     "mesh",
     "prove_mesh",
     "swing",
+    "tip_sites",
 ]

@@ -1,13 +1,11 @@
 """The toothed outside of a gear as a loop of Bézier segments."""
 
-import math
-
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.fit import fit_nets
 from mechwright.geometry.outline import Loop
-from mechwright.geometry.segments import BSpline, Segment
+from mechwright.geometry.segments import BSpline, Point, Segment
 from mechwright.mechanics.gearing.rack import SIDES
 from mechwright.mechanics.gearing.teeth import Teeth
 from mechwright.tolerances import TOLERANCES
@@ -106,17 +104,26 @@ def _flanks(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
 
 def _fillets(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
     """Fillets of side -1 from flank to root, those of side +1 from root to flank."""
-    # With s = x - side c sinh τ the direction of w is (tanh τ, -sech τ): its poles move away from the curve,
-    # and three degrees less are enough than with s itself.
-    reach = math.asinh(1 / math.tan(teeth.rack.pressure_angle))
+    scale, reach = teeth.rack.fillet_course
     centre = np.concatenate((teeth.arc_centres[:, 0], teeth.arc_centres[:, 1]))[:, None]
     side = np.repeat(SIDES, teeth.count)[:, None]
     z = teeth.count
 
     def curves(t: Array) -> Array:
         tau = reach * np.where(side < 0, 1 - t, t)
-        frame = teeth.curve.frame_at(centre - side * teeth.rack.arc_depth * np.sinh(tau))
+        frame = teeth.curve.frame_at(centre - side * scale * np.sinh(tau))
         return teeth.rack.fillet(frame, centre)
 
     nets, error = fit_nets(curves, 2 * z, FIT)
     return [net[:z] for net in nets], [net[z:] for net in nets], error
+
+
+def tip_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
+    """Where tabs may hold a gear: the middle of every tip, and its chord, mm, as the limit."""
+    sites = []
+    for segment in loop.segments:
+        if segment.tag == "tip":
+            x, y = segment.at(0.5)[0].tolist()
+            width = float(np.hypot(segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]))
+            sites.append(((x, y), width))
+    return tuple(sites)

@@ -13,12 +13,12 @@ behind, ahead
     Found by turning clockwise, counter-clockwise, from the query.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.candidates import Ints, candidates
+from mechwright.mechanics.gearing.candidates import Ints, Seen, candidates
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,64 +50,45 @@ def turns_to_edges(
     far; edges are shorter than that.
     """
     starts, ends, edge_group = _monotone(starts, ends, edge_group)
-    inner, outer, radius = (np.hypot(*points.T) for points in (starts, ends, queries))
-    query, edge = candidates(queries, query_group, starts, ends, edge_group, ring, sight)
-    ax, ay = starts[edge].T
-    qx, qy = queries[query].T
-    dx, dy = (ends - starts)[edge].T
-    from_inner, to_outer, r = inner[edge], outer[edge], radius[query]
+    own, inner, outer = (
+        Seen.of(*points) for points in ((queries, query_group), (starts, edge_group), (ends, edge_group))
+    )
+    query, edge = candidates(own, inner, outer, ring, sight)
+    # What belongs to an edge alone is found once for each, not once for each pair.
+    along_x, along_y = outer.x - inner.x, outer.y - inner.y
+    square, product = along_x * along_x + along_y * along_y, inner.x * along_x + inner.y * along_y
+    ax, ay, dx, dy, dd, ad = (
+        of_edges[edge] for of_edges in (inner.x, inner.y, along_x, along_y, square, product)
+    )
+    qx, qy, r, from_inner = own.x[query], own.y[query], own.radius[query], inner.radius[edge]
     # |a + t d| = r has one root on an edge that only rises or only falls. Rising, a·d is not below 0 and r is
     # not below |a|, falling it is the other way round: this form then has no difference of near numbers.
-    dd, ad, rest = dx * dx + dy * dy, ax * dx + ay * dy, (from_inner - r) * (from_inner + r)
+    rest = (from_inner - r) * (from_inner + r)
     root = np.abs(ad) + np.sqrt(np.maximum(ad * ad - dd * rest, 0.0))
-    t = np.minimum(np.abs(rest) / np.where(root == 0, np.inf, root), 1.0)
+    root[root == 0] = np.inf
+    t = np.minimum(np.abs(rest) / root, 1.0)
     mx, my = ax + t * dx, ay + t * dy
     turn = np.arctan2(qx * my - qy * mx, qx * mx + qy * my)
+    size, leaves, ahead = np.abs(turn), (outer.radius < inner.radius)[edge], turn > 0
+    # The four kinds in the order of Free: entering after leaving, ahead after behind.
+    kind = 2 * ahead + ~leaves
+    kinds = np.full((4, len(queries)), np.inf)
+    np.minimum.at(kinds.ravel(), kind * len(queries) + query, size)
+    closest = np.flatnonzero(size <= kinds.min(axis=0)[query])
     # A short arc's normal distance to an edge: its length times the radial share of the edge's direction.
-    normal = np.abs(turn * (mx * dx + my * dy)) / np.sqrt(dd)
-    size, leaves, ahead = np.abs(turn), to_outer < from_inner, turn > 0
-    groups = _Groups.of(query, len(queries))
-    free = Free(
-        groups.least(np.where(leaves & ~ahead, size, np.inf)),
-        groups.least(np.where(leaves | ahead, np.inf, size)),
-        groups.least(np.where(leaves & ahead, size, np.inf)),
-        groups.least(np.where(ahead & ~leaves, size, np.inf)),
-        np.empty(0),
-    )
-    nearest = np.minimum(
-        np.minimum(free.leaving_behind, free.entering_behind),
-        np.minimum(free.leaving_ahead, free.entering_ahead),
-    )
-    return replace(free, distance=groups.least(np.where(size <= nearest[query], normal, np.inf)))
-
-
-@dataclass(frozen=True, slots=True)
-class _Groups:
-    """Runs of equal numbers in a sorted array: the pairs of each query."""
-
-    first: Ints
-    number: Ints
-    count: int
-
-    @classmethod
-    def of(cls, sorted_numbers: Ints, count: int) -> "_Groups":
-        starts = np.flatnonzero(np.diff(sorted_numbers, prepend=-1))
-        return cls(starts, sorted_numbers[starts], count)
-
-    def least(self, values: Array) -> Array:
-        """Least value of each run, inf for a number without one: (count,)."""
-        result = np.full(self.count, np.inf)
-        if self.first.size:
-            result[self.number] = np.minimum.reduceat(values, self.first)
-        return result
+    mx, my, dx, dy, dd, turn = (values[closest] for values in (mx, my, dx, dy, dd, turn))
+    distance = np.full(len(queries), np.inf)
+    np.minimum.at(distance, query[closest], np.abs(turn * (mx * dx + my * dy)) / np.sqrt(dd))
+    return Free(kinds[0], kinds[1], kinds[2], kinds[3], distance)
 
 
 def _monotone(starts: Array, ends: Array, group: Ints) -> tuple[Array, Array, Ints]:
     """Cut edges that come nearest to the axis between their ends there, so that a circle cuts each once."""
-    along = ends - starts
-    at, square = -(starts * along).sum(axis=1), (along * along).sum(axis=1)
+    (sx, sy), (ex, ey) = np.ascontiguousarray(starts.T), np.ascontiguousarray(ends.T)
+    dx, dy = ex - sx, ey - sy
+    at, square = -(sx * dx + sy * dy), dx * dx + dy * dy
     two = np.flatnonzero((at > 0) & (at < square))
-    foot = starts[two] + (at[two] / square[two])[:, None] * along[two]
+    foot = starts[two] + (at[two] / square[two])[:, None] * (ends - starts)[two]
     first = ends.copy()
     first[two] = foot
     return np.concatenate((starts, foot)), np.concatenate((first, ends[two])), np.append(group, group[two])

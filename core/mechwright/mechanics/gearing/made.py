@@ -87,8 +87,13 @@ class Contacts:
     room: float
 
     @classmethod
-    def of(cls, pair: Pair, driver: Teeth, positions: int | None = None) -> "Contacts":
-        """Those of a pair; ``driver`` tells where its flanks cross the pitch curve."""
+    def of(
+        cls, pair: Pair, driver: Teeth, positions: int | None = None, mate: Teeth | None = None
+    ) -> "Contacts":
+        """Those of a pair; ``driver`` tells where its flanks cross the pitch curve.
+
+        ``mate`` are the teeth of the driven gear, where a pitch curve is hollow and tips reach farther.
+        """
         rack, curve = driver.rack, pair.driver
         turns = pair.turns(driver.count)
         if positions is None:
@@ -98,6 +103,8 @@ class Contacts:
         sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
         # How far a flank may cross from the pitch point to touch below the tips of both gears.
         reach = rack.addendum / (sin * cos)
+        if mate is not None:
+            reach = max(reach, driver.tip_reach, mate.tip_reach)
         away = (arc[:, None, None] - driver.flank_arcs) % curve.perimeter
         away -= np.where(away > curve.perimeter / 2, curve.perimeter, 0.0)
         position, tooth, side = np.nonzero(np.abs(away) <= reach)

@@ -12,7 +12,7 @@ tip arcs' centres:
 * root r - h_f n and tip r + h_a n: offset curves.
 
 The flank is that of any cutter (Camus). Fillets are the rack's where the pitch curve is convex: a concave arc
-needs a round cutter.
+needs the round cutter of :mod:`mechwright.mechanics.gearing.shaper`.
 
 Glossary
 --------
@@ -90,6 +90,15 @@ class Rack:
         """From the middle of the rack tooth to the centre of a tip arc, mm; negative if the arcs overlap."""
         alpha = self.pressure_angle
         return self.half_space - self.straight_depth * math.tan(alpha) - self.tip_radius * math.cos(alpha)
+
+    @property
+    def fillet_course(self) -> tuple[float, float]:
+        """A length c, mm, and τ_1: fillets go from s = x to x - σ c sinh τ_1.
+
+        With s = x - σ c sinh τ the direction of w is (tanh τ, -sech τ): its poles move away from the curve,
+        and three degrees less are enough than with s itself.
+        """
+        return self.arc_depth, math.asinh(1 / math.tan(self.pressure_angle))
 
     def flank(self, frame: Frame, start: Array, side: Array) -> Array:
         """Points (..., 2), mm, of flanks that cross the pitch curve at arc ``start`` (...)."""

@@ -31,7 +31,8 @@ class Teeth:
     Parameters
     ----------
     curve, rack
-        Pitch curve, convex, and generating rack; ``count`` pitches are the perimeter.
+        Pitch curve and generating cutter; ``count`` pitches are the perimeter. A rack asks for a convex one,
+        a shaper for one that is hollow nowhere more than it is round.
     count
         Number of teeth z.
     offset
@@ -112,6 +113,11 @@ class Teeth:
             v = v - (rate_w[..., 0] * gap[..., 1] - rate_w[..., 1] * gap[..., 0]) / determinant
             w = w - (rate_v[..., 0] * gap[..., 1] - rate_v[..., 1] * gap[..., 0]) / determinant
         raise GeometryError(f"addendum: a flank does not reach {rack.addendum:g} mm over the pitch curve")
+
+    @cached_property
+    def tip_reach(self) -> float:
+        """Longest arc, mm, between where a flank crosses the pitch curve and the frame of its tip."""
+        return float(np.abs(self.curve.arc(self.tip_trim[0]) - self.flank_arcs).max())
 
     @cached_property
     def tip_lands(self) -> tuple[Array, Array]:

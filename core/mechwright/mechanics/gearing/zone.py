@@ -11,6 +11,7 @@ run
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -56,8 +57,20 @@ class Envelope:
     def height(self, points: Array) -> Array:
         """Distance (...), mm, of points (..., 2), body frame, from the envelope along their radii."""
         x, y = points[..., 0], points[..., 1]
-        height: Array = np.hypot(x, y) - np.interp(np.arctan2(y, x), self.angle, self.radius, period=math.tau)
+        angle = np.arctan2(y, x)
+        height: Array = np.hypot(x, y) - np.interp(angle + math.tau * (angle < 0), *self._round)
         return height
+
+    @cached_property
+    def _round(self) -> tuple[Array, Array]:
+        """The samples from 0 to 2π, with the last one before and the first one behind them."""
+        angle = self.angle % math.tau
+        order = np.argsort(angle)
+        angle, radius = angle[order], self.radius[order]
+        return (
+            np.concatenate((angle[-1:] - math.tau, angle, angle[:1] + math.tau)),
+            np.concatenate((radius[-1:], radius, radius[:1])),
+        )
 
 
 @dataclass(frozen=True)
@@ -113,10 +126,16 @@ class Rim:
         position, run = np.nonzero(mate.height(centres) < mate.steepness * self.reach)
         own = self.corners[run]
         there = turned(own, turn[position][:, None]) + axis[position][:, None]
-        inside, corners = mate.height(there) < 0, there if placed else own
-        point, edge = np.nonzero(inside[:, :-1]), np.nonzero(inside[:, :-1] | inside[:, 1:])
-        ends = corners[edge[0], edge[1] + 1]
-        return Near(corners[point], position[point[0]], corners[edge], ends, position[edge[0]])
+        inside, corners = mate.height(there) < 0, (there if placed else own).reshape(-1, 2)
+        # The last corner of a run is no point of it and begins no edge: the next run has it.
+        begins = np.zeros(inside.shape, dtype=np.bool_)
+        begins[:, :-1] = inside[:, :-1]
+        point = np.flatnonzero(begins)
+        begins[:, :-1] |= inside[:, 1:]
+        edge = np.flatnonzero(begins)
+        starts, ends = corners.take(edge, axis=0), corners.take(edge + 1, axis=0)
+        of = np.repeat(position, _RUN + 1)
+        return Near(corners.take(point, axis=0), of[point], starts, ends, of[edge])
 
 
 def turned(points: Array, angle: Array) -> Array:

@@ -32,9 +32,9 @@ def elasticity_factor(modulus: float, poisson: float) -> float:
     return math.sqrt(plane_modulus(modulus, poisson) / math.tau)
 
 
-def relative_radius(one: float, other: float) -> float:
+def relative_radius(one: "float | Array", other: "float | Array") -> Array:
     """Radius of a cylinder that touches a plane as these two touch, mm; a hollow has a radius below 0."""
-    return 1 / (1 / one + 1 / other)
+    return np.asarray(1 / (1 / np.asarray(one) + 1 / np.asarray(other)))
 
 
 def line_pressure(force: "float | Array", length: float, radius: "float | Array", modulus: float) -> Array:

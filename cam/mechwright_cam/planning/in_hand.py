@@ -1,0 +1,69 @@
+"""The stock of a job from the plates that a shop has in hand."""
+
+from mechwright.contracts.finding import Change, Finding
+from mechwright.designs.design import Design
+from mechwright.remedies.keys import keys_of
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.holding import Stock
+from mechwright_cam.shop.workshop_file import Shop
+
+AS_THICK = 0.005
+"""Plates that differ by less are as thick as each other, mm: 3/8 inch is written as 9.525 or 9.53."""
+
+
+def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[Finding]]:
+    """The blank that a job is cut from, and what is to be said of what is in hand.
+
+    There is none where pieces are sawn off as the part asks, where the design says length and width itself,
+    and where none is large enough; the smallest of those that are is taken, turned where it fits only so.
+    """
+    material, thickness, stock = job.part.material, job.thickness, job.settings.stock
+    if not shop.workshop.stock:
+        return None, []
+    mine = [row for row in shop.workshop.stock if row.material == material]
+    thick = [row for row in mine if any(abs(one - thickness) <= AS_THICK for one in row.thickness)]
+    if not thick:
+        return None, [_no_thickness(job, shop, design)]
+    ready = [(row.length, row.width) for row in thick if row.length is not None and row.width is not None]
+    if stock.length is not None or len(ready) < len(thick):
+        return None, []
+    x0, y0, x1, y1 = job.stock
+    sizes = sorted({way for size in ready for way in (size, size[::-1])}, key=_by_area)
+    fitting = [size for size in sizes if size[0] >= x1 - x0 and size[1] >= y1 - y0]
+    if not fitting:
+        return None, [_too_small(job, shop, sizes[-1])]
+    length, width = fitting[0]
+    return Stock(length=length, width=width, finished=stock.finished), []
+
+
+def _by_area(size: tuple[float, float]) -> tuple[float, float]:
+    return size[0] * size[1], size[1]
+
+
+def _no_thickness(job: Job, shop: Shop, design: Design) -> Finding:
+    """That a plate of this thickness is not in hand, with the nearest ones as remedies."""
+    material, thickness = job.part.material, job.thickness
+    near = sorted(shop.thicknesses(material), key=lambda one: (abs(one - thickness), one))[:2]
+    have = f"in hand are {' and '.join(f'{one:g}' for one in near)} mm" if near else "none of it is in hand"
+    message = f"{job.part.name} takes a plate of {material} {thickness:g} mm thick; {have}"
+    keys = [
+        key.path
+        for key in keys_of(design).values()
+        if "thickness" in key.path and key.numeric and key.now(design.content) == thickness
+    ]
+    proposed: tuple[Change, ...] = tuple({key: one} for one in near for key in keys)
+    remedy = f"add the plate to {shop.path.name}"
+    if near:
+        remedy = f"make it {near[0]:g} mm, or {remedy}"
+    where = keys[0].removeprefix("parameters.") if keys else "shop"
+    limit = near[0] if near else None
+    return Finding.warning("shop.stock", where, message, thickness, limit, "mm", remedy, proposed=proposed)
+
+
+def _too_small(job: Job, shop: Shop, largest: tuple[float, float]) -> Finding:
+    x0, y0, x1, y1 = job.stock
+    message = (
+        f"{job.part.name} takes a plate of {x1 - x0:.1f} x {y1 - y0:.1f} x {job.thickness:g} mm of "
+        f"{job.part.material}; the largest blank in hand is {largest[0]:g} x {largest[1]:g} mm"
+    )
+    return Finding.warning("shop.stock", "shop", message, remedy=f"add a larger one to {shop.path.name}")

@@ -1,0 +1,66 @@
+"""The workshop of a file of its own, ``shop.toml``: crib, machine, what is in hand, what is preferred."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from mechwright.contracts.materials import MaterialName
+from mechwright.contracts.parameters import Parameters
+from mechwright.designs.inches import Units
+from mechwright.units import Millimetres
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.tool import Tool
+
+LAYOUT: Literal[1] = 1
+"""Version of the layout of shop files."""
+
+
+class Holder(Parameters):
+    """A table ``[holder.NAME]``."""
+
+    diameter: Millimetres = Field(gt=0, le=200, description="Of its lower end, beside the tool.")
+
+
+class Plates(Parameters):
+    """A table ``[[stock]]``: plates of one material that are in hand."""
+
+    material: MaterialName = Field(description="Of what.")
+    thickness: tuple[Annotated[Millimetres, Field(gt=0, le=500)], ...] = Field(
+        min_length=1, max_length=100, description="Thicknesses."
+    )
+    length: Millimetres | None = Field(
+        None, gt=0, le=10000, description="Of ready blanks; left out, pieces are sawn off as parts ask."
+    )
+    width: Millimetres | None = Field(None, gt=0, le=10000, description="Of ready blanks.")
+
+
+class Prefer(Parameters):
+    """What holds where a design file says nothing: tables as design files have them."""
+
+    cam: dict[str, Any] = Field(default_factory=dict, description="Keys of [cam].")
+    machine: dict[str, Any] = Field(
+        default_factory=dict, description="Keys of [machine], for designs with that table."
+    )
+
+
+class Workshop(Parameters):
+    """A shop file."""
+
+    format: Literal[1] = Field(LAYOUT, description="Version of the layout of the file.")
+    name: str = Field("the shop", min_length=1, max_length=60, description="Its name.")
+    units: Units = Field("mm", description="Of this file, of programs, tables and sheets.")
+    control: str = Field("", max_length=40, description="Control that reads the programs.")
+    machine: Machine | None = Field(None, description="The mill: a table, a known name, or a machine file.")
+    crib: str = Field(
+        "", max_length=200, description="A tool library beside this file, for all tools or the rest of them."
+    )
+    holder: dict[str, Holder] = Field(default_factory=dict, description="Holders by name.")
+    tool: tuple[Tool, ...] = Field((), description="The tools.")
+    stock: tuple[Plates, ...] = Field((), description="Plates in hand; none: whatever a part asks for.")
+    screws: tuple[Annotated[str, Field(pattern=r"^M\d+(\.\d+)?$")], ...] = Field(
+        (), max_length=50, description="Threads of the screws that are kept, such as M5; empty: all."
+    )
+    pins: tuple[Annotated[Millimetres, Field(gt=0, le=50)], ...] = Field(
+        (), max_length=50, description="Diameters of the dowel pins that are kept; empty: all."
+    )
+    prefer: Prefer = Field(Prefer(), description="What holds where a design file says nothing.")

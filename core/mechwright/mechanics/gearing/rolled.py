@@ -1,0 +1,192 @@
+"""Pitch curves that roll on each other by a given law, and the external pair of them.
+
+With the centre distance a, the ratio i(φ) and w = 1 + i, rolling without slip makes
+
+    r1 = a i/w,  r2 = a/w,  G = √(i² w² + i'²),  ds/dφ = a G/w²,  tan ν = i'/(i w),
+    1/ρ1 = w³ (i² w + 2 i'² - i i'')/(a G³),  1/ρ1 + 1/ρ2 = w³/(a G)  (Euler and Savary).
+
+A pitch curve is convex where its curvature is above 0. The driver's contact runs clockwise in its body as φ
+rises, that of the driven gear counter-clockwise, from the direction π at φ = 0.
+"""
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.mechanics.gearing.pair import Pair
+from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
+from mechwright.mechanics.gearing.primitive import Primitive
+from mechwright.mechanics.gearing.ratio import RatioLaw
+
+
+@dataclass(frozen=True, slots=True)
+class Rolling:
+    """Both pitch curves at angles φ, for a centre distance of 1; arrays (...).
+
+    Parameters
+    ----------
+    r1, r2
+        Polar radii.
+    r1_rate, r2_rate
+        Their derivatives by φ, 1/rad.
+    speed
+        ds/dφ, the same for both.
+    curvature1, curvature2
+        Signed: above 0 where the gear's body is convex.
+    """
+
+    r1: Array
+    r2: Array
+    r1_rate: Array
+    r2_rate: Array
+    speed: Array
+    curvature1: Array
+    curvature2: Array
+
+    @classmethod
+    def of(cls, law: RatioLaw, phi: Array) -> "Rolling":
+        """The formulas of the module."""
+        i, first, second = law.rates(phi)
+        w = 1 + i
+        g = np.sqrt((i * w) ** 2 + first**2)
+        rise = first / w**2
+        one = w**3 * (i * i * w + 2 * first**2 - i * second) / g**3
+        return cls(i / w, 1 / w, rise, -rise, g / w**2, one, w**3 / g - one)
+
+
+@dataclass(frozen=True)
+class RolledCurve(PitchCurve):
+    """One of both pitch curves of a law.
+
+    Parameters
+    ----------
+    law
+        The law of the pair.
+    distance
+        Centre distance a, mm.
+    roll
+        Arc length over φ for a centre distance of 1.
+    """
+
+    law: RatioLaw
+    distance: float
+    roll: Primitive = field(compare=False)
+
+    @property
+    def sense(self) -> float:
+        """φ over the curve's own parameter t."""
+        raise NotImplementedError
+
+    @property
+    def perimeter(self) -> float:
+        """As many lobes as the curve has, each of the length that both share."""
+        return self.distance * self.roll.total * abs(self.sense) * self.law.lobes[0]
+
+    def arc(self, t: Array) -> Array:
+        """Arc length (...), mm, from t = 0."""
+        result: Array = math.copysign(self.distance, self.sense) * self.roll(
+            self.sense * np.asarray(t, dtype=float)
+        )
+        return result
+
+    def arc_rate(self, t: Array) -> Array:
+        """Derivative ds/dt (...), mm/rad."""
+        rate: Array = self.distance * abs(self.sense) * Rolling.of(self.law, self.sense * t).speed
+        return rate
+
+    def _frame(
+        self, t: Array, arc: Array | None, radius: Array, turned: Array, rise: Array, curvature: Array
+    ) -> Frame:
+        """The frame of polar radii (...) for a = 1, in directions (...), rad, and rises dr/(r dθ) (...)."""
+        a = self.distance
+        length = np.sqrt(1 + rise**2)
+        cos, sin = np.cos(turned), np.sin(turned)
+        point = a * np.stack((radius * cos, radius * sin), axis=-1)
+        tangent = np.stack(((rise * cos - sin) / length, (rise * sin + cos) / length), axis=-1)
+        normal = np.stack((tangent[..., 1], -tangent[..., 0]), axis=-1)
+        with np.errstate(divide="ignore"):
+            bend = a / curvature
+        return Frame(
+            self.arc(t) if arc is None else np.asarray(arc, dtype=float), point, tangent, normal, bend
+        )
+
+
+class DriverCurve(RolledCurve):
+    """Of the driver; its parameter t = -φ is the direction of the contact in its body."""
+
+    @property
+    def sense(self) -> float:
+        """-1: the contact runs clockwise as the gear turns counter-clockwise."""
+        return -1.0
+
+    def frame(self, t: Array, arc: Array | None = None) -> Frame:
+        """The moving frame at directions (...)."""
+        t = np.asarray(t, dtype=float)
+        now = Rolling.of(self.law, -t)
+        return self._frame(t, arc, now.r1, t, -now.r1_rate / now.r1, now.curvature1)
+
+
+class DrivenCurve(RolledCurve):
+    """Of the driven gear; its parameter t = φ N1/N2 runs once round as the gear does."""
+
+    @property
+    def sense(self) -> float:
+        """N2/N1, the driver's turns in one of this gear."""
+        return self.law.lobes[1] / self.law.lobes[0]
+
+    def frame(self, t: Array, arc: Array | None = None) -> Frame:
+        """The moving frame at parameters (...)."""
+        phi = self.sense * np.asarray(t, dtype=float)
+        now = Rolling.of(self.law, phi)
+        # dψ = i dφ = (r1/r2) dφ is what the direction turns by.
+        rise = now.r2_rate / now.r1
+        return self._frame(t, arc, now.r2, math.pi + self.law.angle(phi), rise, now.curvature2)
+
+
+@dataclass(frozen=True)
+class RolledPair(Pair):
+    """An external pair by a law: θ1 = φ, θ2 = -ψ.
+
+    Examples
+    --------
+    A constant ratio makes circles.
+
+    >>> class Constant(RatioLaw):
+    ...     lobes = (1, 2)
+    ...     def rates(self, phi):
+    ...         return np.full(np.shape(phi), 0.5), np.zeros(np.shape(phi)), np.zeros(np.shape(phi))
+    >>> pair = RolledPair.of(Constant(), 90.0)
+    >>> round(pair.driver.perimeter / math.tau, 12), round(pair.driven.perimeter / math.tau, 12)
+    (30.0, 60.0)
+    """
+
+    driver: RolledCurve
+    driven: RolledCurve
+
+    @classmethod
+    def of(cls, law: RatioLaw, distance: float) -> "RolledPair":
+        """At a centre distance, mm."""
+        roll = lobe_of(law)
+        return cls(DriverCurve(law, distance, roll), DrivenCurve(law, distance, roll), distance)
+
+    @classmethod
+    def of_pitch(cls, law: RatioLaw, pitch: float, teeth: int) -> "RolledPair":
+        """With so many teeth of a pitch, mm, on the driver: they need a centre distance of their own."""
+        return cls.of(law, pitch * teeth / (law.lobes[0] * lobe_of(law).total))
+
+    @cached_property
+    def ratio(self) -> RatioLaw:
+        """The law."""
+        return self.driver.law
+
+    def law(self, theta: Array) -> tuple[Array, Array]:
+        """-ψ and -i."""
+        return -self.ratio.angle(theta), -self.ratio.rates(theta)[0]
+
+
+def lobe_of(law: RatioLaw) -> Primitive:
+    """Arc length of the pitch curves over φ, for a centre distance of 1; ``total`` is that of one lobe."""
+    return Primitive.of(lambda phi: Rolling.of(law, phi).speed, law.period, law.breaks)

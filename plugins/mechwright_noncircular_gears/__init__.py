@@ -1,0 +1,1 @@
+"""The family of gears whose pitch curves follow from any law."""

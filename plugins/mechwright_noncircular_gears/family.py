@@ -1,0 +1,65 @@
+"""The family ``noncircular-gears``."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from mechwright import Family, Finding, Stage, refuse
+from mechwright_noncircular_gears.params import NoncircularParams
+
+if TYPE_CHECKING:
+    import shapely
+
+    from mechwright import AsMade, MadePart, Motion, Mounting, Part
+
+
+class NoncircularGears(Family[NoncircularParams]):
+    """Two gears whose pitch curves follow from a law of their speeds, or from the pitch curve of one."""
+
+    name = "noncircular-gears"
+    title = "Non-circular gears"
+    summary = "A pair of gears that turns one shaft by any law of the other, with lobes of any numbers."
+    Params = NoncircularParams
+
+    def check(self, params: NoncircularParams) -> Sequence[Finding]:
+        """The law, convexity, undercut, tips, roots, bore, pressure angle at the shaft, the mesh proof."""
+        from mechwright_noncircular_gears.checks import findings
+
+        return findings(params)
+
+    def judge(self, params: NoncircularParams) -> Sequence[Finding]:
+        """The same without the mesh proof."""
+        from mechwright_noncircular_gears.checks import judged
+
+        return judged(params)
+
+    def solve(self, params: NoncircularParams, samples: int) -> "Motion":
+        """Turns of the driver at constant speed until both gears are back."""
+        from mechwright_noncircular_gears.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def parts(self, params: NoncircularParams) -> "Sequence[Part]":
+        """Both gears."""
+        from mechwright_noncircular_gears.checks import findings
+        from mechwright_noncircular_gears.parts import parts_of
+
+        refuse(findings(params), Stage.PARTS)
+        return parts_of(params)
+
+    def mounting(self, params: NoncircularParams) -> "Mounting":
+        """Both shafts."""
+        from mechwright_noncircular_gears.mounting import mounting_of
+
+        return mounting_of(params)
+
+    def check_cut(self, params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
+        """Whether the pair as cut still meshes, and its keys go in."""
+        from mechwright_noncircular_gears.cut import cut_findings
+
+        return cut_findings(params, cut)
+
+    def as_made(self, params: NoncircularParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Play, transmission error and backlash, and whether the pair jams."""
+        from mechwright_noncircular_gears.as_made import as_made
+
+        return as_made(params, made)

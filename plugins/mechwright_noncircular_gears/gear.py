@@ -1,0 +1,117 @@
+"""From the design table to both gears: sizes, teeth and outlines."""
+
+import math
+
+import numpy as np
+
+from mechwright import Array, Outline, kept
+from mechwright.mechanics.gearing import Rack, RolledCurve, RolledPair, Teeth, gear_loop
+from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash
+from mechwright.mechanics.openings import opening_of
+from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.profile import profile_of
+
+NAMES = ("gear-1", "gear-2")
+"""Bodies and parts: driver and driven gear."""
+
+_ROOM_SAMPLES = 2880
+"""Points of a pitch curve from which distances are measured: an eighth of a degree."""
+
+
+@kept
+def pair_of(params: NoncircularParams) -> RolledPair:
+    """Both pitch curves; a module asks for a centre distance of its own."""
+    law = law_of(params)
+    if params.centre_distance is not None:
+        return RolledPair.of(law, params.centre_distance)
+    assert params.module is not None  # noqa: S101 - the table has exactly one of both
+    return RolledPair.of_pitch(law, math.pi * params.module, params.teeth)
+
+
+def curves_of(params: NoncircularParams) -> tuple[RolledCurve, RolledCurve]:
+    """Pitch curves of driver and driven gear."""
+    pair = pair_of(params)
+    return pair.driver, pair.driven
+
+
+def least_backlash(params: NoncircularParams) -> float:
+    """Backlash, mm, with which the pair turns as made."""
+    return _backlash(params, LEFT, OFF_CENTRE)
+
+
+def jamming_backlash(params: NoncircularParams) -> float:
+    """Backlash, mm, below which walls as they are planned jam at the exact centre distance."""
+    return _backlash(params, PLANNED, 0.0)
+
+
+def _backlash(params: NoncircularParams, left: float, off_centre: float) -> float:
+    upright = math.cos(extremes_of(params).steepest.value)
+    return float(pair_backlash(upright, math.radians(params.pressure_angle), left, off_centre))
+
+
+def backlash_of(params: NoncircularParams) -> float:
+    """The design's backlash, mm."""
+    return least_backlash(params) if params.backlash is None else params.backlash
+
+
+def with_backlash(params: NoncircularParams, backlash: float) -> NoncircularParams:
+    """The same design with another backlash, mm."""
+    return params.model_copy(update={"backlash": backlash})
+
+
+def rack_of(params: NoncircularParams) -> Rack:
+    """The generating cutter of both gears, in mm."""
+    module = params.module
+    if module is None:
+        module = pair_of(params).driver.perimeter / (math.pi * params.teeth)
+    return profile_of(params).sized(module, backlash_of(params))
+
+
+@kept
+def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
+    """Teeth of driver and driven gear.
+
+    Tooth centres of the driver lie at arcs (j + δ) p from the pitch point at φ = 0, those of the driven gear
+    at (j + δ + 1/2) p. The contact runs clockwise in the driver, against the sense of its arc.
+    """
+    (one, two), rack = curves_of(params), rack_of(params)
+    offset = params.tooth_offset
+    return (
+        Teeth(one, rack, params.teeth, -offset % 1.0),
+        Teeth(two, rack, params.mate_teeth, (offset + 0.5) % 1.0),
+    )
+
+
+toothed = kept(gear_loop)
+"""The toothed loop of teeth and its deviation, as :func:`gear_loop`."""
+
+
+@kept
+def outlines_of(params: NoncircularParams) -> tuple[Outline, Outline]:
+    """Outlines of driver and driven gear, each about its axis; keyways point along +x.
+
+    Raises
+    ------
+    GeometryError
+        The curves do not close; ``check`` says which parameter is to blame, and is to be asked first.
+    """
+    opening = opening_of(params)
+    holes = () if opening is None else (opening.loop(),)
+    one, two = (Outline(outer, holes, deviation) for outer, deviation in map(toothed, teeth_of(params)))
+    return one, two
+
+
+@kept
+def pitch_points(params: NoncircularParams) -> tuple[Array, Array]:
+    """Points (n, 2), mm, of both pitch curves, each in the frame of its gear."""
+    t = np.linspace(0.0, math.tau, _ROOM_SAMPLES, endpoint=False)
+    one, two = (curve.frame(t).point for curve in curves_of(params))
+    return one, two
+
+
+def room(params: NoncircularParams, gear: int, points: Array) -> float:
+    """Least distance, mm, of points (n, 2) of a gear, 0 or 1, from its root curve; below 0 beyond it."""
+    curve = pitch_points(params)[gear]
+    between = np.hypot(points[:, None, 0] - curve[:, 0], points[:, None, 1] - curve[:, 1])
+    return float(between.min()) - rack_of(params).dedendum

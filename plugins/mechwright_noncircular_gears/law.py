@@ -1,0 +1,115 @@
+"""From the design table to the law, and how far it is from what teeth can follow."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array, kept
+from mechwright.mechanics.gearing import RatioLaw, Rolling
+from mechwright.mechanics.peak import peak
+from mechwright_noncircular_gears.laws.fourier import FourierLaw
+from mechwright_noncircular_gears.laws.pitch import CircleLaw, EllipseLaw, LimaconLaw
+from mechwright_noncircular_gears.laws.slider import SliderLaw
+from mechwright_noncircular_gears.laws.table import TableLaw
+from mechwright_noncircular_gears.laws.window import WindowLaw
+from mechwright_noncircular_gears.params import NoncircularParams
+
+GRID = 1440
+"""Samples of a lobe at which extremes are sought: sixteen harmonics have ninety of them each."""
+
+PITCH_LAWS: dict[str, Callable[[tuple[int, int], float], RatioLaw]] = {
+    "ellipse": EllipseLaw,
+    "limacon": LimaconLaw,
+    "eccentric-circle": CircleLaw,
+}
+
+
+@kept
+def law_of(params: NoncircularParams) -> RatioLaw:
+    """The law of a design; whether it can be run, :func:`extremes_of` tells."""
+    lobes = params.lobes, params.mate_lobes
+    if params.law == "fourier":
+        sines, cosines = (tuple(map(math.radians, params.value(name))) for name in ("sines", "cosines"))
+        return FourierLaw(lobes, sines, cosines)
+    if params.law == "window":
+        width, blend = math.radians(params.value("window")), math.radians(params.value("blend"))
+        return WindowLaw(lobes, params.value("window_ratio"), width, blend)
+    if params.law == "table":
+        nodes = params.nodes or ()
+        return TableLaw(lobes, tuple((math.radians(one), math.radians(two)) for one, two in nodes))
+    if params.law == "slider":
+        angles = (math.radians(params.value(name)) for name in ("stroke_start", "stroke_end", "window"))
+        return SliderLaw(lobes, params.value("rod_ratio"), *angles)
+    return PITCH_LAWS[params.law](lobes, params.value("eccentricity"))
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The least or greatest value of something over a lobe, and the angle φ, rad, where it is."""
+
+    value: float
+    angle: float
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """Of a law that can be run.
+
+    Parameters
+    ----------
+    slowest, fastest
+        Ratio.
+    steepest
+        Greatest size of the slope ν of the pitch curves, rad.
+    curvatures
+        Least curvature of driver and driven gear, for a centre distance of 1.
+    sharpest
+        Greatest curvature of both.
+    """
+
+    slowest: Extreme
+    fastest: Extreme
+    steepest: Extreme
+    curvatures: tuple[Extreme, Extreme]
+    sharpest: tuple[Extreme, Extreme]
+
+
+def slowest_of(law: RatioLaw) -> Extreme:
+    """The least ratio; the pair turns back where it is not above 0."""
+    return least(law, lambda phi: law.rates(phi)[0])
+
+
+@kept
+def extremes_of(params: NoncircularParams) -> Extremes:
+    """Extremes of the pitch curves; the ratio has to be above 0."""
+    law = law_of(params)
+
+    def slope(phi: Array) -> Array:
+        i, first, _ = law.rates(phi)
+        return -np.abs(np.arctan2(first, i * (1 + i)))
+
+    def of(name: str, sign: float) -> Extreme:
+        return least(law, lambda phi: sign * getattr(Rolling.of(law, phi), name), sign)
+
+    return Extremes(
+        slowest_of(law),
+        least(law, lambda phi: -law.rates(phi)[0], -1.0),
+        least(law, slope, -1.0),
+        (of("curvature1", 1.0), of("curvature2", 1.0)),
+        (of("curvature1", -1.0), of("curvature2", -1.0)),
+    )
+
+
+def least(law: RatioLaw, function: Callable[[Array], Array], sign: float = 1.0) -> Extreme:
+    """The least value of a function of φ over a lobe, refined, times ``sign``."""
+    at = law.grid(GRID)[:-1]
+    even = law.period * np.arange(GRID) / GRID
+    found = peak(lambda turn: -function(turn / math.tau * law.period), math.tau * even / law.period)
+    best = Extreme(sign * -found.value, found.angle / math.tau * law.period)
+    values = function(at)
+    worst = int(np.argmin(values))
+    if values[worst] < sign * best.value:
+        return Extreme(sign * float(values[worst]), float(at[worst]))
+    return best

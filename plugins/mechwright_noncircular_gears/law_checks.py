@@ -1,0 +1,61 @@
+"""Whether a law can be run: the driven gear has to turn on all the way."""
+
+import math
+from collections.abc import Iterator
+
+from mechwright import Finding
+from mechwright_noncircular_gears.law import law_of, slowest_of
+from mechwright_noncircular_gears.laws.window import WindowLaw
+from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.softer import nearest, said
+
+LEAST_RATIO = 1e-3
+"""Share of the mean ratio below which the driven gear as good as stands."""
+
+
+def law_findings(params: NoncircularParams) -> Iterator[Finding]:
+    """Room for the blends of a window, and a ratio above 0."""
+    law = law_of(params)
+    if isinstance(law, WindowLaw):
+        taken, period = law.width + 2 * law.blend, law.period
+        if taken >= period:
+            most = math.floor(math.degrees(period - law.width) / 2 * 0.98)
+            yield Finding.error(
+                "law.window",
+                "blend",
+                f"the window and its blends take {math.degrees(taken):g} degrees, and a lobe of the "
+                f"driver has {math.degrees(period):g}",
+                math.degrees(taken),
+                math.degrees(period),
+                "deg",
+                f"make blend {most}, or window smaller" if most > 0 else "make window smaller",
+                proposed=({"parameters.blend": most},) if most > 0 else (),
+            )
+            return
+    if runs(params):
+        return
+    slowest = slowest_of(law)
+    words, changes = said(nearest(params, runs), _wider(params))
+    yield Finding.error(
+        "law.turns-back",
+        "law",
+        f"the driven gear stands or turns back at {math.degrees(slowest.angle):.1f} degrees of the driver, "
+        f"where its ratio is {slowest.value:.4g}: teeth only push on",
+        slowest.value,
+        0.0,
+        remedy=words,
+        proposed=changes,
+    )
+
+
+def runs(params: NoncircularParams) -> bool:
+    """Whether the ratio stays above 0."""
+    return slowest_of(law_of(params)).value > LEAST_RATIO * params.lobes / params.mate_lobes
+
+
+def _wider(params: NoncircularParams) -> str:
+    return (
+        "make the window of the stroke smaller, or the stroke shorter"
+        if params.law == "slider"
+        else ("draw the law nearer to a constant ratio")
+    )

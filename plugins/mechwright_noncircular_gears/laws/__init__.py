@@ -1,0 +1,1 @@
+"""Laws of a pair: each file makes one kind of :class:`mechwright.mechanics.gearing.RatioLaw`."""

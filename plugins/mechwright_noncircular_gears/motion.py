@@ -1,0 +1,121 @@
+"""The motion of a pair: channels, poses and figures until both gears are back where they began."""
+
+import math
+
+import numpy as np
+
+from mechwright import (
+    GROUND,
+    Array,
+    Channel,
+    Curve,
+    Joint,
+    KinematicsError,
+    Motion,
+    Poses,
+    Scalar,
+    Stage,
+    kept,
+)
+from mechwright.contracts.finding import errors
+from mechwright.contracts.motion import travelled
+from mechwright.mechanics.planar import Turning
+from mechwright.mechanics.planar.channels import turning_channels
+from mechwright_noncircular_gears.checks import findings
+from mechwright_noncircular_gears.gear import NAMES, curves_of, pair_of
+from mechwright_noncircular_gears.law import extremes_of, law_of, least
+from mechwright_noncircular_gears.params import NoncircularParams
+
+_PITCH_SAMPLES = 361
+"""Points of a pitch curve that is drawn: each degree."""
+
+
+def turns_of(params: NoncircularParams) -> int:
+    """Turns of the driver after which both gears stand as before.
+
+    >>> turns_of(NoncircularParams(law="ellipse", lobes=2, mate_lobes=3, teeth=40))
+    3
+    """
+    return params.mate_lobes // math.gcd(params.lobes, params.mate_lobes)
+
+
+def motion_of(params: NoncircularParams, samples: int) -> Motion:
+    """Sample the turns of the driver at constant speed, both ends included.
+
+    The driver turns about the origin, the driven gear about (a, 0), the other way round.
+
+    Raises
+    ------
+    KinematicsError
+        The law does not turn the driven gear on all the way.
+    """
+    for finding in errors(findings(params), Stage.MOTION):
+        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    law, pair, omega = law_of(params), pair_of(params), params.omega
+    phi = travelled(math.tau * turns_of(params), samples)
+    ratio, first, second = law.rates(phi)
+    zero = np.zeros_like(phi)
+    driver = Turning(phi, zero + omega, zero, zero)
+    driven = Turning(-law.angle(phi), -ratio * omega, -first * omega**2, -second * omega**3)
+    r1, r2 = pair.pitch_radii(phi)
+    slope = np.abs(np.arctan2(first, ratio * (1 + ratio)))
+    channels = {
+        "time": Channel(phi / omega, "s", "time"),
+        **turning_channels(driver, "theta1", "1", "gear 1"),
+        **turning_channels(driven, "theta2", "2", "gear 2"),
+        "ratio": Channel(ratio, "", "ratio of the speeds"),
+        "s1": Channel(r1, "mm", "pitch radius of gear 1"),
+        "s2": Channel(r2, "mm", "pitch radius of gear 2"),
+        "pressure_angle": Channel(
+            slope + math.radians(params.pressure_angle), "rad", "pressure angle at the shaft"
+        ),
+    }
+    a = pair.distance
+    poses = {
+        "gear-1": Poses.planar(0.0, 0.0, driver.theta),
+        "gear-2": Poses.planar(a, 0.0, driven.theta),
+    }
+    held = {
+        "o1": Joint("revolute", GROUND, "gear-1", drives=True),
+        "o2": Joint("revolute", GROUND, "gear-2", (a, 0.0, 0.0)),
+        "mesh": Joint("gear", "gear-1", "gear-2"),
+    }
+    return Motion("theta1", channels, poses, figures(params), {}, held, _pitch_curves(params))
+
+
+def _pitch_curves(params: NoncircularParams) -> dict[str, Curve]:
+    around = np.linspace(0.0, math.tau, _PITCH_SAMPLES)
+    found = {}
+    for name, curve in zip(NAMES, curves_of(params), strict=True):
+        point = curve.frame(around).point
+        found[f"pitch-{name}"] = Curve.planar(name, point[:, 0] + 1j * point[:, 1])
+    return found
+
+
+@kept
+def figures(params: NoncircularParams) -> dict[str, Scalar]:
+    """Name to value and unit; extremes are refined, so that they do not depend on the samples."""
+    found, omega = extremes_of(params), params.omega
+    alpha, jerk = (_greatest(params, order) for order in (1, 2))
+    steepest = found.steepest.value + math.radians(params.pressure_angle)
+    return {
+        "centre_distance": Scalar(pair_of(params).distance, "mm"),
+        "ratio_max": Scalar(found.fastest.value, ""),
+        "ratio_max.theta1": Scalar(found.fastest.angle, "rad"),
+        "ratio_min": Scalar(found.slowest.value, ""),
+        "ratio_min.theta1": Scalar(found.slowest.angle, "rad"),
+        "omega2_max": Scalar(found.fastest.value * omega, "rad/s"),
+        "alpha2_max": Scalar(alpha * omega**2, "rad/s^2"),
+        "jerk2_max": Scalar(jerk * omega**3, "rad/s^3"),
+        "pressure_angle_max": Scalar(steepest, "rad"),
+    }
+
+
+def _greatest(params: NoncircularParams, order: int) -> float:
+    """The greatest size of a derivative of the ratio over φ."""
+    law = law_of(params)
+
+    def size(phi: Array) -> Array:
+        return -np.abs(law.rates(phi)[order])
+
+    return -least(law, size).value

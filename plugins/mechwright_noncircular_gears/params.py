@@ -1,0 +1,287 @@
+"""The design table of a pair of gears by a law."""
+
+import math
+from itertools import pairwise
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright import FIRST, MaterialName, Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+
+LEAST_MODULE = 0.1
+"""mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
+
+LEAST_TEETH, MOST_TEETH = 6, 600
+"""Fewer have no room for a root and a shaft, more say nothing new."""
+
+MOST_LOBES = 8
+"""Of either gear: more are a toothed circle for all that a shaft can tell."""
+
+MOST_HARMONICS = 16
+"""Of a law: with more, the pitch curve is a gear by itself."""
+
+LEAST_STEP = 1.0
+"""Degrees between the angles of a table: closer ones ask for a ratio that the teeth cannot follow."""
+
+LAW_FIELDS = {
+    "fourier": ("sines", "cosines"),
+    "window": ("window_ratio", "window", "blend"),
+    "table": ("nodes",),
+    "slider": ("rod_ratio", "stroke_start", "stroke_end", "window"),
+    "ellipse": ("eccentricity",),
+    "limacon": ("eccentricity",),
+    "eccentric-circle": ("eccentricity",),
+}
+"""Law to the fields that make it; no other law has a use for them."""
+
+USUAL: dict[str, Any] = {
+    "sines": (15.0,),
+    "cosines": (),
+    "window_ratio": 0.85,
+    "window": 100.0,
+    "blend": 90.0,
+    "rod_ratio": 4.0,
+    "stroke_start": 50.0,
+    "stroke_end": 130.0,
+    "eccentricity": 0.2,
+}
+"""Field of a law to its value where it is left out."""
+
+SLIDER_WINDOW = 150.0
+"""Degrees of the driver for the stroke of a slider, where the design names none."""
+
+Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
+Turned = Annotated[float, Field(ge=0, le=3600), Unit("deg")]
+
+
+class NoncircularParams(Parameters):
+    """A driver and the gear that it drives by a law; lengths of the tooth profile are in modules.
+
+    Fields that are left out have the value that their description says. ``check`` says what cannot be built.
+
+    Examples
+    --------
+    >>> NoncircularParams(law="ellipse", mate_lobes=2, eccentricity=0.3, teeth=30).mate_teeth
+    60
+    """
+
+    law: Literal["fourier", "window", "table", "slider", "ellipse", "limacon", "eccentric-circle"] = Field(
+        "fourier",
+        description=(
+            "Where the law comes from. fourier: harmonics; window: a window of constant ratio; table: pairs "
+            "of angles; slider: constant speed of a slider-crank behind it; ellipse, limacon, "
+            "eccentric-circle: the pitch curve of the driver."
+        ),
+        json_schema_extra=FIRST,
+    )
+    lobes: int = Field(1, ge=1, le=MOST_LOBES, description="Lobes N1 of the driver.", json_schema_extra=FIRST)
+    mate_lobes: int = Field(
+        1,
+        ge=1,
+        le=MOST_LOBES,
+        description="Lobes N2 of the driven gear, which turns N1/N2 as fast in the mean.",
+        json_schema_extra=FIRST,
+    )
+    sines: Annotated[tuple[Amplitude, ...], Field(max_length=MOST_HARMONICS)] | None = Field(
+        None,
+        description=(
+            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, or none beside '
+            "cosines."
+        ),
+        json_schema_extra=FIRST,
+    )
+    cosines: Annotated[tuple[Amplitude, ...], Field(max_length=MOST_HARMONICS)] | None = Field(
+        None, description='Amplitudes of 1 - cos(N1 φ), 1 - cos(2 N1 φ), ... for law = "fourier".'
+    )
+    window_ratio: Annotated[float, Field(gt=0, le=20), Unit("")] | None = Field(
+        None, description='Constant ratio, output over input, for law = "window"; left out, 0.85.'
+    )
+    window: Annotated[float, Field(gt=0, lt=360), Unit("deg")] | None = Field(
+        None,
+        description=(
+            "Angle of the driver over which ratio or slider speed is constant; left out, 100, of a slider "
+            "150."
+        ),
+    )
+    blend: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
+        None, description="Angle of the driver on each side of the window for the change; left out, 90."
+    )
+    nodes: Annotated[tuple[tuple[Turned, Turned], ...], Field(min_length=2, max_length=720)] | None = Field(
+        None,
+        description=(
+            'Pairs [φ, ψ] of both gears over one lobe for law = "table", from [0, 0]; the end of the lobe '
+            "follows from the lobes."
+        ),
+    )
+    rod_ratio: Annotated[float, Field(gt=1, le=100), Unit("")] | None = Field(
+        None, description='Rod over crank for law = "slider"; left out, 4.'
+    )
+    stroke_start: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
+        None,
+        description="Crank from its outer dead centre where constant speed begins; left out, 50.",
+    )
+    stroke_end: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
+        None, description="Crank where it ends; left out, 130."
+    )
+    eccentricity: Annotated[float, Field(ge=0, le=0.9), Unit("")] | None = Field(
+        None,
+        description=(
+            "Shape of the driver's pitch curve: of an ellipse its eccentricity, of a limacon the change of "
+            "its radius, of a circle the place of its axis, in mean radii; left out, 0.2."
+        ),
+    )
+    teeth: int = Field(
+        40,
+        ge=LEAST_TEETH,
+        le=MOST_TEETH,
+        description="Number of teeth of the driver; the driven gear has teeth × N2/N1.",
+        json_schema_extra=FIRST,
+    )
+    module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
+        2.0,
+        description="Pitch on the pitch curves over π; give this or centre_distance.",
+        json_schema_extra=FIRST,
+    )
+    centre_distance: Annotated[float, Field(ge=4, le=3000), Unit("mm")] | None = Field(
+        None, description="Distance of the axes; give this or module."
+    )
+    tooth_offset: Annotated[float, Field(ge=0, lt=1), Unit("")] = Field(
+        0.0,
+        description="From the pitch point at φ = 0 to the middle of a tooth of the driver, in pitches.",
+    )
+    pressure_angle: Degrees = Field(20.0, ge=10, le=30, description="Pressure angle of the teeth.")
+    cutter: Literal["rack", "shaper"] | None = Field(
+        None,
+        description=(
+            "What makes the fillets. rack: of pitch curves that are convex; shaper: a round cutter, of "
+            "hollow ones too. Left out, a rack where both curves are convex."
+        ),
+    )
+    shaper_radius: Annotated[float, Field(ge=4, le=100), Unit("")] | None = Field(
+        None, description="Pitch radius of the shaper's cutter, in modules; left out, 9."
+    )
+    addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
+        None, description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8."
+    )
+    dedendum: Ratio = Field(1.25, ge=0.4, le=2, description="Depth below the pitch curve, in modules.")
+    tip_radius: Annotated[float, Field(ge=0, le=0.6), Unit("")] | None = Field(
+        None, description="Radius at the tip of the cutter, in modules; left out, 0.38, with a shaper 0.2."
+    )
+    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Circumferential play on the pitch curves, a quarter per flank; left out, the least with which "
+            "gears as made turn."
+        ),
+    )
+    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
+    material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
+    bore: Millimetres = Field(
+        10.0, ge=0, le=300, description="Diameter of both shaft bores; 0 for none.", json_schema_extra=FIRST
+    )
+    keyway_width: Millimetres = Field(
+        0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."
+    )
+    keyway_depth: Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None = Field(
+        None,
+        description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width.",
+    )
+    keyway_relief: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=20,
+        description="Diameter of the reliefs in the keyways' corners, for a round cutter; 0 for none.",
+    )
+    speed: RevPerMin = Field(
+        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+    )
+    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+        0.0,
+        description="Constant torque against the turning of the driven gear.",
+        json_schema_extra=FIRST,
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _distance_replaces_module(cls, table: Any) -> Any:
+        if isinstance(table, dict) and table.get("centre_distance") is not None and "module" not in table:
+            return {**table, "module": None}
+        return table
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if (self.module is None) == (self.centre_distance is None):
+            raise ValueError("give exactly one of module and centre_distance")
+        if self.keyway_width > 0 and self.bore == 0:
+            raise ValueError("keyway_width needs a bore; set bore, or keyway_width = 0")
+        if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
+            raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
+        self._of_the_law()
+        if self.shaper_radius is not None and self.cutter == "rack":
+            raise ValueError('shaper_radius is for cutter = "shaper"; leave one of both out')
+        if self.teeth * self.mate_lobes % self.lobes:
+            step = self.lobes // math.gcd(self.lobes, self.mate_lobes)
+            more = -(-self.teeth // step) * step
+            raise ValueError(
+                f"teeth × mate_lobes / lobes is {self.teeth * self.mate_lobes / self.lobes:g}, no whole "
+                f"number of teeth of the driven gear; make teeth {more}"
+            )
+        return self
+
+    def _of_the_law(self) -> None:
+        own = LAW_FIELDS[self.law]
+        for law, names in LAW_FIELDS.items():
+            for name in names:
+                if name not in own and getattr(self, name) is not None:
+                    raise ValueError(f'{name} is for law = "{law}"; leave it out, or set that law')
+        if self.law in {"slider", "eccentric-circle"} and self.lobes != 1:
+            raise ValueError(f'law = "{self.law}" has one lobe on the driver; set lobes = 1')
+        if self.law == "slider" and self.mate_lobes != 1:
+            raise ValueError('law = "slider" turns its crank once a turn; set mate_lobes = 1')
+        if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
+            raise ValueError("stroke_end is to be above stroke_start")
+        if self.law == "table":
+            self._nodes()
+
+    def _nodes(self) -> None:
+        if self.nodes is None:
+            raise ValueError('law = "table" needs nodes, pairs of angles from [0, 0]')
+        if self.nodes[0] != (0.0, 0.0):
+            raise ValueError(f"nodes begin at {list(self.nodes[0])}; a lobe begins at [0, 0]")
+        ends = (360.0 / self.lobes, 360.0 / self.mate_lobes)
+        if self.nodes[-1][0] >= ends[0]:
+            raise ValueError(
+                f"nodes reach {self.nodes[-1][0]:g} degrees of the driver, and a lobe ends at "
+                f"[{ends[0]:g}, {ends[1]:g}], which is no node; leave out what lies there and beyond"
+            )
+        for one, other in pairwise((*self.nodes, ends)):
+            if other[0] - one[0] < LEAST_STEP:
+                raise ValueError(
+                    f"nodes {list(one)} and {list(other)} stand less than {LEAST_STEP:g} degree apart, or go "
+                    "back; give the driver's angles in rising order"
+                )
+            if other[1] <= one[1]:
+                raise ValueError(
+                    f"nodes {list(one)} and {list(other)} hold the driven gear or turn it back, which teeth "
+                    "cannot; make the second angles rise"
+                )
+
+    def value(self, name: str) -> Any:
+        """A field of the law, or what it is where it is left out; in the units of the table."""
+        given = getattr(self, name)
+        if given is not None:
+            return given
+        if name == "sines" and self.cosines is not None:
+            return ()
+        return SLIDER_WINDOW if name == "window" and self.law == "slider" else USUAL[name]
+
+    @property
+    def mate_teeth(self) -> int:
+        """Number of teeth of the driven gear."""
+        return self.teeth * self.mate_lobes // self.lobes
+
+    @property
+    def omega(self) -> float:
+        """Speed of the driver, rad/s."""
+        return self.speed * math.tau / 60

@@ -1,0 +1,28 @@
+"""The mesh proof of a design: as drawn, and as the cutters leave it."""
+
+from mechwright import TOLERANCES, Array, kept
+from mechwright.mechanics.gearing import MeshProof, prove_mesh
+from mechwright_noncircular_gears.gear import pair_of, rack_of, teeth_of, toothed
+from mechwright_noncircular_gears.params import NoncircularParams
+
+FLATTEN = 2.5e-6
+"""Chord error of the polygons of the proof, in half centre distances: that many radians of transmission
+error, give or take the ratio of the pitch radii."""
+
+
+@kept
+def prove(params: NoncircularParams) -> MeshProof:
+    """Run both finished outlines against each other until the same teeth meet again."""
+    pair = pair_of(params)
+    tolerance = min(FLATTEN * pair.distance / 2, TOLERANCES.flatten)
+    (one, off), (two, more) = map(toothed, teeth_of(params))
+    outlines = one.flatten(tolerance), two.flatten(tolerance)
+    return prove_mesh(pair, rack_of(params), params.teeth, outlines, off + more + 2 * tolerance)
+
+
+def prove_outlines(params: NoncircularParams, driver: Array, driven: Array, allowance: float) -> MeshProof:
+    """Run outlines (n, 2) and (m, 2), mm, counter-clockwise, each about its axis, against each other.
+
+    ``allowance`` is the depth, mm, that the making of the outlines itself can cause.
+    """
+    return prove_mesh(pair_of(params), rack_of(params), params.teeth, (driver, driven), allowance)

@@ -1,0 +1,144 @@
+"""Whether a rack can cut the teeth: convex pitch curves, roots that fit into them, and no undercut."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mechwright import Finding
+from mechwright.contracts.finding import Change
+from mechwright_noncircular_gears.gear import NAMES, pair_of, rack_of, teeth_of
+from mechwright_noncircular_gears.law import extremes_of
+from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.profile import FLATTEST, profile_of
+from mechwright_noncircular_gears.softer import nearest, said
+
+LEAST_REGULARITY = 1e-4
+"""Share of its regularity on the pitch curve that a flank keeps to its end: at 0 it ends in a cusp, where a
+fitted curve could turn back."""
+
+MOST_PROPOSED = 300
+"""Teeth that a remedy proposes at most: finer ones are for those who ask for them."""
+
+
+def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
+    """Errors where a pitch curve is hollow, or curved more tightly than the roots are deep."""
+    found, a, cutter = extremes_of(params), pair_of(params).distance, profile_of(params)
+    hollow = _hollowest(params)
+
+    def works(one: NoncircularParams) -> bool:
+        return all(least.value >= _hollowest(one) for least in extremes_of(one).curvatures)
+
+    for name, least in zip(NAMES, found.curvatures, strict=True):
+        if least.value < hollow:
+            words, changes = said(nearest(params, works), _slower(params))
+            if cutter.shaper_radius is None:
+                words, changes = (
+                    f'set cutter = "shaper", or {words}',
+                    ({"parameters.cutter": "shaper"}, *changes),
+                )
+            yield Finding.error(
+                "gear.convexity",
+                "law",
+                f"the pitch curve of {name.replace('-', ' ')} is hollow at {math.degrees(least.angle):.1f} "
+                f"degrees of gear 1: its curvature there is {least.value / a:.5f} per mm, and "
+                + (
+                    "a rack digs into the teeth of a hollow curve"
+                    if cutter.shaper_radius is None
+                    else f"a cutter of {cutter.shaper_radius:g} modules does not fit into it"
+                ),
+                least.value / a,
+                hollow / a,
+                "1/mm",
+                words,
+                proposed=changes,
+            )
+            return
+    deep = rack_of(params).dedendum
+    for name, sharp in zip(NAMES, found.sharpest, strict=True):
+        radius = a / sharp.value
+        if deep >= radius:
+            more = math.ceil(params.teeth * deep / radius * 1.05)
+            step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
+            more = -(-more // step) * step
+            yield Finding.error(
+                "gear.convexity",
+                "teeth",
+                f"the root lies {deep:.3f} mm inside the pitch curve of {name.replace('-', ' ')}, which is "
+                f"curved by {radius:.3f} mm at {math.degrees(sharp.angle):.1f} degrees of gear 1",
+                deep,
+                radius,
+                "mm",
+                f"use {more} teeth",
+                proposed=({"parameters.teeth": more},),
+            )
+            return
+
+
+def _hollowest(params: NoncircularParams) -> float:
+    """Least curvature, for a centre distance of 1, that the cutter can follow: κ + 1/R_c above 0."""
+    radius = profile_of(params).shaper_radius
+    if radius is None:
+        return FLATTEST
+    return FLATTEST - pair_of(params).distance / (radius * rack_of(params).module)
+
+
+def _slower(params: NoncircularParams) -> str:
+    if params.law == "slider":
+        return "make window larger, or the stroke shorter: the ratio changes too fast"
+    return "let the ratio change more slowly"
+
+
+def undercut_findings(params: NoncircularParams) -> Iterator[Finding]:
+    """An error if any flank is undercut, with what would not be."""
+    for name, teeth in zip(NAMES, teeth_of(params), strict=True):
+        factor = teeth.least_regularity
+        bad = factor < LEAST_REGULARITY
+        if not bad.any():
+            continue
+        space, side = np.unravel_index(int(np.argmin(factor)), factor.shape)
+        more = least_teeth(params)
+        remedy = "use a smaller dedendum or a larger pressure_angle"
+        changes: tuple[Change, ...] = ()
+        if more is not None:
+            remedy, changes = f"use {more} teeth, the least number that works", ({"parameters.teeth": more},)
+        else:
+            fields = nearest(params, lambda one: not is_undercut(one))
+            if fields:
+                remedy, changes = said(fields, "")
+        yield Finding.error(
+            "gear.undercut",
+            "teeth",
+            f"{int(bad.sum())} of {bad.size} flanks of {name.replace('-', ' ')} are undercut, most of all "
+            f"that on side {int(side) * 2 - 1:+d} of space {int(space)}: its regularity falls to "
+            f"{float(factor.min()):.3f} of that on the pitch curve",
+            params.teeth,
+            more,
+            remedy=remedy,
+            proposed=changes,
+        )
+        return
+
+
+def is_undercut(params: NoncircularParams) -> bool:
+    """Whether any flank of either gear is undercut."""
+    return any(bool((teeth.least_regularity < LEAST_REGULARITY).any()) for teeth in teeth_of(params))
+
+
+def least_teeth(params: NoncircularParams) -> int | None:
+    """The least greater number of teeth of the driver that is free of undercut; None up to 300."""
+    step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
+
+    def works(count: int) -> bool:
+        found = params.model_copy(update={"teeth": count})
+        sharpest = max(one.value for one in extremes_of(found).sharpest)
+        return rack_of(found).dedendum < pair_of(found).distance / sharpest and not is_undercut(found)
+
+    # Finer teeth reach less deeply into the same curve: the limit is found by halving, then looked at.
+    low, high = params.teeth // step, MOST_PROPOSED // step
+    if high <= low or not works(high * step):
+        return None
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if works(middle * step) else (middle, high)
+    return high * step

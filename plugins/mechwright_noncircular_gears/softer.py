@@ -1,0 +1,95 @@
+"""The nearest law of the same kind that works: how much of a law's change of ratio can stay."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from pydantic import ValidationError
+
+from mechwright import MechwrightError
+from mechwright.contracts.finding import Change
+from mechwright_noncircular_gears.params import NoncircularParams
+
+_STEPS = 12
+"""Halvings: to a four-thousandth of the change."""
+
+_DIGITS = 3
+"""Of a value that is named."""
+
+
+def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
+    """Fields with which the ratio changes by a share of what it does; None where a law has no such fields."""
+    if params.law == "fourier":
+        names = ("sines", "cosines")
+        found = {name: tuple(_down(share * one) for one in params.value(name)) for name in names}
+        return {name: values for name, values in found.items() if values}
+    if params.law == "window":
+        mean = params.lobes / params.mate_lobes
+        return {"window_ratio": round(mean + share * (params.value("window_ratio") - mean), 4)}
+    if params.law == "table" and params.nodes:
+        mean = params.lobes / params.mate_lobes
+        return {
+            "nodes": tuple(
+                (one, round(mean * one + share * (two - mean * one), 4)) for one, two in params.nodes
+            )
+        }
+    if params.law == "slider":
+        return None
+    return {"eccentricity": _down(share * params.value("eccentricity"))}
+
+
+def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool]) -> dict[str, Any] | None:
+    """The fields of the nearest softer law that works, tried; None where none was found."""
+
+    def tried(share: float) -> dict[str, Any] | None:
+        fields = softened(params, share)
+        if fields is None:
+            return None
+        try:
+            softer = type(params).model_validate({**params.model_dump(), **fields})
+            return fields if works(softer) else None
+        except (ValidationError, MechwrightError):
+            return None
+
+    good, best, bad = 0.0, tried(0.0), 1.0
+    if best is None:
+        return None
+    for _ in range(_STEPS):
+        middle = (good + bad) / 2
+        fields = tried(middle)
+        if fields is None:
+            bad = middle
+        else:
+            good, best = middle, fields
+    return best
+
+
+def said(fields: dict[str, Any] | None, otherwise: str) -> tuple[str, tuple[Change, ...]]:
+    """Words and change of a remedy; without fields, what else helps."""
+    if not fields:
+        return otherwise, ()
+    changes: Change = {f"parameters.{name}": _plain(value) for name, value in fields.items()}
+    if "nodes" in fields:
+        return "draw the nodes nearer to a constant ratio, as proposed", (changes,)
+    words = " and ".join(f"{name} = {_text(value)}" for name, value in fields.items())
+    return f"set {words}", (changes,)
+
+
+def _plain(value: Any) -> Any:
+    return [_plain(one) for one in value] if isinstance(value, tuple) else value
+
+
+def _text(value: Any) -> str:
+    return f"[{', '.join(map(_text, value))}]" if isinstance(value, tuple) else f"{value:g}"
+
+
+def _down(value: float) -> float:
+    """To three digits, towards 0.
+
+    >>> _down(0.12349), _down(-17.89)
+    (0.123, -17.8)
+    """
+    if value == 0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - _DIGITS + 1)
+    return math.copysign(float(f"{math.floor(abs(value) / step) * step:.{_DIGITS}g}"), value)

@@ -1,0 +1,1 @@
+"""The family ``plate``: plates from DXF drawings, of anybody's program."""

@@ -1,0 +1,35 @@
+"""The family ``plate``."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright import Finding, Standing, refuse
+from mechwright_plate.params import PlateParams
+
+if TYPE_CHECKING:
+    from mechwright import Part
+
+
+class Plate(Standing[PlateParams]):
+    """A plate from a DXF drawing: layers say what is cut, and how deep."""
+
+    name = "plate"
+    title = "Plate from a drawing"
+    summary = "A flat part from a DXF drawing, whose layers say what is cut and how deep."
+    Params = PlateParams
+    bodies: ClassVar[tuple[str, ...]] = ("bench",)
+
+    def check(self, params: PlateParams) -> Sequence[Finding]:
+        """What keeps the drawing from being a plate, each with its place; what was mended or left out."""
+        from mechwright_plate.made import made
+
+        return made(params).findings
+
+    def parts(self, params: PlateParams) -> "Sequence[Part]":
+        """The plate."""
+        from mechwright_plate.made import made
+
+        found = made(params)
+        refuse(found.findings)
+        assert found.part is not None  # noqa: S101 - a drawing without faults is a part
+        return [found.part]

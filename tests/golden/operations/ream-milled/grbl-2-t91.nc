@@ -1,0 +1,26 @@
+(program ream-milled-2-t91, Grbl 1.1)
+(part ream-milled, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(pin: D6 H7 [0/+0.012], made to 6.006)
+(reamers go 1.20 mm below the stock: leave room under the holes)
+(file 2 of 2, load T91 reamer-6, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T91 D 6 mm: reamer-6, reamer)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: pin: ream)
+T91
+G54 S1061 M3
+G0 X0 Y0
+G49
+Z5
+M8
+Z1
+G1 Z-5.2 F190
+Z1
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

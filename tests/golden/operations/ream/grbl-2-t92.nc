@@ -1,0 +1,31 @@
+(program ream-2-t92, Grbl 1.1)
+(part ream, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(pin: D6 H7 [0/+0.012], made to 6.006)
+(dowel: D6 H7 [0/+0.012], made to 6.006)
+(drills go 2.04 mm below the stock: leave room under the holes)
+(reamers go 1.20 mm below the stock: leave room under the holes)
+(file 2 of 3, load T92 drill-5.8, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T92 D 5.8 mm: drill-5.8, drill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: drill 5.8)
+T92
+G54 S3842 M3
+G0 X-10 Y0
+G49
+Z5
+M8
+Z1
+G1 Z-6.043 F307
+G0 Z5
+X10
+Z1
+G1 Z-6.043
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30
