@@ -146,7 +146,7 @@ def test_shells_complete_commands_and_design_files(shell: str) -> None:
 
 
 def test_a_shell_completes_what_the_line_asks_for() -> None:
-    assert complete("bash", "mechwright new four-bar --requirement p").split() == ["path", "poles"]
+    assert complete("bash", "mechwright new four-bar --requirement p").split() == ["path", "poles", "poses"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

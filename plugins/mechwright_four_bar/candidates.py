@@ -33,6 +33,8 @@ class Found:
         +1 for a crank that turns counter-clockwise, -1 for the other.
     acceleration_ratio
         Of the crank, per radian.
+    swing
+        Crank angles from X, rad, between which a lever swings; None for a crank that turns.
     """
 
     bar: FourBar
@@ -42,6 +44,7 @@ class Found:
     point: complex | None = None
     sense: int = 1
     acceleration_ratio: float = 0.0
+    swing: tuple[float, float] | None = None
 
     def table(self) -> dict[str, object]:
         """The table ``[parameters]``; what the synthesis does not say is left to its defaults."""
@@ -55,6 +58,9 @@ class Found:
             "branch": "open" if bar.branch > 0 else "crossed",
             "direction": "ccw" if self.sense > 0 else "cw",
         }
+        if self.swing is not None:
+            one, two = map(math.degrees, self.swing)
+            table |= {"direction": "ccw", "swing_from": one, "swing_to": two}
         if self.acceleration_ratio:
             table["acceleration_ratio"] = self.acceleration_ratio
         if self.pivot:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
+from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
 
@@ -35,6 +36,8 @@ class FourBars(Family[FourBarParams]):
         "path": PathRequirement,
         "adjustable-path": AdjustablePathRequirement,
         "poles": PolesRequirement,
+        "poses": PosesRequirement,
+        "function": FunctionRequirement,
     }
 
     def check(self, params: FourBarParams) -> Sequence[Finding]:
@@ -103,7 +106,7 @@ class FourBars(Family[FourBarParams]):
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
     ) -> "Synthesis[FourBarParams]":
-        """Linkages with wanted paths of a coupler point, or with wanted acceleration poles."""
+        """Linkages with wanted paths, poses, answers of the follower, or acceleration poles."""
         if kind == "path":
             from mechwright_four_bar.paths.synthesis import through_points
 
@@ -112,6 +115,14 @@ class FourBars(Family[FourBarParams]):
             from mechwright_four_bar.adjustable_synthesis import through_phases
 
             return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)
+        if kind == "poses":
+            from mechwright_four_bar.burmester.guiding import through_poses
+
+            return through_poses(PosesRequirement.model_validate(requirement), progress)
+        if kind == "function":
+            from mechwright_four_bar.burmester.answering import through_angles
+
+            return through_angles(FunctionRequirement.model_validate(requirement), progress)
         from mechwright_four_bar.pole_synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)

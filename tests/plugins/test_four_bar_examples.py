@@ -60,11 +60,13 @@ def test_the_crank_rocker_has_its_poles_where_it_says():
 @pytest.mark.parametrize("name", REQUIREMENTS)
 def test_requirement_files_give_designs(name, tmp_path):
     asked = load_requirement(EXAMPLES / name, host())
-    few = asked.table.model_copy(update={"starts": min(asked.table.starts, 20_000), "designs": 2})
+    few = asked.table.model_copy(update={"designs": 2})
+    if hasattr(few, "starts"):
+        few = few.model_copy(update={"starts": min(few.starts, 20_000)})
     result = asked.family.synthesise(asked.kind, few, lambda part, text: None)
     assert result.candidates
     assert all(finding.severity is Severity.NOTE for finding in result.findings)
 
 
 def test_there_are_requirement_files():
-    assert len(REQUIREMENTS) == 3
+    assert len(REQUIREMENTS) == 5

@@ -161,6 +161,7 @@ def _found(chosen: tuple[PathSolution, int]) -> Found:
     figures = {
         "least_transmission_angle": Scalar(one.bar.least_transmission_angle(), "rad"),
         "longest_link": Scalar(one.longest, "mm"),
+        "shortest_link": Scalar(min(one.bar.lengths), "mm"),
         "sum_of_squares": Scalar(one.squares, "mm^2"),
         "first_crank_angle": Scalar(float(one.phi[0] % math.tau), "rad"),
         "crank_turn": Scalar(float(one.phi[-1] - one.phi[0]), "rad"),

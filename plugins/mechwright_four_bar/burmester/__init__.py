@@ -1,0 +1,1 @@
+"""Burmester: linkages that guide a body through poses, and those whose follower answers the crank."""

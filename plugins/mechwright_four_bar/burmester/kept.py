@@ -1,0 +1,165 @@
+"""Linkages that guide or answer, kept to their limits and made into designs."""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array, Finding, Rejected, Scalar, Synthesis
+from mechwright_four_bar.burmester.rectify import Way
+from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.candidates import Found, buildable
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.params import FourBarParams
+
+Wanted = PosesRequirement | FunctionRequirement
+
+WEIGHT = 30.0
+"""Weight of a broken limit, over that of an error as large as the body's way or as a radian."""
+
+MARGIN = 1e-4
+"""Share by which a fit keeps inside its limits: a penalty ends a little beyond where it begins."""
+
+SAME = 0.02
+"""Share of the shortest link within which two linkages are one."""
+
+DEFECTS = {
+    "branch": "the positions lie on both branches: the linkage would have to be taken apart",
+    "circuit": "the driver cannot come from one position to the next: they lie in separate circuits",
+    "order": "the driver passes the positions in another order",
+}
+
+
+@dataclass(frozen=True)
+class Option:
+    """A linkage with its merits.
+
+    Parameters
+    ----------
+    way
+        How it goes through the positions.
+    error
+        By how much it misses them.
+    figures
+        What to compare it by, besides.
+    pivot, point
+        A0, mm, and a point of the coupler in the coupler's frame, mm; None for none.
+    """
+
+    way: Way
+    error: Scalar
+    figures: dict[str, Scalar]
+    pivot: complex = 0j
+    point: complex | None = None
+
+    @property
+    def found(self) -> Found:
+        """As candidates are made of."""
+        bar, phi = self.way.bar, self.way.phi
+        figures = {
+            "least_transmission_angle": Scalar(self.way.least_angle, "rad"),
+            "longest_link": Scalar(max(bar.lengths), "mm"),
+            "shortest_link": Scalar(min(bar.lengths), "mm"),
+            **self.figures,
+            "first_crank_angle": Scalar(float(phi[0] % math.tau), "rad"),
+            "crank_turn": Scalar(float(phi[-1] - phi[0]), "rad"),
+        }
+        sense = 1 if phi[-1] > phi[0] else -1
+        start = math.remainder(float(phi[0]), math.tau)
+        swing = None if self.way.full else (start, start + float(phi[-1] - phi[0]))
+        return Found(bar, self.error, figures, self.pivot, self.point, sense, swing=swing)
+
+
+def broken(way: Way, wanted: Wanted) -> tuple[str, str]:
+    """The key of the first limit that a linkage breaks, and by what; empty where it keeps all."""
+    bar = way.bar
+    if wanted.drive != "any" and way.full != (wanted.drive == "crank"):
+        return "drive", "the crank turns fully" if way.full else "the crank cannot turn fully"
+    if min(bar.lengths) < wanted.shortest_link:
+        return "shortest-link", f"a link is {min(bar.lengths):.6g} mm long"
+    if max(bar.lengths) > wanted.longest_link:
+        return "longest-link", f"a link is {max(bar.lengths):.6g} mm long"
+    angle = math.degrees(way.least_angle)
+    if angle < wanted.least_transmission_angle:
+        return "transmission", f"the transmission angle falls to {angle:.4g} degrees"
+    return "", ""
+
+
+def _same(one: Option, other: Option) -> bool:
+    """Whether nobody would choose between two linkages: links and pivots agree to a share of the links."""
+    size = SAME * min(one.way.bar.lengths)
+    near = zip(one.way.bar.lengths, other.way.bar.lengths, strict=True)
+    return (
+        one.way.bar.branch == other.way.bar.branch
+        and all(abs(a - b) < size for a, b in near)
+        and abs(one.pivot - other.pivot) < size
+    )
+
+
+def penalties(bar: FourBar, angles: Array, wanted: Wanted) -> list[float]:
+    """How far a linkage is beyond its limits at crank angles (n,) from X, weighted, for a fit."""
+    short = [math.log(wanted.shortest_link * (1 + MARGIN) / length) for length in bar.lengths]
+    long = [math.log(length / (wanted.longest_link * (1 - MARGIN))) for length in bar.lengths]
+    limit = math.cos(math.radians(wanted.least_transmission_angle) * (1 + MARGIN))
+    if wanted.drive == "crank":
+        cosines = list(bar.transmission_cosines())
+    else:
+        squares = abs(bar.ground - bar.crank) ** 2 + 2 * bar.ground * bar.crank * (
+            1 - np.cos(angles - bar.ground_angle)
+        )
+        cosines = [float(bar.cosine_over(float(square))) for square in squares]
+    over = [max(abs(cosine) for cosine in cosines) - limit]
+    return [WEIGHT * max(0.0, value) for value in (*short, *long, *over)]
+
+
+def designs(
+    name: str,
+    options: Iterable[Option],
+    defects: dict[str, int],
+    wanted: Wanted,
+    said: Callable[[], str],
+    progress: Callable[[float], None],
+) -> Synthesis[FourBarParams]:
+    """The options that keep the limits and can be built, in their order; else why there is none.
+
+    Parameters
+    ----------
+    name
+        Of the kind, which begins its findings' codes.
+    options
+        Linkages without a defect, best first.
+    defects
+        How many linkages have which defect.
+    said
+        What is known of the number of linkages.
+    progress
+        Told the part that is done, 0 to 1.
+    """
+    rejected = Rejected()
+    for defect, count in defects.items():
+        for _ in range(count):
+            rejected.because(f"{name}.{defect}", DEFECTS[defect])
+    good: list[Option] = []
+    nearest = ""
+    for one in options:
+        key, why = broken(one.way, wanted)
+        if key:
+            rejected.because(f"{name}.{key}", why)
+            nearest = nearest or f"; the first that goes through them breaks a limit: {why}"
+        elif not any(_same(one, other) for other in good):
+            good.append(one)
+    candidates, reason = buildable((one.found for one in good), wanted.designs, rejected, progress)
+    if candidates:
+        return Synthesis(tuple(candidates), (Finding.note(f"{name}.found", said()),), rejected.reasons)
+    why = f"; none of those within the limits can be built: {reason}" if good else nearest
+    return Synthesis(
+        (),
+        (
+            Finding.error(
+                f"{name}.none", "crank", f"{said()}{why}",
+                remedy="widen the limits, move a position, or ask for fewer",
+            ),
+        ),
+        rejected.reasons,
+    )  # fmt: skip

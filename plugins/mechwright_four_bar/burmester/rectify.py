@@ -1,0 +1,90 @@
+"""Whether a linkage goes through its positions in their order and in one piece (rectification)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array
+from mechwright.mechanics.planar import Plane
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.reach import reach
+
+EDGE = 1e-9
+"""rad. Positions may stand so far beyond a toggle: rounding."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """How the crank goes through the positions.
+
+    Parameters
+    ----------
+    bar
+        The linkage on the branch of the positions.
+    phi
+        (n,) crank angles from X, rad, one way from the first to the last.
+    full
+        Whether the crank turns fully; else it swings from the first position to the last.
+    """
+
+    bar: FourBar
+    phi: Array
+    full: bool
+
+    @property
+    def least_angle(self) -> float:
+        """Least transmission angle of the turn, or of the swing, rad."""
+        if self.full:
+            return self.bar.least_transmission_angle()
+        start, end = self.phi[0] - self.bar.ground_angle, self.phi[-1] - self.bar.ground_angle
+        return self.bar.transmission_range(float(start), float(end))[0]
+
+
+def linkage(a0: complex, b0: complex, a: Plane, b: Plane) -> FourBar:
+    """The linkage with these fixed pivots and joints (n,), on the branch of its first position."""
+    ground = b0 - a0
+    side = (np.conj(b0 - a[0]) * (b[0] - a[0])).imag
+    return FourBar(
+        float(np.abs(a - a0).mean()),
+        float(np.abs(b - a).mean()),
+        float(np.abs(b - b0).mean()),
+        abs(ground),
+        float(np.angle(ground)),
+        1 if side > 0 else -1,
+    )
+
+
+def way_through(a0: complex, b0: complex, a: Plane, b: Plane, ordered: bool = True) -> Way | str:
+    """How the crank at ``a0`` goes through joints A and B (n,), mm; else the defect that keeps it from that.
+
+    The defects are ``branch`` (positions on both sides of the line A-B0), ``circuit`` (positions in ranges
+    of the crank that are not connected) and ``order``.
+    """
+    bar = linkage(a0, b0, a, b)
+    sides = (np.conj(b0 - a) * (b - a)).imag
+    if not ((sides > 0).all() or (sides < 0).all()):
+        return "branch"
+    phi = np.angle((a - a0) * np.exp(-1j * bar.ground_angle))
+    if bar.kind.full_turn:
+        return _turning(bar, phi, ordered)
+    for low, high in reach(bar):
+        middle = (low + high) / 2
+        inside = middle + np.array([math.remainder(x - middle, math.tau) for x in phi])
+        if (inside >= low - EDGE).all() and (inside <= high + EDGE).all():
+            steps = np.diff(inside)
+            if ordered and not ((steps > 0).all() or (steps < 0).all()):
+                return "order"
+            if np.ptp(inside) == 0:
+                return "order"
+            return Way(bar, inside + bar.ground_angle, full=False)
+    return "circuit"
+
+
+def _turning(bar: FourBar, phi: Array, ordered: bool) -> Way | str:
+    for sense in (1, -1):
+        steps = np.mod(sense * np.diff(phi), math.tau)
+        if not ordered or steps.sum() < math.tau:
+            turned = phi[0] + sense * np.concatenate(([0.0], np.cumsum(steps)))
+            return Way(bar, turned + bar.ground_angle, full=True)
+    return "order"

@@ -1,0 +1,273 @@
+"""Linkages that guide a body or answer a crank, against the independent check and against their own motion."""
+
+import math
+from itertools import permutations
+
+import numpy as np
+import pytest
+from by_night import by_night
+from pydantic import ValidationError
+from synthesis_reference import fact, facts
+
+from mechwright.contracts.finding import errors
+from mechwright_four_bar.burmester import dyads, freudenstein
+from mechwright_four_bar.burmester.dyads import Poses
+from mechwright_four_bar.burmester.rectify import Way, way_through
+from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.loop import close
+from mechwright_four_bar.plates import pivot_of
+from mechwright_four_bar.reach import bar_of, course_of
+
+FIVE = ((7, -6, -27), (14, -17, -40), (23, -24, -61), (28, -25, -72), (37, -19, -91))
+
+
+def quiet(part, text=""):
+    pass
+
+
+def poses_of(table):
+    table = np.array(table, dtype=float)
+    return Poses(table[:, 0] + 1j * table[:, 1], np.radians(table[:, 2]))
+
+
+# ---- dyads
+
+
+def test_five_poses_have_the_dyads_of_the_check():
+    result = dyads.of_five(poses_of(fact("burmester.planar5.real_dyads")["inputs"]["poses_x_y_deg"]))
+    assert (len(result.dyads), result.sliders) == (4, 0)
+    for number, one in enumerate(result.dyads):
+        expected = fact(f"burmester.planar5.dyad{number}")["expected"]
+        assert one.pivot == pytest.approx(complex(*expected["G"]), abs=1e-7)
+        assert one.joint == pytest.approx(complex(*expected["w"]), abs=1e-7)
+        assert one.length == pytest.approx(expected["length"], abs=1e-7)
+
+
+def pairs(poses):
+    found = dyads.of_five(poses).dyads
+    for i, j in permutations(range(len(found)), 2):
+        one, two = found[i], found[j]
+        joints = poses.joints(one.joint), poses.joints(two.joint)
+        yield (i, j), one, two, way_through(one.pivot, two.pivot, *joints)
+
+
+def test_defects_of_the_check():
+    ways = {pair: way for pair, _, _, way in pairs(poses_of(FIVE)) if isinstance(way, Way)}
+    free = fact("burmester.planar5.defect_free_drive_follow")["expected"]
+    assert sorted(ways) == sorted((i, j) for i, j, _ in free)
+    for i, j, kind in free:
+        assert kind in (ways[i, j].bar.kind.value, "non-Grashof")
+        expected = fact(f"burmester.planar5.linkage_{i}_{j}")["expected"]
+        lengths = [expected[key] for key in ("crank", "coupler", "follower", "ground")]
+        assert ways[i, j].bar.lengths == pytest.approx(lengths, abs=1e-6)
+        bar, phi = ways[i, j].bar, ways[i, j].phi - ways[i, j].bar.ground_angle
+        angles = [bar.transmission_range(x, x)[0] for x in phi]
+        assert math.degrees(min(angles)) == pytest.approx(expected["least_angle_at_poses_deg"], abs=1e-6)
+    full = [list(pair) for pair, way in ways.items() if way.full]
+    assert sorted(full) == sorted(fact("burmester.planar5.full_crank_defect_free")["expected"])
+
+
+def test_the_number_of_real_dyads_is_even():
+    rng = np.random.default_rng(3)
+    counts = []
+    for _ in range(100):
+        poses = Poses(rng.normal(size=5) + 1j * rng.normal(size=5), rng.uniform(-1.5, 1.5, 5))
+        result = dyads.of_five(poses)
+        counts.append(len(result.dyads) + result.sliders)
+        for one in result.dyads:
+            assert np.ptp(np.abs(poses.joints(one.joint) - one.pivot)) < 1e-8 * max(1, one.length)
+    assert set(counts) == {0, 2, 4}
+
+
+def test_a_linkage_is_found_from_five_of_its_own_poses():
+    bar, phi = FourBar(30, 80, 70, 90), np.array([0.2, 1.1, 2.0, 3.0, 4.4])
+    loop = close(bar, phi)
+    poses = Poses(loop.joint_a, np.angle(loop.coupler.direction))
+    lengths = sorted(one.length for one in dyads.of_five(poses).dyads)
+    assert any(abs(one - 30) < 1e-6 for one in lengths)
+    assert any(abs(one - 70) < 1e-6 for one in lengths)
+
+
+def test_three_and_four_poses():
+    given = fact("burmester.planar3.centre")
+    one = dyads.of_three(poses_of(FIVE[:3]), complex(*given["inputs"]["w"]))
+    assert one.pivot == pytest.approx(complex(*given["expected"]["G"]), abs=1e-8)
+    assert one.length == pytest.approx(given["expected"]["length"], abs=1e-8)
+    found = dyads.of_four(poses_of(FIVE[:4]), 10.0)
+    expected = sorted((one["expected"] for one in facts("burmester.planar4")), key=lambda one: one["w"][1])
+    assert len(found) == len(expected) == 3
+    for one, other in zip(found, expected, strict=True):
+        assert one.joint == pytest.approx(complex(*other["w"]), abs=1e-6)
+        assert one.pivot == pytest.approx(complex(*other["G"]), abs=2e-6)
+        assert one.length == pytest.approx(other["length"], abs=2e-6)
+
+
+def test_places_on_a_line_have_no_centre():
+    poses = Poses(np.array([0, 1, 2 + 0j]), np.zeros(3))
+    assert dyads.of_three(poses, 5 + 5j) is None
+
+
+# ---- functions
+
+
+def test_three_pairs():
+    given = fact("function.three_points")
+    phi, psi = (np.radians(given["inputs"][key]) for key in ("phi_deg", "psi_deg"))
+    np.testing.assert_allclose(freudenstein.coefficients(phi, psi), given["expected"]["K"], atol=1e-9)
+    (one,) = freudenstein.of_three(phi, psi)
+    for key in ("crank", "coupler", "follower"):
+        assert getattr(one, key) == pytest.approx(given["expected"][key], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "given", facts("function.four_points"), ids=lambda one: str(one["expected"]["psi0_deg"])
+)
+def test_four_pairs(given):
+    inputs, expected = given["inputs"], given["expected"]
+    phi = np.radians(np.array(inputs["dphi_deg"]) + inputs["phi0_deg"])
+    psi = np.radians(inputs["dpsi_deg"])
+    found = freudenstein.of_four(phi, psi)
+    assert len(found) == 2
+    wanted = math.radians(expected["psi0_deg"]) + psi[0]
+    (one,) = [one for one in found if abs(math.remainder(one.psi - wanted, math.tau)) < 1e-9]
+    for key in ("crank", "coupler", "follower"):
+        assert getattr(one, key) == pytest.approx(expected[key], abs=1e-7)
+
+
+def test_five_pairs_and_the_error_between_them():
+    given = fact("function.five_points")
+    phi, psi = (np.radians(given["inputs"][key]) for key in ("dphi_deg", "dpsi_deg"))
+    (one,) = freudenstein.of_five(phi, psi)
+    expected = given["expected"]
+    for key in ("crank", "coupler", "follower"):
+        assert getattr(one, key) == pytest.approx(expected[key], abs=1e-7)
+    assert math.degrees(one.phi - phi[0]) == pytest.approx(expected["phi0_deg"], abs=1e-7)
+    assert math.degrees(one.psi - psi[0]) == pytest.approx(expected["psi0_deg"], abs=1e-7)
+    x = np.linspace(1, 2, 1001)
+    turned, wanted = np.radians(60) * (x - 1), np.radians(90) * np.log10(x) / math.log10(2)
+    bar = FourBar(one.crank, one.coupler, one.follower, 1.0)
+    worst = []
+    for branch in (1, -1):
+        loop = close(FourBar(*bar.lengths, 0.0, branch), one.phi - phi[0] + turned)
+        errors = np.angle(loop.follower.direction * np.exp(-1j * (one.psi - psi[0] + wanted)))
+        worst.append(math.degrees(np.abs(errors).max()))
+    assert min(worst) == pytest.approx(fact("function.five_points.greatest_error_deg")["expected"], abs=1e-5)
+
+
+# ---- the family
+
+
+def asked(kind, **table):
+    model = {"poses": PosesRequirement, "function": FunctionRequirement}[kind]
+    return FourBars().synthesise(kind, model.model_validate(table), quiet)
+
+
+def carried(one, angles):
+    """Places and directions of the body at crank angles, rad, as a design says."""
+    bar = bar_of(one.params)
+    loop = close(bar, angles)
+    place = pivot_of(one.params) + loop.joint_a + one.params.coupler_point * loop.coupler.direction
+    return place, np.angle(loop.coupler.direction * np.exp(1j * one.figures["frame_angle"].value))
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_designs_carry_the_body_through_its_poses(count):
+    table = FIVE[:count]
+    result = asked("poses", poses=table, starts=100)
+    poses = poses_of(table)
+    assert result.candidates
+    for one in result.candidates:
+        assert one.residual.value < 1e-7
+        course = course_of(one.params)
+        angles = course.start + np.linspace(0, course.travel, 40_001)
+        place, turned = carried(one, angles)
+        ways = []
+        for d, theta in zip(poses.places, poses.angles, strict=True):
+            far = np.abs(place - d) + 20 * np.abs(np.angle(np.exp(1j * (turned - theta))))
+            assert far.min() < 0.05
+            ways.append(int(far.argmin()))
+        steps = np.diff(ways)
+        # A turn begins anywhere among the poses, a swing at the first of them.
+        assert (steps < 0).sum() <= (0 if one.params.swing_from is not None else 1)
+        assert errors(FourBars().check(one.params)) == []
+
+
+def test_many_poses_of_a_known_linkage():
+    bar, phi, point = FourBar(30, 80, 70, 90), np.linspace(0.2, 4, 12), 20 + 30j
+    loop = close(bar, phi)
+    place = loop.joint_a + point * loop.coupler.direction
+    turned = np.degrees(np.unwrap(np.angle(loop.coupler.direction))) + 10
+    table = [(z.real, z.imag, a) for z, a in zip(place, turned, strict=True)]
+    best = asked("poses", poses=table, designs=1).candidates[0]
+    assert best.residual.value < 1e-5
+    assert best.figures["angle_error"].value < 1e-7
+    assert bar_of(best.params).lengths == pytest.approx(bar.lengths, abs=1e-3)
+
+
+def test_more_pairs_than_unknowns():
+    x = np.linspace(1, 2, 15)
+    table = {"crank_angles": list(60 * (x - 1)), "follower_angles": list(90 * np.log10(x) / math.log10(2))}
+    result = asked("function", **table, least_transmission_angle=10, longest_link=1000)
+    assert math.degrees(result.candidates[0].residual.value) < 0.05
+
+
+@by_night
+def test_more_pairs_than_unknowns_within_limits_and_a_tolerance():
+    x = np.linspace(1, 2, 15)
+    table = {"crank_angles": list(60 * (x - 1)), "follower_angles": list(90 * np.log10(x) / math.log10(2))}
+    tight = asked("function", **table, least_transmission_angle=30, longest_link=200)
+    for one in tight.candidates:
+        assert math.degrees(one.figures["least_transmission_angle"].value) >= 30
+        assert one.figures["longest_link"].value <= 200
+    missed = asked("function", **table, least_transmission_angle=10, longest_link=1000, tolerance=0.001)
+    assert [one.code for one in missed.findings] == ["function.found", "function.missed"]
+
+
+def test_a_follower_answers_as_the_design_moves():
+    result = asked("function")
+    wanted = FunctionRequirement()
+    for one in result.candidates:
+        phi = (
+            one.figures["first_crank_angle"].value
+            + np.radians(wanted.crank_angles)
+            - math.radians(wanted.crank_angles[0])
+        )
+        answer = np.angle(close(bar_of(one.params), phi).follower.direction)
+        turned = np.degrees(np.unwrap(answer - answer[0]))
+        assert turned == pytest.approx(np.array(wanted.follower_angles) - wanted.follower_angles[0], abs=1e-6)
+
+
+def test_what_no_linkage_of_five_poses_keeps_is_said_with_the_count():
+    result = asked("poses", longest_link=40)
+    (finding,) = errors(result.findings)
+    assert finding.code == "poses.none"
+    assert "4 real dyads of 4" in finding.message
+    assert "breaks a limit" in finding.message
+    only = asked("poses", drive="crank")
+    assert all(one.params.swing_from is None for one in only.candidates)
+    assert only.candidates
+
+
+@pytest.mark.parametrize(
+    ("kind", "table", "message"),
+    [
+        ("poses", {"poses": [(0, 0, 0), (0, 0, 360), (1, 1, 5)]}, "poses 1 and 2 are the same"),
+        ("poses", {"poses": [(0, 0, 0), (1, 0, 0), (1, 1, 0)]}, "does not turn"),
+        ("poses", {"poses": [(0, 0, 0), (1, 0, math.nan), (1, 1, 0)]}, "poses"),
+        ("function", {"crank_angles": [0, 10, 5, 20, 30]}, "one way"),
+        ("function", {"crank_angles": [0, 10, 20]}, "follower_angles has 5 angles for the 3"),
+        (
+            "function",
+            {"crank_angles": [0, 10, 20], "follower_angles": [0, 5, 9]},
+            "leave offsets = 'both' open",
+        ),
+        ("function", {"follower_angles": [1, 1, 1, 1, 1]}, "stand still"),
+        ("function", {"shortest_link": 500, "longest_link": 400}, "shortest_link"),
+    ],
+)
+def test_wrong_requirements_are_refused_by_name(kind, table, message):
+    model = {"poses": PosesRequirement, "function": FunctionRequirement}[kind]
+    with pytest.raises(ValidationError, match=message):
+        model.model_validate(table)
