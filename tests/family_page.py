@@ -19,7 +19,7 @@ class FamilyPage:
         self.text = (ROOT / "docs" / f"{family.name}.md").read_text(encoding="utf-8")
         self.code = rf"((?:{'|'.join(prefixes)})\.(?!html)[a-z-]+)"
         shared = [ROOT / "core" / "mechwright" / "mechanics" / "adjustable" / name for name in SHARED]
-        sources = [*shared, *(ROOT / "plugins" / package).glob("*.py")]
+        sources = [*shared, *(ROOT / "plugins" / package).rglob("*.py")]
         self.source = "".join(path.read_text(encoding="utf-8") for path in sources)
 
     def assert_findings(self) -> None:

@@ -15,7 +15,16 @@ from mechwright_cad.animation import PAGE_SAMPLES, motion_html
 from mechwright_cad.animation.scene import scene
 
 EXAMPLES = ROOT / "examples"
-FAMILIES = ("elliptic-gears", "geneva", "slider-crank", "four-bar", "five-bar", "spherical", "plate")
+FAMILIES = (
+    "elliptic-gears",
+    "noncircular-gears",
+    "geneva",
+    "slider-crank",
+    "four-bar",
+    "five-bar",
+    "spherical",
+    "plate",
+)
 """In the order of the menu."""
 WORTH_A_LINK = {
     "poles.html": "poles of acceleration, their loci and circles",

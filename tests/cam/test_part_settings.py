@@ -23,6 +23,7 @@ def design(tmp_path, text):
 
 
 OVERRIDES = {
+    "sheet": {"revision": "B"},
     "fitting_marks": True,
     "work_offset": "G57",
     "origin": "corner",

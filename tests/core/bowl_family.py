@@ -66,6 +66,9 @@ class OneFamily:
     def of(self, contract):
         return {**host().of(contract), "bowl": None} if contract is Family else host().of(contract)
 
+    def all(self, contract):
+        return host().all(contract)
+
     def family(self, name):
         return self.own
 

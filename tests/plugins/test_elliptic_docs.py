@@ -11,7 +11,9 @@ PAGE = (ROOT / "docs" / "elliptic-gears.md").read_text(encoding="utf-8")
 
 
 def test_every_finding_is_on_the_page_and_no_other() -> None:
-    sources = [*(ROOT / "plugins" / "mechwright_elliptic_gears").glob("*.py"), Path(openings.__file__)]
+    gearing = ROOT / "core" / "mechwright" / "mechanics" / "gearing"
+    own = ROOT / "plugins" / "mechwright_elliptic_gears"
+    sources = [*own.glob("*.py"), *gearing.glob("*.py"), Path(openings.__file__)]
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
     said = set(re.findall(r'"((?:gear|bore|point|train|synthesis)\.[a-z-]+)"', code))
     assert said

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -52,8 +53,11 @@ def of_one_machine(result):
 
 
 def test_the_reference_four_bar_comes_back_from_six_and_six_directions():
-    wanted, result = ask(phases=SPHERE, linkage="four-bar", least_transmission=20, designs=1)
+    # Two linkages go through all points; which of them is found first is a matter of rounding.
+    wanted, result = ask(phases=SPHERE, linkage="four-bar", least_transmission=20, designs=2, seed=6)
     assert_follows(wanted, result, 1e-9)
+    own = [candidate for candidate in result.candidates if abs(candidate.params.four_bar.ground - 70) < 1e-3]
+    result = replace(result, candidates=tuple(own))
     one, two = (candidate.params.four_bar for candidate in of_one_machine(result))
     assert [one.ground, one.input, one.output, one.coupler] == pytest.approx([70, 25, 60, 65], abs=1e-6)
     assert two == one.model_copy(update={"phase": 2})

@@ -28,4 +28,4 @@ class Standing(Family[P]):
 
         time = travelled(SECONDS, samples)
         poses = {body: Poses.planar(0.0, 0.0, 0.0 * time) for body in self.bodies}
-        return Motion(TIME, {TIME: Channel(time, "s")}, poses)
+        return Motion(TIME, {TIME: Channel(time, "s", "time")}, poses)

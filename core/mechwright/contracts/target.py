@@ -41,7 +41,8 @@ class Target:
 def point_targets(requirement: Parameters) -> tuple[Target, ...]:
     """Every list of points [x, y] in mm that a requirement has, and every list of such lists.
 
-    Points of one field that are the same place are dragged together.
+    Points of one field that are the same place are dragged together. Of a list of poses [x, y, direction] the
+    places are dragged, and each keeps its direction.
 
     Examples
     --------
@@ -63,6 +64,11 @@ def point_targets(requirement: Parameters) -> tuple[Target, ...]:
         value = getattr(requirement, name)
         if _pair(facts.get("items")):
             found += _line(name, name, value, partial(_replaced, name, value))
+        elif _pose(facts.get("items")):
+            found += [
+                Target(f"{name} {number}", pose[:2], partial(_moved, name, value, number - 1), name)
+                for number, pose in enumerate(value, start=1)
+            ]
         elif _pair(facts.get("items", {}).get("items")):
             for number, points in enumerate(value, start=1):
                 found += _line(name, f"{name} {number}", points, partial(_replaced_in_all, name, value))
@@ -73,6 +79,18 @@ def _pair(facts: Any) -> bool:
     """Whether a schema is that of two lengths, mm."""
     items = facts.get("prefixItems", ()) if isinstance(facts, dict) else ()
     return len(items) == 2 and all(item.get("unit") == "mm" for item in items)
+
+
+def _pose(facts: Any) -> bool:
+    """Whether a schema is that of two lengths, mm, and a direction."""
+    items = facts.get("prefixItems", ()) if isinstance(facts, dict) else ()
+    return [item.get("unit") for item in items] == ["mm", "mm", "deg"]
+
+
+def _moved(key: str, poses: tuple[Place, ...], index: int, new: Place) -> dict[str, Any]:
+    """The poses with one at another place."""
+    place = [round(float(value), DECIMALS) for value in new]
+    return {key: [[*place, *pose[2:]] if n == index else [*pose] for n, pose in enumerate(poses)]}
 
 
 def _line(

@@ -4,6 +4,7 @@ import math
 import re
 import types
 from collections.abc import Iterable, Mapping
+from datetime import date
 from enum import Enum
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
@@ -123,6 +124,8 @@ def _plain(kind: type, rule: dict[str, Any], where: str, default: Any) -> st.Sea
         return _floats(rule, where, default)
     if issubclass(kind, str):
         return _texts(rule, default)
+    if issubclass(kind, date):
+        return st.dates().map(str)
     raise TypeError(f"{where}: no strategy for {kind!r}; give the contract a strategy of its own")
 
 

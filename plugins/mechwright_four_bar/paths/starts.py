@@ -32,8 +32,8 @@ def link_lengths(
 
     Lengths in one unit, ``p1`` < ``p2`` in 0 to 1, ``least_angle`` rad.
 
-    >>> a, f = link_lengths(False, np.array(60.0), np.array(80.0), np.array(0.25), np.array(0.7),
-    math.radians(40))
+    >>> sizes = (np.array(value) for value in (60.0, 80.0, 0.25, 0.7))
+    >>> a, f = link_lengths(False, *sizes, math.radians(40))
     >>> round(float(a), 6), round(float(f), 6)
     (17.121995, 96.639205)
     """

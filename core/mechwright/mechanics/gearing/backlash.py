@@ -38,7 +38,7 @@ def pair_backlash(
     Examples
     --------
     >>> float(pair_backlash(1.0, 0.349))
-    0.064
+    0.065
     """
     share = np.sin(alpha) / upright
     return whole(2 * (left + off_centre * share) / np.cos(alpha))
