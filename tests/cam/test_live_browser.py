@@ -178,8 +178,8 @@ FOUND = (
 def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
     page, server = asked
     until(page, FOUND)
-    grip = page.locator('.grip[data-name="points 3"]')
-    assert grip.get_attribute("aria-valuetext") == "20, 30 mm"
+    grip = page.locator('.grip[data-name="points 6"]')
+    assert grip.get_attribute("aria-valuetext") == "20, 45 mm"
     box = grip.locator(".ring").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
@@ -190,7 +190,7 @@ def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
     until(page, "document.getElementById('sought').hidden === false")
     until(page, "document.getElementById('sought').hidden && " + FOUND)
     moved = grip.get_attribute("aria-valuetext")
-    assert moved != "20, 30 mm"
+    assert moved != "20, 45 mm"
     page.get_by_role("button", name="Save line-1 as").click()
     page.fill("#new-name", "taken")
     page.press("#new-name", "Enter")
@@ -202,7 +202,7 @@ def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
     page.click("#undo")
     until(
         page,
-        "document.querySelector('.grip[data-name=\"points 3\"]').getAttribute('aria-valuetext') === '20, 30 mm'",
+        "document.querySelector('.grip[data-name=\"points 6\"]').getAttribute('aria-valuetext') === '20, 45 mm'",
     )
     until(page, "document.getElementById('seeking').textContent.includes('given')")
 
