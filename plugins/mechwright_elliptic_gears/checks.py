@@ -10,7 +10,6 @@ from functools import partial
 
 from mechwright import (
     Finding,
-    Severity,
     Stage,
     at_stage,
     kept,
@@ -20,11 +19,11 @@ from mechwright import (
 )
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing.checks import (
-    FLANK_ERROR,
-    LEAST_TIP,
     SHAFT_PRESSURE_ANGLE,
+    backlash_findings,
     land_findings,
     least_tip,
+    mesh_findings,
     profile_findings,
     tip_findings,
 )
@@ -171,71 +170,18 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
 
 @of_stage(Stage.MACHINING)
 def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
-    least, given = least_backlash(params), backlash_of(params)
-    if not falls_short(given, least):
-        return
-    jams = given < jamming_backlash(params)
-    does = (
-        "gears as made jam: walls as they are planned"
-        if jams
-        else "gears as made may jam: walls and axes within tolerance"
-    )
-    better = with_backlash(params, least)
-    yield Finding(
-        "gear.backlash",
-        Severity.ERROR if jams else Severity.WARNING,
-        "backlash",
-        f"{does} take up to {jamming_backlash(params) if jams else least:g} mm of the backlash",
-        given,
+    least = least_backlash(params)
+    yield from backlash_findings(
+        backlash_of(params),
         least,
-        "mm",
-        f"make backlash at least {least:g}, or leave it out"
-        if _tip_width(better) >= LEAST_TIP
-        else f"make module or semi_major larger: with a backlash of {least:g} the teeth are too thin",
-        proposed=({"parameters.backlash": least},),
+        jamming_backlash(params),
+        [teeth_of(with_backlash(params, least))],
+        "module or semi_major",
     )
 
 
 def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
-    proof = prove(params)
-    depth = float(proof.mesh.depth.max())
-    if proof.collides:
-        yield Finding.error(
-            "gear.mesh",
-            "addendum",
-            f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
-            depth,
-            proof.allowance,
-            "mm",
-            "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
-            proposed=tuple(that_clear(params)),
-        )
-        return
-    if exceeds(proof.flank_error, FLANK_ERROR):
-        yield Finding.warning(
-            "gear.contact",
-            "addendum",
-            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: "
-            "a tooth leaves contact before the next one takes over",
-            proof.flank_error,
-            FLANK_ERROR,
-            "mm",
-            "make addendum larger or pressure_angle smaller, or use more teeth",
-        )
-    play = proof.mesh.free_play
-    yield Finding.note(
-        "gear.mesh",
-        f"mesh proven at {play.size} positions: overlap {proof.mesh.overlap:g} mm², gap "
-        f"{max(0.0, float(proof.mesh.gap.min())):.6f} to {float(proof.mesh.gap.max()):.6f} mm, transmission "
-        f"error {proof.error * 1e6:.1f} µrad peak to peak"
-        + (
-            f" over that of the backlash, {proof.mesh.transmission_error * 1e6:.0f} µrad in all"
-            if backlash_of(params)
-            else ""
-        ),
-        proof.error * 1e6,
-        "µrad",
-    )
+    yield from mesh_findings(prove(params), backlash_of(params), lambda: that_clear(params))
 
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:

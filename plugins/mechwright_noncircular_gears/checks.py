@@ -8,14 +8,13 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from mechwright import Finding, Severity, Stage, at_stage, kept, material, of_stage, until_error
-from mechwright.contracts.finding import errors
+from mechwright import Finding, Stage, at_stage, kept, material, of_stage, until_error
+from mechwright.contracts.finding import Change, errors
 from mechwright.mechanics.gearing.checks import (
-    FLANK_ERROR,
-    LEAST_TIP,
     SHAFT_PRESSURE_ANGLE,
+    backlash_findings,
     land_findings,
-    least_tip,
+    mesh_findings,
     profile_findings,
     rim_findings,
     tip_findings,
@@ -154,73 +153,22 @@ def _drive(params: NoncircularParams) -> Iterator[Finding]:
 
 @of_stage(Stage.MACHINING)
 def _backlash(params: NoncircularParams) -> Iterator[Finding]:
-    least, given = least_backlash(params), backlash_of(params)
-    if not falls_short(given, least):
-        return
-    jams = given < jamming_backlash(params)
-    does = (
-        "gears as made jam: walls as they are planned"
-        if jams
-        else "gears as made may jam: walls and axes within tolerance"
-    )
-    yield Finding(
-        "gear.backlash",
-        Severity.ERROR if jams else Severity.WARNING,
-        "backlash",
-        f"{does} take up to {jamming_backlash(params) if jams else least:g} mm of the backlash",
-        given,
-        least,
-        "mm",
-        f"make backlash at least {least:g}, or leave it out"
-        if least_tip(teeth_of(with_backlash(params, least))) >= LEAST_TIP
-        else f"make the gears larger: with a backlash of {least:g} the teeth are too thin",
-        proposed=({"parameters.backlash": least},),
+    least = least_backlash(params)
+    teeth = teeth_of(with_backlash(params, least))
+    yield from backlash_findings(
+        backlash_of(params), least, jamming_backlash(params), teeth, "module or centre_distance"
     )
 
 
 def _mesh(params: NoncircularParams) -> Iterator[Finding]:
-    proof = prove(params)
-    depth = float(proof.mesh.depth.max())
-    if proof.collides:
-        yield Finding.error(
-            "gear.mesh",
-            "addendum",
-            f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
-            depth,
-            proof.allowance,
-            "mm",
-            "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
-            proposed=(
-                {"parameters.addendum": round(profile_of(params).addendum - 0.1, 3)},
-                {"parameters.addendum": round(profile_of(params).addendum - 0.2, 3)},
-            ),
-        )
-        return
-    if exceeds(proof.flank_error, FLANK_ERROR):
-        yield Finding.warning(
-            "gear.contact",
-            "addendum",
-            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: "
-            "a tooth leaves contact before the next one takes over",
-            proof.flank_error,
-            FLANK_ERROR,
-            "mm",
-            "make addendum larger or pressure_angle smaller, or use more teeth",
-        )
-    play = proof.mesh.free_play
-    yield Finding.note(
-        "gear.mesh",
-        f"mesh proven at {play.size} positions: overlap {proof.mesh.overlap:g} mm², gap "
-        f"{max(0.0, float(proof.mesh.gap.min())):.6f} to {float(proof.mesh.gap.max()):.6f} mm, transmission "
-        f"error {proof.error * 1e6:.1f} µrad peak to peak"
-        + (
-            f" over that of the backlash, {proof.mesh.transmission_error * 1e6:.0f} µrad in all"
-            if backlash_of(params)
-            else ""
-        ),
-        proof.error * 1e6,
-        "µrad",
-    )
+    yield from mesh_findings(prove(params), backlash_of(params), lambda: _lower(params))
+
+
+def _lower(params: NoncircularParams) -> Iterator[Change]:
+    """Lower teeth, which may clear the fillets of their mates."""
+    addendum = profile_of(params).addendum
+    for less in (0.1, 0.2):
+        yield {"parameters.addendum": round(addendum - less, 3)}
 
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:

@@ -1,19 +1,20 @@
 """What forbids teeth of any pitch curve: the rack's own shape, its land, and tips that are too thin."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.errors import GeometryError
+from mechwright.mechanics.gearing.proof import MeshProof
 from mechwright.mechanics.gearing.rack import Rack
 from mechwright.mechanics.gearing.teeth import Teeth
 from mechwright.mechanics.openings import Keyed, opening_of
-from mechwright.tolerances import falls_short
+from mechwright.tolerances import exceeds, falls_short
 
 LEAST_TIP = 0.2
 """Narrowest tip land in modules: the usual least of gear standards for teeth that are not case-hardened;
@@ -204,4 +205,79 @@ def rim_findings(
         LEAST_RIM if too_thin else full,
         "",
         remedy,
+    )
+
+
+def mesh_findings(
+    proof: MeshProof, backlash: float, clearing: Callable[[], Iterable[Change]]
+) -> Iterator[Finding]:
+    """What the mesh proof of a design says; ``clearing`` gives changes that may end a collision."""
+    depth = float(proof.mesh.depth.max())
+    if proof.collides:
+        yield Finding.error(
+            "gear.mesh",
+            "addendum",
+            f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
+            depth,
+            proof.allowance,
+            "mm",
+            "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
+            proposed=tuple(clearing()),
+        )
+        return
+    if exceeds(proof.flank_error, FLANK_ERROR):
+        yield Finding.warning(
+            "gear.contact",
+            "addendum",
+            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: "
+            "a tooth leaves contact before the next one takes over",
+            proof.flank_error,
+            FLANK_ERROR,
+            "mm",
+            "make addendum larger or pressure_angle smaller, or use more teeth",
+        )
+    play = proof.mesh.free_play
+    yield Finding.note(
+        "gear.mesh",
+        f"mesh proven at {play.size} positions: overlap {proof.mesh.overlap:g} mm², gap "
+        f"{max(0.0, float(proof.mesh.gap.min())):.6f} to {float(proof.mesh.gap.max()):.6f} mm, transmission "
+        f"error {proof.error * 1e6:.1f} µrad peak to peak"
+        + (
+            f" over that of the backlash, {proof.mesh.transmission_error * 1e6:.0f} µrad in all"
+            if backlash
+            else ""
+        ),
+        proof.error * 1e6,
+        "µrad",
+    )
+
+
+def backlash_findings(
+    given: float, least: float, jamming: float, teeth: Sequence[Teeth], larger: str
+) -> Iterator[Finding]:
+    """Whether the backlash of a design, mm, is at least that with which gears as made turn.
+
+    With less than ``jamming`` they are sure to jam. ``teeth`` are those with the least backlash, and
+    ``larger`` says what makes them thick enough for it.
+    """
+    if not falls_short(given, least):
+        return
+    jams = given < jamming
+    does = (
+        "gears as made jam: walls as they are planned"
+        if jams
+        else "gears as made may jam: walls and axes within tolerance"
+    )
+    yield Finding(
+        "gear.backlash",
+        Severity.ERROR if jams else Severity.WARNING,
+        "backlash",
+        f"{does} take up to {jamming if jams else least:g} mm of the backlash",
+        given,
+        least,
+        "mm",
+        f"make backlash at least {least:g}, or leave it out"
+        if least_tip(teeth) >= LEAST_TIP
+        else f"make {larger} larger: with a backlash of {least:g} the teeth are too thin",
+        proposed=({"parameters.backlash": least},),
     )
