@@ -178,19 +178,20 @@ FOUND = (
 def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
     page, server = asked
     until(page, FOUND)
-    grip = page.locator('.grip[data-name="points 6"]')
-    assert grip.get_attribute("aria-valuetext") == "20, 45 mm"
+    grip = page.locator('.grip[data-name="points 3"]')
+    assert grip.get_attribute("aria-valuetext") == "20, 30 mm"
     box = grip.locator(".ring").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    # Handles of its neighbours lie over its middle: the nearest is taken.
     page.mouse.move(x, y)
     page.mouse.down()
-    page.mouse.move(x + 25, y, steps=5)
+    page.mouse.move(x + 10, y, steps=5)
     page.mouse.up()
     until(page, "document.title.startsWith('•')")
     until(page, "document.getElementById('sought').hidden === false")
     until(page, "document.getElementById('sought').hidden && " + FOUND)
     moved = grip.get_attribute("aria-valuetext")
-    assert moved != "20, 45 mm"
+    assert moved != "20, 30 mm"
     page.get_by_role("button", name="Save line-1 as").click()
     page.fill("#new-name", "taken")
     page.press("#new-name", "Enter")
@@ -202,7 +203,7 @@ def test_a_path_point_is_dragged_and_a_design_is_taken_over(asked):
     page.click("#undo")
     until(
         page,
-        "document.querySelector('.grip[data-name=\"points 6\"]').getAttribute('aria-valuetext') === '20, 45 mm'",
+        "document.querySelector('.grip[data-name=\"points 3\"]').getAttribute('aria-valuetext') === '20, 30 mm'",
     )
     until(page, "document.getElementById('seeking').textContent.includes('given')")
 

@@ -64,6 +64,14 @@ function grips(scene, targets, drag) {
     }
   };
   const placeOf = (name) => known.find((one) => one.name === name).place;
+  // Handles that stand close lie over each other: the one whose middle is nearest is taken.
+  const nearest = (event) => {
+    const away = (handle) => {
+      const ring = handle.querySelector(".ring").getBoundingClientRect();
+      return Math.hypot(event.clientX - ring.x - ring.width / 2, event.clientY - ring.y - ring.height / 2);
+    };
+    return [...made_].reduce((one, other) => (away(other[1]) < away(one[1]) ? other : one))[0];
+  };
   for (const { name } of targets) {
     const handle = drawnIn("g", { class: "grip", tabindex: 0, role: "slider", "aria-label": name, "aria-valuenow": 0, "data-name": name }, view.layer);
     const radius = view.across * GRIP;
@@ -79,18 +87,19 @@ function grips(scene, targets, drag) {
     handle.addEventListener("pointerdown", (event) => {
       event.stopPropagation();
       handle.setPointerCapture(event.pointerId);
-      held = name;
+      held = nearest(event);
     });
     handle.addEventListener("pointermove", (event) => {
-      if (held !== name) return;
-      const place = view.from(event, placeOf(name));
-      own.show(known.map((one) => one.name === name ? { ...one, place } : one));
-      drag(name, place, false);
+      if (held === null) return;
+      const place = view.from(event, placeOf(held));
+      own.show(known.map((one) => one.name === held ? { ...one, place } : one));
+      drag(held, place, false);
     });
     const end = () => {
-      if (held !== name) return;
+      if (held === null) return;
+      const moved = held;
       held = null;
-      drag(name, placeOf(name), true);
+      drag(moved, placeOf(moved), true);
     };
     handle.addEventListener("pointerup", end);
     handle.addEventListener("pointercancel", end);
