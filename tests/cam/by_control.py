@@ -23,6 +23,7 @@ BY_NAME: dict[str, GcodeControl] = {
     for name, registered in host().of(Control).items()
     if registered.distribution == "mechwright" and isinstance(registered.item, GcodeControl)
 }
+CONTROLS = tuple(BY_NAME)
 LINUXCNC = BY_NAME["linuxcnc"]
 
 

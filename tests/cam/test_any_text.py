@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret
+from by_control import BY_NAME, CONTROLS, interpret
 from by_night import examples
-from golden_operations import CONTROLS, made
+from golden_operations import made
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mutants import FAULTS, mutant

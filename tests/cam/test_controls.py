@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret, prove
+from by_control import BY_NAME, CONTROLS, interpret, prove
 from by_night import examples, thinned
-from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
+from golden_programs import FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from long_program import long_program

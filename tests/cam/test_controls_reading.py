@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret, prove
-from golden_programs import CONTROLS, every_operation
+from by_control import BY_NAME, CONTROLS, interpret, prove
+from golden_programs import every_operation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import TOOLS, plate_job, plate_program

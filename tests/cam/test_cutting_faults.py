@@ -5,9 +5,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import pytest
-from by_control import BY_NAME, prove
+from by_control import BY_NAME, CONTROLS, prove
 from by_night import thinned
-from golden_operations import CONTROLS, made
+from golden_operations import made
 from test_mutations import deep
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc

@@ -4,8 +4,9 @@ import difflib
 
 import numpy as np
 import pytest
-from by_control import interpret
-from golden_operations import CASES, CONTROLS, FOLDER, made, texts
+from by_control import CONTROLS, interpret
+from golden_cases import CASES
+from golden_operations import FOLDER, made, texts
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 

@@ -9,11 +9,12 @@ import golden_compensation
 import golden_operations
 import numpy as np
 import pytest
-from by_control import BY_NAME, prove, read
+from by_control import BY_NAME, CONTROLS, prove, read
 from by_night import NIGHT, thinned
-from golden_operations import SHARP
+from golden_cases import SHARP
+from line_faults import STATES
 from mutant_traces import differences, trace
-from mutants import STATES, mutant
+from mutants import mutant
 from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket
@@ -75,7 +76,7 @@ def test_the_end_of_the_tape_ends_no_program_on_fanuc_and_haas(control: str) -> 
     assert "the program has no end" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_hands_reach_in_only_when_the_spindle_stands_still(control: str) -> None:
     one = made("profile-outside", control)
     at = one.text.lower().index("(operation: clamp)")
@@ -90,7 +91,7 @@ def test_a_stop_finds_the_tool_up() -> None:
     assert "with the tool down" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_rapid_stops_short_of_the_stock(control: str) -> None:
     one = made("helix", control)
     zero = "Z0. " if control in {"fanuc", "haas"} else "Z0 "
@@ -179,7 +180,7 @@ def test_a_level_that_is_missing_is_too_much_for_the_next() -> None:
     assert "cuts more than 4.5 mm of aluminium at once, 1.5 times its step_down" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_nothing_goes_far_below_the_plate(control: str) -> None:
     """A drill has its point below, and a through cut its 0.3 mm; a wrong digit is more."""
     one = made("peck", control)
@@ -273,7 +274,7 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
 
 
 @pytest.mark.parametrize("depth", ["1.", "-1."])
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_feed_move_from_the_upper_end_is_refused_in_a_line(control: str, depth: str) -> None:
     """Its length is not known; nor does it make the fall to the stock slower than it is fed."""
     one = made("pocket-contour", control)
@@ -303,14 +304,14 @@ def cuts(rows: np.ndarray) -> np.ndarray:
     return rows[np.isin(rows[:, 0], (Kind.FEED, Kind.ARC))]
 
 
-@pytest.mark.parametrize("control", thinned(3, golden_operations.CONTROLS))
+@pytest.mark.parametrize("control", thinned(3, CONTROLS))
 def test_state_words_at_any_place_are_refused_or_change_no_cut(control: str) -> None:
     """By the reader, by a rule, or because the program states it itself before the next cut."""
     rng = np.random.default_rng(53)
     one, reader = made("pocket-contour", control), BY_NAME[control]
     before = cuts(trace(read(one.text, one.job, reader)))
     refusals = 0
-    first = golden_operations.CONTROLS.index(control) % 2
+    first = CONTROLS.index(control) % 2
     for state in STATES if NIGHT else STATES[first::2]:
         wrong = mutant(one.text, f"inserted {state}", rng)
         assert wrong is not None

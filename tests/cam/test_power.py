@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, prove, simulated
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, prove, simulated
+from golden_operations import made
 from shop import plate_job
 from test_simulation import row
 

@@ -3,8 +3,8 @@
 import re
 
 import pytest
-from by_control import BY_NAME, prove
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, prove
+from golden_operations import made
 
 from mechwright_cam.proof import Check
 

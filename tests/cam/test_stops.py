@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from by_control import BY_NAME, interpret, prove
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, interpret, prove
+from golden_operations import made
 from planning_parts import bore, job, plate
 
 from mechwright.plugins.host import host
