@@ -37,15 +37,14 @@ def made(operation: str, control: str) -> tuple[Machined, ...]:
     return tuple(done)
 
 
-def texts(operation: str) -> dict[str, str]:
-    """File name to text of an operation's programs on all controls."""
+def texts(operation: str, control: str) -> dict[str, str]:
+    """File name to text of an operation's programs on a control."""
     kept = {}
-    for control in CONTROLS:
-        for place, one in enumerate(made(operation, control)):
-            start = f"{control}{'-underside' if place else ''}"
-            kept |= {
-                start + stem.removeprefix(one.program.name) + ".nc": text for stem, text in one.files.items()
-            }
+    for place, one in enumerate(made(operation, control)):
+        start = f"{control}{'-underside' if place else ''}"
+        kept |= {
+            start + stem.removeprefix(one.program.name) + ".nc": text for stem, text in one.files.items()
+        }
     return kept
 
 
@@ -53,7 +52,7 @@ def keep(operation: str) -> None:
     """Write the kept texts of an operation, and take away those that nothing writes."""
     here = FOLDER / operation
     here.mkdir(parents=True, exist_ok=True)
-    written = texts(operation)
+    written = {name: text for control in CONTROLS for name, text in texts(operation, control).items()}
     for old in here.glob("*.nc"):
         if old.name not in written:
             old.unlink()

@@ -9,8 +9,8 @@ import golden_compensation
 import golden_operations
 import numpy as np
 import pytest
-from by_control import BY_NAME, CONTROLS, prove, read
-from by_night import NIGHT, thinned
+from by_control import BY_NAME, CONTROLS, asked, prove, read
+from by_night import NIGHT, examples, thinned
 from golden_cases import SHARP
 from line_faults import STATES
 from mutant_traces import differences, trace
@@ -38,7 +38,7 @@ def refused(
 ) -> Check:
     """The failed check of a program in which some text is another; the text has to be there."""
     assert old in one.text
-    found = prove(one.text.replace(old, new, count), one.job, BY_NAME[control]).checks[check]
+    found = asked(check, one.text.replace(old, new, count), one.job, BY_NAME[control])
     assert not found.passed
     assert found.message.startswith(f"line {found.line}: ")
     return found
@@ -72,7 +72,7 @@ def test_a_d_or_h_that_is_not_written_is_the_last_one_on_fanuc_and_haas(control:
 @pytest.mark.parametrize("control", ["fanuc", "haas"])
 def test_the_end_of_the_tape_ends_no_program_on_fanuc_and_haas(control: str) -> None:
     one = made("slot", control)
-    found = prove(one.text.replace("M30", "M0"), one.job, BY_NAME[control]).checks["program-end"]
+    found = asked("program-end", one.text.replace("M30", "M0"), one.job, BY_NAME[control])
     assert "the program has no end" in found.message
 
 
@@ -81,7 +81,7 @@ def test_hands_reach_in_only_when_the_spindle_stands_still(control: str) -> None
     one = made("profile-outside", control)
     at = one.text.lower().index("(operation: clamp)")
     late = replace(one, files={"": one.text[:at] + one.text[at:].replace("M5\n", "", 1)})
-    found = prove(late.text, one.job, BY_NAME[control]).checks["stops"]
+    found = asked("stops", late.text, one.job, BY_NAME[control])
     assert "while the spindle turns; write M5 before it" in found.message
     assert late.text.splitlines()[found.line - 1] == "M0"
 
@@ -128,7 +128,7 @@ def test_a_flat_mill_plunges_slowly() -> None:
     lines = one.text.splitlines()
     at = next(k for k, line in enumerate(lines) if line.startswith("X-15.1546") and "Z" in line)
     lines[at - 1 : at] = ["G1 Z0 F1960", "G1 Z-0.5 F4000"]
-    found = prove("\n".join(lines), one.job).checks["chips"]
+    found = asked("chips", "\n".join(lines), one.job)
     assert found.line == at + 1
 
 
@@ -174,7 +174,7 @@ def test_a_level_that_is_missing_is_too_much_for_the_next() -> None:
         without = prove("\n".join(lines[:a] + lines[b - 1 :]), of)
         assert not without.ok
     (a, b), (c, _) = rounds[:2]
-    found = prove("\n".join(lines[:a] + lines[b - 1 :]), of).checks["depth-of-cut"]
+    found = asked("depth-of-cut", "\n".join(lines[:a] + lines[b - 1 :]), of)
     assert not found.passed
     assert found.line >= c - (b - 1 - a)
     assert "cuts more than 4.5 mm of aluminium at once, 1.5 times its step_down" in found.message
@@ -187,10 +187,10 @@ def test_nothing_goes_far_below_the_plate(control: str) -> None:
     lines = one.text.splitlines()
     at = max(k for k, line in enumerate(lines) if "Z-19.20" in line)
     lines[at] = lines[at].replace("Z-19.20", "Z-29.20")
-    found = prove("\n".join(lines), one.job, BY_NAME[control]).checks["underside"]
+    found = asked("underside", "\n".join(lines), one.job, BY_NAME[control])
     assert re.match(rf"line {at + 1}: T4 goes 11.20 mm below the plate", found.message)
     shallow = one.text.replace("Z-19.20", "Z-20.10")
-    assert prove(shallow, one.job, BY_NAME[control]).checks["underside"].passed
+    assert asked("underside", shallow, one.job, BY_NAME[control]).passed
 
 
 def test_lines_that_a_switch_skips_are_proven_both_ways() -> None:
@@ -241,7 +241,7 @@ SOURCES = (
     ),
     *(("profile-outside", "fanuc"), ("second-side", "haas"), ("bull-nose", "linuxcnc"), ("floor", "grbl")),
 )
-EACH = 3
+EACH = examples(2, 3)
 
 
 def verdict(text: str, one: Machined, control: str) -> tuple[bool, str]:
