@@ -21,7 +21,10 @@ class TestEllipticGears(DayContract):
         # one without in those of the example.
         "test_programs_are_proven": {0, 3, 4, 5},
         "test_no_interference": {3, 4, 5},
+        # One with a clamp or pins has all solids of a train of one phase.
+        "test_solids": {3},
     }
+    nights: ClassVar = ("test_synthesis",)
     max_frames = examples(8, 50)
     examples = (
         {},
