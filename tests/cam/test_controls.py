@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret, prove
+from by_control import BY_NAME, CONTROLS, asked, interpret, prove
 from by_night import examples, thinned
-from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
+from golden_programs import FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from long_program import long_program
@@ -127,7 +127,7 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
         prove(texts["linuxcnc"], job, BY_NAME["haas"])
     with pytest.raises(ProgramError, match="no decimal point"):
         prove(texts["linuxcnc"].replace("G64 P0.002 Q0", "G64"), job, BY_NAME["haas"])
-    assert not prove(texts["grbl"], job, BY_NAME["mach3"]).checks["tools"].passed
+    assert not asked("tools", texts["grbl"], job, BY_NAME["mach3"]).passed
     with pytest.raises(ProgramError, match="G64 is no code that is read in programs for Grbl"):
         prove(texts["mach3"], job, BY_NAME["grbl"])
 
@@ -151,7 +151,7 @@ def test_files_of_one_tool_each_are_proven_together() -> None:
     files = {name + ".nc": text for name, text in made.files.items()}
     last = [*files][-1]
     broken = {**files, last: files[last].replace("S", "S9", 1)}
-    found = prove(broken, made.job, BY_NAME["grbl"]).checks["speeds"]
+    found = asked("speeds", broken, made.job, BY_NAME["grbl"])
     assert found.message.startswith(f"{last}: line ")
     with pytest.raises(ProgramError, match=rf"^{last}: line 1: "):
         prove({**files, last: "G1 X..2\n" + files[last]}, made.job, BY_NAME["grbl"])
