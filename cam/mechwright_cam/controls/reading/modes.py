@@ -130,6 +130,11 @@ class Modal(Compensation):
             code in said or (code in offset and spell(code) == state.work_offset) for code in block.g
         )
 
+    def by_centre(self, line: int) -> None:
+        """Tell of an arc by its centre: what an earlier program has made of I and J may still hold."""
+        if self.dialect.centres_stay and "centres" not in self.state.stated:
+            self.lacks(line, "G91.1")
+
     def _units(self, block: Block) -> None:
         for code in block.g:
             if code in GROUPS["units"]:
@@ -197,6 +202,7 @@ class Modal(Compensation):
                 self._state("distance")
             elif code in {901, 911}:
                 self.absolute_centres = code == 901
+                self._state("centres")
             elif code in {980, 990}:
                 self._without_compensation(block, spell(code))
                 self.to_initial = code == 980

@@ -147,5 +147,7 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
     if machine.absolute_centres:
         known &= ~missing.any(axis=1)
+    for line in table[arc, 1][~np.isnan(given).all(axis=1)][:1].tolist():
+        machine.by_centre(int(line))
     refused: Bools = ~known | machine.dialect.refuses(first, last, machine.scale != 1.0)
     return refused
