@@ -5,7 +5,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T26 H26 D 4 mm: mill-4, end mill)
 (D26 holds the diameter of T26: 4 as planned, at most 0.2 more or less)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore-1: bore)

@@ -6,7 +6,7 @@
 (T26 H26 D 4 mm: mill-4, end mill)
 (D26 holds the wear on the diameter of T26: 0 for a cutter as planned,)
 (at most 0.2 more or less)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore-1: bore)

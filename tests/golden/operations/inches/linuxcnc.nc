@@ -7,7 +7,7 @@
 (T1 H1 D 0.23622 in: spot-6, spot drill)
 (T7 H7 D 0.19685 in: drill-5, drill)
 (T24 H24 D 0.23622 in: mill-6, end mill)
-G17 G20 G40 G49 G80 G90 G94
+G17 G20 G40 G49 G80 G90 G91.1 G94
 G64 P0.000078 Q0
 G53 G0 Z0
 (operation: spot drill)
