@@ -40,10 +40,10 @@ class Geneva(Family[GenevaParams]):
         return findings(params)
 
     def judge(self, params: GenevaParams) -> Sequence[Finding]:
-        """The same, without the changes of several sizes that would cure it."""
-        from mechwright_geneva.unmended import unmended
+        """The same, without changes of several sizes that would cure it, nor sizes that would bear a load."""
+        from mechwright_geneva.unmended import judged
 
-        return unmended(params)
+        return judged(params)
 
     def solve(self, params: GenevaParams, samples: int) -> "Motion":
         """One turn of the driver, from the first entry."""
