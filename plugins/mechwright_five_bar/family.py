@@ -1,6 +1,7 @@
 """The family ``five-bar``."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -51,6 +52,14 @@ class FiveBars(Family[FiveBarParams]):
         from mechwright_five_bar.phases import in_phase
 
         return motion_of(in_phase(params), samples)
+
+    def stretches(self, params: FiveBarParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_five_bar.motion import motion_of
+        from mechwright_five_bar.phases import in_phase
+
+        return in_stretches(partial(motion_of, in_phase(params)), samples)
 
     def parts(self, params: FiveBarParams) -> "Sequence[Part]":
         """Ground, gears and links as plates, their shafts, pins, studs, bushings, clamps and posts."""

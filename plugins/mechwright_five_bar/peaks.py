@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Scalar, kept
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_five_bar.loop import Loop, close
 from mechwright_five_bar.masses import MILLI, Carried, carried_of, masses_of, wheel_force
@@ -29,7 +30,7 @@ class Period:
     bodies: dict[str, BodyMotion]
 
 
-def period_of(params: FiveBarParams, samples: int | None = None) -> Period:
+def period_of(params: FiveBarParams, samples: Samples | None = None) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
     bar, course = bar_of(params), course_of(params)
     if samples is None:

@@ -1,6 +1,7 @@
 """The family ``four-bar``."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -58,6 +59,14 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.phases import in_phase
 
         return motion_of(in_phase(params), samples)
+
+    def stretches(self, params: FourBarParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_four_bar.motion import motion_of
+        from mechwright_four_bar.phases import in_phase
+
+        return in_stretches(partial(motion_of, in_phase(params)), samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
         """Ground, crank, coupler and follower as plates, their pins and bushings."""

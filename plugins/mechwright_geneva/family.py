@@ -1,6 +1,7 @@
 """The family ``geneva``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -50,6 +51,13 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: GenevaParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_geneva.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: GenevaParams) -> "Sequence[Part]":
         """Wheel, driver and rollers."""

@@ -1,6 +1,7 @@
 """The family ``noncircular-gears``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from mechwright import Family, Finding, Stage, refuse
@@ -37,6 +38,13 @@ class NoncircularGears(Family[NoncircularParams]):
         from mechwright_noncircular_gears.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: NoncircularParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_noncircular_gears.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: NoncircularParams) -> "Sequence[Part]":
         """Both gears."""
