@@ -1,5 +1,6 @@
 """Tools that a workshop would not change for nothing, and cutters that fit their holes."""
 
+import math
 from dataclasses import replace
 from itertools import pairwise
 
@@ -13,6 +14,8 @@ from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.bore import cut_width, widening
+from mechwright_cam.operations.pen import STEEP, Pen
+from mechwright_cam.operations.rates import Rates
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.program.moves import Feed, FeedArc
 from mechwright_cam.shop.settings import CamSettings
@@ -128,3 +131,27 @@ def test_the_width_of_a_ring_is_that_of_the_crescent_it_takes(mill, free, share)
     assert cut_width(radius, mill, mill + free) == pytest.approx(
         mill * (1 - np.cos(angle[outside].max())), abs=1e-3 * mill
     )
+
+
+@pytest.mark.parametrize("angle", [1.0, 3.0, 20.0])
+def test_a_ramp_is_fed_the_faster_the_less_steep_it_is_and_a_steep_one_at_half(angle):
+    rates = Rates(10_000, 1000, 500, 250, 5000, 0.03)
+    pen = Pen(LIBRARY.get("mill-6"), rates, 5.0, math.tan(math.radians(angle)))
+    steep = min(pen.slope, STEEP)
+    assert [pen.ramp_feed(share * steep * 80, 80) for share in (0, 0.2, 0.5, 1, 2)] == [
+        1000,
+        900,
+        750,
+        500,
+        500,
+    ]
+
+
+def test_a_channel_is_sunk_into_at_the_feed_of_a_cut_but_for_its_share_of_slope():
+    """Each lap of 150 mm sinks by 3 mm: 1.1 of 3 degrees, which takes a fifth off the feed and not a half."""
+    program = plan(job(plate(thickness=6), "mill-6"))
+    moves = next(o.moves for s in program.sections for o in s.operations if o.name == "outside: rough")
+    feeds = [m.feed for m in moves if isinstance(m, Feed | FeedArc) and m.z is not None and m.x is not None]
+    full = next(m.feed for m in moves if isinstance(m, Feed) and m.z is None)
+    assert feeds
+    assert all(0.7 * full < feed < full for feed in feeds)
