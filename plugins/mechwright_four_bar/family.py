@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
 
@@ -35,6 +36,7 @@ class FourBars(Family[FourBarParams]):
     batch = 1 << 16
     requirements: ClassVar = {
         "path": PathRequirement,
+        "nine-points": NinePointsRequirement,
         "adjustable-path": AdjustablePathRequirement,
         "poles": PolesRequirement,
         "poses": PosesRequirement,
@@ -120,6 +122,10 @@ class FourBars(Family[FourBarParams]):
             from mechwright_four_bar.paths.synthesis import through_points
 
             return through_points(PathRequirement.model_validate(requirement), progress)
+        if kind == "nine-points":
+            from mechwright_four_bar.nine.synthesis import through_nine
+
+            return through_nine(NinePointsRequirement.model_validate(requirement), progress)
         if kind == "adjustable-path":
             from mechwright_four_bar.adjustable_synthesis import through_phases
 
