@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Synthesis,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -84,6 +85,12 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.phases import in_phase
 
         return mounting_of(in_phase(params))
+
+    def transmission(self, params: FourBarParams) -> "Transmission":
+        """Crank in, follower out."""
+        from mechwright_four_bar.stage import FollowerStage
+
+        return FollowerStage(params)
 
     def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
         """The other phases that the pivots of the coupler are set to."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -72,6 +73,12 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: GenevaParams) -> "Transmission":
+        """Driver in, wheel out."""
+        from mechwright_geneva.stage import WheelStage
+
+        return WheelStage(params)
 
     def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Roller in its slot, error of the wheel in motion, and the lock."""

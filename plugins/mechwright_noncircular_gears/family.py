@@ -10,7 +10,7 @@ from mechwright_noncircular_gears.params import NoncircularParams
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import AsMade, MadePart, Motion, Mounting, Part
+    from mechwright import AsMade, MadePart, Motion, Mounting, Part, Transmission
 
 
 class NoncircularGears(Family[NoncircularParams]):
@@ -59,6 +59,12 @@ class NoncircularGears(Family[NoncircularParams]):
         from mechwright_noncircular_gears.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: NoncircularParams) -> "Transmission":
+        """Driver in, driven gear out."""
+        from mechwright_noncircular_gears.stage import PairStage
+
+        return PairStage(params)
 
     def check_cut(self, params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
         """Whether the pair as cut still meshes, and its keys go in."""
