@@ -1,13 +1,14 @@
 """The family ``cam-follower``."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Stage, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.requirement import SizeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Mounting, Part
+    from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis
 
 
 class CamFollower(Family[CamParams]):
@@ -17,6 +18,7 @@ class CamFollower(Family[CamParams]):
     title = "Cam and follower"
     summary = "A disc cam gives a slide or a lever any motion of rises, dwells and returns."
     Params = CamParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {"size": SizeRequirement}
 
     def check(self, params: CamParams) -> Sequence[Finding]:
         """Closure, undercut, pressure angle, face, walls, spring, contact pressure."""
@@ -49,3 +51,11 @@ class CamFollower(Family[CamParams]):
         from mechwright_cam_follower.as_made import as_made
 
         return as_made(params, made)
+
+    def synthesise(self, kind: str, requirement: Parameters, progress: "Progress") -> "Synthesis[CamParams]":
+        """The smallest cam within limits of pressure angle and curvature."""
+        if not isinstance(requirement, SizeRequirement):
+            return super().synthesise(kind, requirement, progress)
+        from mechwright_cam_follower.synthesis import smallest
+
+        return smallest(requirement, progress)

@@ -55,7 +55,7 @@ def motion_of(params: CamParams, samples: int) -> Motion:
     rates, omega, zero = cycle_of(params).at(theta), params.omega, np.zeros(samples)
     cam = Turning(params.sense * theta, zero + params.sense * omega, zero, zero)
     contacts = contacts_at(params, rates)
-    channels = {"time": Channel(theta / omega, "s", "time"), **turning_channels(cam, "theta", "", "the cam")}
+    channels = {"time": Channel(theta / omega, "s", "time"), **turning_channels(cam, "theta", "1", "the cam")}
     channels |= _follower(params, rates) | _contact(params, contacts, rates)
     return Motion(
         "theta",
@@ -162,7 +162,7 @@ def _curves(params: CamParams) -> dict[str, Curve]:
     found = {}
     for number, contact in enumerate(contacts):
         end = "" if number == 0 else "-2"
-        found[f"cam{end}"] = Curve.planar(CAM, contact.point * turned)
+        found[f"profile{end}"] = Curve.planar(CAM, contact.point * turned)
         if params.contact == "roller":
             found[f"pitch-curve{end}"] = Curve.planar(CAM, contact.centre * turned)
     return found

@@ -180,7 +180,7 @@ def test_torque_is_the_power_of_the_follower():
     motion = motion_of(cam(laws=["3-4-5"], speed=600), 7201)
     force, alpha = motion["contact_force"], motion["pressure_angle"]
     assert_allclose(
-        motion["torque"] * motion["omega"],
+        motion["torque"] * motion["omega1"],
         force * np.cos(alpha) * motion["velocity"] / 1000,
         rtol=0,
         atol=1e-9,

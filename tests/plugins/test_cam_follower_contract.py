@@ -29,7 +29,7 @@ class TestCamFollower(DayContract):
     }
     max_frames = tried(1, 20)
     derivatives = (("lift", "velocity"), ("velocity", "acceleration"))
-    input_rate = "omega"
+    input_rate = "omega1"
     samples = 2881
     examples = (
         {
@@ -89,6 +89,7 @@ class TestCamFollower(DayContract):
         "face_offset": [14.0],
         "screws": [3],
     }
+    requirements: ClassVar = {"size": ({"contact": "flat"}, {"offset": 2.0, "conjugate": True})}
     max_examples = tried(5, 40)
 
     def strategy(self):
