@@ -19,6 +19,8 @@ from mechwright_cam_follower.geometry import geometry_of
 from mechwright_cam_follower.motion import contacts_at, figures, motion_of
 from mechwright_cam_follower.outline import FIT, outline_of
 from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.requirement import SizeRequirement
+from mechwright_cam_follower.synthesis import smallest
 
 TURN = np.linspace(0.0, math.tau, 721)
 LAWS = ["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7", "simple-harmonic"]
@@ -134,6 +136,26 @@ def test_eccentric_circle():
     low, high = face_of(params)
     assert (low, high) == pytest.approx((-25, 25), abs=1e-9)
     assert outline_of(params)[0].area == pytest.approx(math.pi * 2500, rel=1e-6)
+
+
+def test_sizes_that_another_program_prints():
+    """The README of the Python package ``mechanism`` (G. Morris), section Cams, which follows Norton.
+
+    Rise and fall of 1 in over 90 degrees each, dwells of 90 degrees, cycloidal, a flat face, ρ at least 0.25 in:
+    it prints a base radius of 1.893 in and a face of 2.55 in. In mm times ten here.
+    """
+    scale = 10.0
+    wanted = SizeRequirement(
+        contact="flat",
+        angles=(90, 90, 90, 90),
+        lifts=(scale, scale, 0, 0),
+        least_curvature_radius=0.25 * scale,
+        bore=0,
+    )
+    (best,) = smallest(wanted, lambda done, what: None).candidates
+    assert best.params.base_radius / scale == pytest.approx(1.893, abs=0.001)
+    low, high = face_of(best.params)
+    assert round((high - low) / scale, 2) == 2.55
 
 
 def test_flat_face_radius():
