@@ -217,11 +217,19 @@ class FourBarPathRequirement(Parameters):
     designs: int = Field(3, ge=1, le=20, description="Designs that are given at most.")
     seed: int = Field(1, ge=0, le=2**31, description="Of the random linkages.")
     least_transmission: Degrees = Field(30.0, ge=0, le=80, description="Bound of the transmission angle.")
+    least_arc: Degrees = Field(
+        12.0, ge=5, le=90, description="Least arc; a shorter one has no room for two pins."
+    )
+    greatest_arc: Degrees = Field(168.0, ge=20, le=175, description="Greatest arc.")
     radius: Millimetres = Field(100.0, ge=5, le=2000, description="Radius of the sphere.")
     speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Speed of the input.")
 
     @model_validator(mode="after")
     def _together(self) -> Self:
+        if self.least_arc >= self.greatest_arc:
+            raise ValueError("least_arc must be below greatest_arc")
+        if all(one == self.points[0] for one in self.points):
+            raise ValueError(f"points: all {len(self.points)} are the same; a path needs two places at least")
         if self.angles:
             same_length("points", self.points, "angles", self.angles)
         return self
