@@ -6,7 +6,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
+from mechwright_spherical.requirements import (
+    AdjustablePathRequirement,
+    FourBarPathRequirement,
+    PosesRequirement,
+)
 
 if TYPE_CHECKING:
     from mechwright import AsMade, Flange, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
@@ -24,6 +28,7 @@ class Spherical(Family[SphericalParams]):
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,
         "four-bar-path": FourBarPathRequirement,
+        "poses": PosesRequirement,
     }
 
     def check(self, params: SphericalParams) -> Sequence[Finding]:
@@ -96,7 +101,7 @@ class Spherical(Family[SphericalParams]):
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress
     ) -> Synthesis[SphericalParams]:
-        """An adjustable linkage for poses in the plane or paths, or a four-bar for points of the sphere."""
+        """An adjustable linkage for poses in the plane or paths, or a four-bar for points or poses."""
         if kind == "adjustable-path":
             wanted = AdjustablePathRequirement.model_validate(requirement)
             if wanted.phases:
@@ -106,6 +111,10 @@ class Spherical(Family[SphericalParams]):
             from mechwright_spherical.adjustable_synthesis import from_poses
 
             return from_poses(wanted, progress)
+        if kind == "poses":
+            from mechwright_spherical.poses_synthesis import from_five
+
+            return from_five(PosesRequirement.model_validate(requirement), progress)
         from mechwright_spherical.fourbar_synthesis import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)

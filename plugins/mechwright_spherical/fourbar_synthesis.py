@@ -8,6 +8,7 @@ every point, or of the first one only where the timing is prescribed.
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -23,9 +24,11 @@ from mechwright_spherical.params import FourBarTable, SphericalParams
 from mechwright_spherical.requirements import FourBarPathRequirement
 from mechwright_spherical.vectors import rotate, vector
 
-SHORTEST, LONGEST = math.radians(12.0), math.radians(168.0)
-"""Bounds of fitted arcs: an arc and its supplement are the same link, and a shorter one has no room for two
-pins."""
+_USUAL = math.radians(110.0)
+"""Longest arcs of the atlas: an arc and its supplement are the same link."""
+
+_INSIDE = 1e-6
+"""rad. By how much a start of a fit keeps off the bounds of arcs."""
 
 _CURVE = 72
 """Points of a coupler curve in the atlas: each 5 degrees of the input."""
@@ -36,11 +39,17 @@ _SPANS = (0.12, 0.25, 0.4, 0.6, 0.8)
 _PRECISION = 1e-14
 """Tolerances of the fit: the last digits that a residual of some 1e-4 has."""
 
-_PINCH = 0.3
-"""Weight of a transmission angle below its bound against the path's error: 1 degree there is 5e-3 here."""
+_PINCH = 0.15
+"""Weight of a transmission angle below its bound against the path's error: 1 degree there is 2.6e-3 here."""
 
-_SWEEP = 25
-"""Input angles at which the transmission angle is bounded."""
+_EXTREMES = 5
+"""Input angles at which the transmission angle can be least: both ends, and whole half turns between them."""
+
+_MARGIN = 1e-7
+"""rad. By how much a fit keeps inside the bound of transmission angles, so that rounding never breaks it."""
+
+_OUTER, _PATIENT = 15, 4
+"""Most changes of the multipliers that bring the transmission angle to its bound, and how many may not."""
 
 DIGITS = 10
 """Decimals of degrees and directions in design files."""
@@ -81,18 +90,20 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
         ]
         return Synthesis((), tuple(dict.fromkeys(why)), rejected.reasons)
     found.sort(key=lambda one: one.residual.value)
-    least = math.radians(wanted.least_transmission - _SLACK)
-    # Where none keeps the bound, check warns of those that there are.
-    bounded = [one for one in found if one.figures["transmission_min"].value >= least] or found
+    least = math.radians(wanted.least_transmission)
+    bounded = [one for one in found if one.figures["transmission_min"].value >= least]
     for one in found:
         if one not in bounded:
             angle = math.degrees(one.figures["transmission_min"].value)
-            rejected.because("spherical.transmission", f"the transmission angle falls to {angle:.3g} degrees")
+            rejected.because("spherical.transmission", f"the transmission angle falls to {angle:.4g} degrees")
+    if not bounded:
+        greatest = max(math.degrees(one.figures["transmission_min"].value) for one in found)
+        said = (
+            f"in {len(starts)} starts no four-bar was found that keeps a transmission angle of "
+            f"{wanted.least_transmission:g} degrees: the best of them has {greatest:.4g}"
+        )
+        return Synthesis((), (_fault("least_transmission", said),), rejected.reasons)
     return Synthesis(tuple(bounded[: wanted.designs]), (), rejected.reasons)
-
-
-_SLACK = 0.5
-"""Degrees by which a penalty may leave the transmission angle below its bound."""
 
 
 def _fault(parameter: str, message: str) -> Finding:
@@ -117,6 +128,7 @@ class _Start:
 class _Problem:
     def __init__(self, wanted: FourBarPathRequirement, targets: Array) -> None:
         self._wanted, self._targets = wanted, targets
+        self._least, self._greatest = math.radians(wanted.least_arc), math.radians(wanted.greatest_arc)
         self._given = np.radians(np.array(wanted.angles, dtype=float)) if wanted.angles else None
         if self._given is not None:
             self._given = self._given - self._given[0]
@@ -152,7 +164,7 @@ class _Problem:
         generator = np.random.default_rng(self._wanted.seed)
         found, sides, count = [], [], 0
         while count < self._wanted.atlas:
-            arcs = generator.uniform(SHORTEST, math.radians(110), (4, 4 * self._wanted.atlas))
+            arcs = generator.uniform(self._least, min(self._greatest, _USUAL), (4, 4 * self._wanted.atlas))
             arcs = arcs[:, mobility(*arcs).input_full]
             size = arcs.shape[1]
             point = np.stack([generator.uniform(-1.5, 2.5, size), generator.uniform(-1.0, 1.0, size)])
@@ -210,14 +222,24 @@ class _Problem:
         x = np.concatenate([start.shape, np.zeros(3), timing])
         low = np.full(x.size, -np.inf)
         high = np.full(x.size, np.inf)
-        low[:4], high[:4] = SHORTEST, LONGEST
+        low[:4], high[:4] = self._least, self._greatest
         low[5], high[5] = -math.pi / 2, math.pi / 2
-        x = np.clip(x, low + 1e-6, high - 1e-6)
-        best = fitted(lambda at: self._residuals(at, start, sense), x, _PRECISION, 150, bounds=(low, high))
+        multipliers, before = np.zeros(_EXTREMES), math.inf
+        best = x
+        for number in range(_OUTER):
+            bounded = partial(self._residuals, start=start, sense=sense, multipliers=multipliers)
+            best = np.clip(best, low + _INSIDE, high - _INSIDE)
+            best = fitted(bounded, best, _PRECISION, 150, bounds=(low, high))
+            over = self._pinched(best[:, None], start, sense)[0]
+            broken = float(over.max())
+            # A start that does not come nearer to the bound has no linkage there that keeps it.
+            if not broken > 0 or (number >= _PATIENT and not broken < before):
+                break
+            multipliers, before = np.maximum(0.0, multipliers + _PINCH * over), broken
         at = best[:, None]
         angles = self._angles(at, sense)[0]
         frame = (_rotation(at[6:9])[:, :, 0]) @ start.frame
-        return _shortest(_Start(frame, best[:6], start.side, angles))
+        return self._shortest(_Start(frame, best[:6], start.side, angles))
 
     def _angles(self, x: Array, sense: float) -> Array:
         """Input angles (designs, n)."""
@@ -226,7 +248,16 @@ class _Problem:
         found: Array = x[9][:, None] + sense * self._given
         return found
 
-    def _residuals(self, x: Array, start: _Start, sense: float) -> Array:
+    def _pinched(self, x: Array, start: _Start, sense: float) -> Array:
+        """By how much the transmission angle is below its bound (designs, extremes), rad; else below 0."""
+        loop = _linkage(x[:6], np.full(x.shape[1], start.side)).loop()
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mu = loop.at(Turning.of(self._extremes(self._angles(x, sense), sense)), 0).transmission
+        bound = math.radians(self._wanted.least_transmission) + _MARGIN
+        return np.asarray(bound - np.minimum(mu, np.pi - mu))
+
+    def _residuals(self, x: Array, start: _Start, sense: float, multipliers: Array) -> Array:
+        """Misses of the points, and of the bound as an augmented Lagrangian has it."""
         linkage = _linkage(x[:6], np.full(x.shape[1], start.side))
         loop = linkage.loop()
         angles = self._angles(x, sense)
@@ -234,19 +265,46 @@ class _Problem:
             own = loop.position(angles)
             turn = np.einsum("ijd,jk->ikd", _rotation(x[6:9]), start.frame)
             misses = np.einsum("ikd,kdn->din", turn, own) - self._targets
-            sweep = self._sweep(angles, sense)
-            mu = loop.at(Turning.of(sweep), 0).transmission
-        pinch = _PINCH * np.maximum(
-            math.radians(self._wanted.least_transmission) - np.minimum(mu, np.pi - mu), 0.0
-        )
-        whole = np.concatenate([misses.reshape(x.shape[1], -1), pinch / math.sqrt(_SWEEP)], axis=1)
+        pinch = np.maximum(_PINCH * self._pinched(x, start, sense) + multipliers, 0.0)
+        whole = np.concatenate([misses.reshape(x.shape[1], -1), pinch], axis=1)
         return assembled(whole)
 
-    def _sweep(self, angles: Array, sense: float) -> Array:
-        """Input angles (designs, samples) of the whole motion."""
+    def _extremes(self, angles: Array, sense: float) -> Array:
+        """Input angles (designs, extremes) at one of which the transmission angle is least.
+
+        It follows the diagonal from c to a, which goes one way between whole half turns of the input.
+        """
         first = angles[:, :1]
-        travel = sense * math.tau if self._wanted.closed else angles[:, -1:] - first
-        return np.asarray(first + travel * np.linspace(0, 1, _SWEEP))
+        last = first + sense * math.tau if self._wanted.closed else angles[:, -1:]
+        low, high = np.minimum(first, last), np.maximum(first, last)
+        halves = (np.ceil(low / np.pi) + np.arange(_EXTREMES - 2)) * np.pi
+        return np.concatenate([low, high, np.clip(halves, low, high)], axis=1)
+
+    def _shortest(self, found: _Start) -> _Start:
+        """The same linkage with the shortest arcs within the bounds: an axis may be held at either end.
+
+        With the output axis at its other end, ground and output become their supplements, and x and the
+        input angle turn round; with the pin b at its other end, coupler and output do, and the coupler's
+        normal turns round.
+        """
+        options = [found]
+        for flip_c in (False, True):
+            for flip_b in (False, True):
+                shape, frame, angles, side = found.shape.copy(), found.frame, found.angles, found.side
+                if flip_c:
+                    shape[[0, 3]] = np.pi - shape[[0, 3]]
+                    frame, angles, side = frame * (-1.0, -1.0, 1.0), angles + np.pi, -side
+                if flip_b:
+                    shape[[2, 3]] = np.pi - shape[[2, 3]]
+                    shape[4:] *= -1
+                    side = -side
+                options.append(_Start(frame, shape, side, angles))
+        kept = [
+            one
+            for one in options
+            if one.shape[:4].min() >= self._least and one.shape[:4].max() <= self._greatest
+        ]
+        return min(kept or options, key=lambda one: float(one.shape[:4].sum()))
 
     def design(self, start: _Start) -> SphericalParams | None:
         """The design of a fit; None if it does not run through the points in their order."""
@@ -280,28 +338,6 @@ class _Problem:
             least_transmission=self._wanted.least_transmission,
             four_bar=table,
         )
-
-
-def _shortest(found: _Start) -> _Start:
-    """The same linkage with the shortest arcs: an axis may be held at either of its ends.
-
-    With the output axis at its other end, ground and output become their supplements, and x and the input
-    angle turn round; with the pin b at its other end, coupler and output do, and the coupler's normal turns
-    round.
-    """
-    options = [found]
-    for flip_c in (False, True):
-        for flip_b in (False, True):
-            shape, frame, angles, side = found.shape.copy(), found.frame, found.angles, found.side
-            if flip_c:
-                shape[[0, 3]] = np.pi - shape[[0, 3]]
-                frame, angles, side = frame * (-1.0, -1.0, 1.0), angles + np.pi, -side
-            if flip_b:
-                shape[[2, 3]] = np.pi - shape[[2, 3]]
-                shape[4:] *= -1
-                side = -side
-            options.append(_Start(frame, shape, side, angles))
-    return min(options, key=lambda one: float(one.shape[:4].sum()))
 
 
 def _linkage(shapes: Array, sides: Array) -> FourBar:

@@ -2,12 +2,14 @@
 
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
-from mechwright import Parameters
+from mechwright import Array, GeometryError, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 from mechwright_spherical.params import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length
+from mechwright_spherical.vectors import rotation_about, vector
 
 Guess = tuple[
     Annotated[float, Field(ge=-100, le=100), Unit("")],
@@ -215,11 +217,79 @@ class FourBarPathRequirement(Parameters):
     designs: int = Field(3, ge=1, le=20, description="Designs that are given at most.")
     seed: int = Field(1, ge=0, le=2**31, description="Of the random linkages.")
     least_transmission: Degrees = Field(30.0, ge=0, le=80, description="Bound of the transmission angle.")
+    least_arc: Degrees = Field(
+        12.0, ge=5, le=90, description="Least arc; a shorter one has no room for two pins."
+    )
+    greatest_arc: Degrees = Field(168.0, ge=20, le=175, description="Greatest arc.")
     radius: Millimetres = Field(100.0, ge=5, le=2000, description="Radius of the sphere.")
     speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Speed of the input.")
 
     @model_validator(mode="after")
     def _together(self) -> Self:
+        if self.least_arc >= self.greatest_arc:
+            raise ValueError("least_arc must be below greatest_arc")
+        if all(one == self.points[0] for one in self.points):
+            raise ValueError(f"points: all {len(self.points)} are the same; a path needs two places at least")
         if self.angles:
             same_length("points", self.points, "angles", self.angles)
         return self
+
+
+FIVE = 5
+"""Poses of which finitely many dyads go through all."""
+
+Turned = tuple[
+    Annotated[float, Field(ge=-1e6, le=1e6), Unit("")],
+    Annotated[float, Field(ge=-1e6, le=1e6), Unit("")],
+    Annotated[float, Field(ge=-1e6, le=1e6), Unit("")],
+    Annotated[float, Field(ge=-3600, le=3600), Unit("deg")],
+]
+"""Axis x, y, z and the angle by which a body is turned about it, counter-clockwise seen from its tip."""
+
+
+class PosesRequirement(Parameters):
+    """A spherical four-bar whose coupler carries a body through five orientations in their order."""
+
+    poses: tuple[Turned, ...] = Field(
+        (
+            (0.0, 0.0, 1.0, 0.0), (-0.906, -0.423, -0.022, 27.74), (-0.546, -0.78, 0.305, 48.36),
+            (0.083, -0.945, 0.318, 63.35), (0.706, -0.706, 0.059, 45.47),
+        ),
+        min_length=FIVE,
+        max_length=FIVE,
+        description="Five orientations of the body [x, y, z, angle]: turned by the angle about the axis, "
+        "each from the same orientation.",
+    )  # fmt: skip
+    point: Direction = Field(
+        (0.0, 0.0, 1.0),
+        description="Direction of the body, before it is turned, that the design shows as its path.",
+    )
+    drive: Literal["crank", "lever", "any"] = Field(
+        "any", description="An input that turns fully, one that swings through the poses, or either."
+    )
+    designs: int = Field(5, ge=1, le=30, description="Designs that are given at most.")
+    least_transmission: Degrees = Field(20.0, ge=1, le=80, description="Bound of the transmission angle.")
+    radius: Millimetres = Field(100.0, ge=5, le=2000, description="Radius of the sphere.")
+    speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Speed of the input.")
+
+    @model_validator(mode="after")
+    def _apart(self) -> Self:
+        turned: list[Array] = []
+        for number, (x, y, z, angle) in enumerate(self.poses, start=1):
+            try:
+                turned.append(rotation_about(vector((x, y, z)), np.radians(angle)))
+            except GeometryError as error:
+                raise ValueError(f"poses: axis of pose {number}: {error}") from None
+            for other, one in enumerate(turned[:-1], start=1):
+                if np.abs(one - turned[-1]).max() < SAME_POSE:
+                    raise ValueError(f"poses {other} and {number} are the same; move one of them")
+        return self
+
+    @property
+    def rotations(self) -> Array:
+        """(5, 3, 3) orientations."""
+        return np.array([rotation_about(vector(one[:3]), np.radians(one[3])) for one in self.poses])
+
+
+SAME_POSE = 1e-9
+"""Orientations whose directions differ by less are one."""

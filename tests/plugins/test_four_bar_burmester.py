@@ -254,6 +254,7 @@ def test_what_no_linkage_of_five_poses_keeps_is_said_with_the_count():
     ("kind", "table", "message"),
     [
         ("poses", {"poses": [(0, 0, 0), (0, 0, 360), (1, 1, 5)]}, "poses 1 and 2 are the same"),
+        ("poses", {"poses": [(0, 0, 9), (1, 1, 5), (0, 0, -351)]}, "poses 1 and 3 are the same"),
         ("poses", {"poses": [(0, 0, 0), (1, 0, 0), (1, 1, 0)]}, "does not turn"),
         ("poses", {"poses": [(0, 0, 0), (1, 0, math.nan), (1, 1, 0)]}, "poses"),
         ("function", {"crank_angles": [0, 10, 5, 20, 30]}, "one way"),
@@ -271,3 +272,13 @@ def test_wrong_requirements_are_refused_by_name(kind, table, message):
     model = {"poses": PosesRequirement, "function": FunctionRequirement}[kind]
     with pytest.raises(ValidationError, match=message):
         model.model_validate(table)
+
+
+def test_a_body_that_turns_about_one_point_has_infinitely_many_dyads():
+    angles = np.radians([0, 10, 30, 50, 90])
+    places = 20 + 10j + (7 - 3j) * np.exp(1j * angles)
+    table = [(one.real, one.imag, math.degrees(angle)) for one, angle in zip(places, angles, strict=True)]
+    result = FourBars().synthesise("poses", PosesRequirement(poses=tuple(table)), quiet)
+    assert not result.candidates
+    assert [one.code for one in result.findings] == ["poses.infinite"]
+    assert not dyads.of_five(poses_of(FIVE)).infinite

@@ -344,3 +344,50 @@ def test_the_default_oval_is_no_four_bars_own_but_met_within_a_quarter_of_a_mill
     assert residual(found) < 0.25
     assert FourBarPathRequirement().radius == 100
     assert float(arc(*(np.array(p) for p in FourBarPathRequirement().points[:2]))) > 0.05
+
+
+def test_a_path_keeps_its_limits_to_the_last_digit():
+    table = {
+        "atlas": 300,
+        "starts": 3,
+        "designs": 3,
+        "least_transmission": 45,
+        "least_arc": 20,
+        "greatest_arc": 85,
+    }
+    wanted = FourBarPathRequirement.model_validate(table)
+    result = Spherical().synthesise("four-bar-path", wanted, quiet)
+    assert result.candidates
+    for one in result.candidates:
+        four_bar = one.params.four_bar
+        arcs = [four_bar.ground, four_bar.input, four_bar.coupler, four_bar.output]
+        assert 20 - 1e-9 <= min(arcs) <= max(arcs) <= 85 + 1e-9
+        theta = Turning.of(np.linspace(0, 2 * np.pi, 1441))
+        mu = np.degrees(FourBar(*np.radians(arcs), four_bar.branch).at(theta, 0).transmission)
+        assert np.minimum(mu, 180 - mu).min() >= 45
+    # The bound holds the best design back: it lies on it.
+    assert math.degrees(result.candidates[0].figures["transmission_min"].value) == pytest.approx(45, abs=1e-3)
+
+
+def test_a_transmission_angle_that_none_keeps_is_refused_with_the_best():
+    table = {"atlas": 60, "starts": 1, "least_transmission": 80, "greatest_arc": 40}
+    result = Spherical().synthesise("four-bar-path", FourBarPathRequirement.model_validate(table), quiet)
+    assert not result.candidates
+    assert result.findings[0].parameter == "least_transmission"
+    assert "in 1 starts no four-bar was found that keeps a transmission angle of 80 degrees" in str(
+        result.findings[0]
+    )
+    assert "spherical.transmission" in {one.code for one in result.rejected}
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"points": [[0, 0, 1]] * 5}, "all 5 are the same"),
+        ({"least_arc": 60, "greatest_arc": 50}, "least_arc must be below"),
+        ({"points": [[0, 0, 1], [0, 1, float("nan")], [1, 0, 1]]}, "finite number"),
+    ],
+)
+def test_path_requirements_that_contradict_are_refused(table, said):
+    with pytest.raises(ValueError, match=said):
+        FourBarPathRequirement.model_validate(table)

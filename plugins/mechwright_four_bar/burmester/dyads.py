@@ -39,6 +39,10 @@ FLAT = 1e-12
 """Share of its greatest square below which three places of a joint are on a line, and have no circle."""
 
 
+DEPENDENT = 1e-9
+"""Share of the largest singular value below which the equations of five poses depend on each other."""
+
+
 @dataclass(frozen=True)
 class Poses:
     """Poses of a body.
@@ -92,10 +96,22 @@ class Dyad:
 
 @dataclass(frozen=True)
 class DyadCount:
-    """Dyads of five poses: those that turn, and how many slide."""
+    """Dyads of five poses.
+
+    Parameters
+    ----------
+    dyads
+        Those that turn.
+    sliders
+        How many slide.
+    infinite
+        Whether the equations of the poses depend on each other, as where the body turns about one point: then
+        infinitely many dyads go through all of them.
+    """
 
     dyads: tuple[Dyad, ...]
     sliders: int
+    infinite: bool = False
 
 
 def of_five(poses: Poses) -> DyadCount:
@@ -112,7 +128,9 @@ def of_five(poses: Poses) -> DyadCount:
             np.ones(d.size),
         )
     )  # fmt: skip
-    *_, right = np.linalg.svd(rows)
+    _, sizes, right = np.linalg.svd(rows)
+    if sizes[-1] < DEPENDENT * sizes[0]:
+        return DyadCount((), 0, infinite=True)
     # A fixed turn of the null space, so that no solution lies at the infinity of the coordinates used below.
     turn, _ = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))
     null = right[5:].T @ turn

@@ -7,19 +7,19 @@ from itertools import permutations
 import numpy as np
 from scipy.optimize import least_squares as fit
 
-from mechwright import Array, Progress, Scalar, Synthesis
+from mechwright import Array, Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright_four_bar.burmester import dyads
 from mechwright_four_bar.burmester.dyads import Dyad, Poses
 from mechwright_four_bar.burmester.kept import Option, designs, penalties
 from mechwright_four_bar.burmester.rectify import Way, way_through
-from mechwright_four_bar.burmester.requirements import PosesRequirement
+from mechwright_four_bar.burmester.requirements import EXACT, PosesRequirement
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
 
-EXACT = 5
-"""Most poses that a dyad can meet exactly in general."""
+INFINITE = "hold the body in a bearing at that point, or move a pose"
+"""What to do where a body turns about one point."""
 
 SPREAD = 2.0
 """Sizes of the poses within which joints are sought about the origin, and pivots about the middle."""
@@ -49,6 +49,11 @@ def through_poses(wanted: PosesRequirement, progress: Progress) -> Synthesis[Fou
     """
     table = np.array(wanted.poses, dtype=float)
     poses = Poses(table[:, 0] + 1j * table[:, 1], np.radians(table[:, 2]))
+    if len(wanted.poses) == EXACT and dyads.of_five(poses).infinite:
+        message = (
+            "infinitely many dyads go through these five poses: the body turns about one point, or nearly"
+        )
+        return Synthesis((), (Finding.error("poses.infinite", "poses", message, remedy=INFINITE),))
     found, said = _dyads(poses, wanted)
     ways: list[tuple[Way, Dyad, Dyad]] = []
     defects: Counter[str] = Counter()

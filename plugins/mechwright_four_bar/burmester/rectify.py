@@ -1,17 +1,14 @@
 """Whether a linkage goes through its positions in their order and in one piece (rectification)."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright import Array
+from mechwright.mechanics.linkage.passing import passing
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.reach import reach
-
-EDGE = 1e-9
-"""rad. Positions may stand so far beyond a toggle: rounding."""
 
 
 @dataclass(frozen=True)
@@ -66,25 +63,6 @@ def way_through(a0: complex, b0: complex, a: Plane, b: Plane, ordered: bool = Tr
     if not ((sides > 0).all() or (sides < 0).all()):
         return "branch"
     phi = np.angle((a - a0) * np.exp(-1j * bar.ground_angle))
-    if bar.kind.full_turn:
-        return _turning(bar, phi, ordered)
-    for low, high in reach(bar):
-        middle = (low + high) / 2
-        inside = middle + np.array([math.remainder(x - middle, math.tau) for x in phi])
-        if (inside >= low - EDGE).all() and (inside <= high + EDGE).all():
-            steps = np.diff(inside)
-            if ordered and not ((steps > 0).all() or (steps < 0).all()):
-                return "order"
-            if np.ptp(inside) == 0:
-                return "order"
-            return Way(bar, inside + bar.ground_angle, full=False)
-    return "circuit"
-
-
-def _turning(bar: FourBar, phi: Array, ordered: bool) -> Way | str:
-    for sense in (1, -1):
-        steps = np.mod(sense * np.diff(phi), math.tau)
-        if not ordered or steps.sum() < math.tau:
-            turned = phi[0] + sense * np.concatenate(([0.0], np.cumsum(steps)))
-            return Way(bar, turned + bar.ground_angle, full=True)
-    return "order"
+    full = bar.kind.full_turn
+    passed = passing(phi, None if full else reach(bar), ordered)
+    return passed if isinstance(passed, str) else Way(bar, passed + bar.ground_angle, full)

@@ -1,6 +1,6 @@
 """What can be asked for of a body's poses, and of the follower's answers to the crank."""
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -10,6 +10,9 @@ from mechwright.mechanics.adjustable.requirement import Coordinate
 from mechwright.units import Degrees, Millimetres, Unit
 
 Direction = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
+
+EXACT = 5
+"""Most poses that a dyad can meet exactly in general."""
 
 MOST_POSES = 200
 """More poses of a body, or pairs of angles, than this say nothing new."""
@@ -62,9 +65,11 @@ class PosesRequirement(LinkLimits):
 
     @model_validator(mode="after")
     def _apart(self) -> Self:
-        for number, (one, two) in enumerate(pairwise(self.poses), start=1):
-            if one[:2] == two[:2] and (one[2] - two[2]) % 360 == 0:
-                raise ValueError(f"poses {number} and {number + 1} are the same; leave one out")
+        # More poses are fitted, and a body may come back to one of them.
+        for (i, one), (k, two) in combinations(enumerate(self.poses, start=1), 2):
+            near = k == i + 1 or len(self.poses) <= EXACT
+            if near and one[:2] == two[:2] and (one[2] - two[2]) % 360 == 0:
+                raise ValueError(f"poses {i} and {k} are the same; leave one out")
         if all((pose[2] - self.poses[0][2]) % 360 == 0 for pose in self.poses):
             raise ValueError(
                 "all poses have the direction of the first: a body that does not turn needs parallel cranks"
