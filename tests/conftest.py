@@ -33,7 +33,7 @@ settings.register_profile(
     "mechwright",
     deadline=None,
     derandomize=True,
-    max_examples=examples(40, 100),
+    max_examples=examples(30, 100),
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("mechwright")

@@ -21,6 +21,7 @@ AGAINST = {
 
 class TestFiveBars(DayContract):
     family = FiveBars
+    compiles = True
     night: ClassVar = {
         # The machine of two phases has the same plates, and a clamp and slots besides.
         "test_programs_are_proven": {0},

@@ -22,7 +22,12 @@ Contract().test_evaluate()
 
 @pytest.mark.parametrize(
     ("module", "contract"),
-    [("four_bar", "TestFourBars"), ("slider", "TestSliderCrank"), ("spherical", "TestSpherical")],
+    [
+        ("five_bar", "TestFiveBars"),
+        ("four_bar", "TestFourBars"),
+        ("slider", "TestSliderCrank"),
+        ("spherical", "TestSpherical"),
+    ],
 )
 def test_many_designs_at_once_are_what_each_is_by_itself(module: str, contract: str) -> None:
     done = subprocess.run(

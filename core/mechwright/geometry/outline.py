@@ -5,7 +5,8 @@ deviation of its segments from the exact curve. The solid is its extrusion, the 
 toolpath its offset and the mass its area.
 """
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 # Gauss points per smooth piece. Twenty are exact for polynomials of degree 39: second moments of splines
 # up to degree 10 (4 k - 1), their area up to degree 20 (2 k - 1); for quarter arcs the rest is rounding.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+_OF_LINES = np.polynomial.legendre.leggauss(2)
+"""Nodes and weights of a line: along it the integrands are cubic, for which two are exact."""
 
 
 def _at_nodes(segment: Segment) -> tuple[Array, Array]:
@@ -32,6 +35,13 @@ def _at_nodes(segment: Segment) -> tuple[Array, Array]:
     half = np.diff(breaks) / 2
     t = ((breaks[:-1] + half)[:, None] + half[:, None] * _NODES).ravel()
     return segment.at(t), segment.derivative(t) * (half[:, None] * _WEIGHTS).ravel()[:, None]
+
+
+def _straight(segments: Sequence[Segment]) -> list[tuple[list[int], Array]]:
+    """Places of the lines among segments, and their ends (n, 2, 2), mm, as nets of degree 1."""
+    places = [place for place, segment in enumerate(segments) if isinstance(segment, Line)]
+    ends = [(segments[place].start, segments[place].end) for place in places]
+    return [(places, np.array(ends, dtype=float))] if places else []
 
 
 @dataclass(frozen=True)
@@ -61,7 +71,7 @@ class Loop:
         if not self.segments:
             raise GeometryError("a loop needs at least one segment")
         for one, two in zip(self.segments, (*self.segments[1:], self.segments[0]), strict=True):
-            gap = float(np.hypot(one.end[0] - two.start[0], one.end[1] - two.start[1]))
+            gap = math.dist(one.end, two.start)
             if not gap <= TOLERANCES.closure:
                 raise GeometryError(
                     f"the outline is open at ({one.end[0]:.6f}, {one.end[1]:.6f}): "
@@ -123,13 +133,17 @@ class Loop:
 
         All change sign where the loop runs clockwise.
         """
-        found: dict[int, tuple[Array, Array]] = {}
-        for places, nets in by_degree(self.segments):
-            points, rates = sampled(nets, 0.5 + 0.5 * _NODES)
-            found |= zip(places, zip(points, rates * (0.5 * _WEIGHTS)[:, None], strict=True), strict=True)
-        every = [found.get(i) or _at_nodes(segment) for i, segment in enumerate(self.segments)]
-        x, y = np.concatenate([points for points, _ in every]).T
-        dx, dy = np.concatenate([rates for _, rates in every]).T
+        pieces: list[tuple[Array, Array]] = []
+        at_once: set[int] = set()
+        alike = [(*group, _NODES, _WEIGHTS) for group in by_degree(self.segments)]
+        alike += [(*group, *_OF_LINES) for group in _straight(self.segments)]
+        for places, nets, nodes, weights in alike:
+            points, rates = sampled(nets, 0.5 + 0.5 * nodes)
+            pieces.append((points.reshape(-1, 2), (rates * (0.5 * weights)[:, None]).reshape(-1, 2)))
+            at_once.update(places)
+        pieces += [_at_nodes(one) for place, one in enumerate(self.segments) if place not in at_once]
+        x, y = np.ascontiguousarray(np.concatenate([points for points, _ in pieces]).T)
+        dx, dy = np.ascontiguousarray(np.concatenate([rates for _, rates in pieces]).T)
         return np.array(
             [
                 (x @ dy - y @ dx) / 2,

@@ -11,7 +11,7 @@ from mechwright.machine.frame.shafts import Levels, collar
 from mechwright.machine.frame.sweep import Space, Swept
 from mechwright.standards.circlips import shaft_circlips
 
-BESIDE = 1.0
+CLEARANCE = 1.0
 """Between a shaft with what is on it and what another body sweeps at its height, mm."""
 
 STEP = 0.1
@@ -30,7 +30,7 @@ def in_the_way(seat: Seat, levels: Levels, space: Space, mounting: Mounting) -> 
     ):
         for piece in space.between(low, high, without=spindle.body):
             room = float(shapely.distance(axis, piece.region))
-            if room < radius + BESIDE:
+            if room < radius + CLEARANCE:
                 return [_fault(seat, what, piece, room, radius, mounting)]
     return []
 
@@ -54,7 +54,7 @@ def _fault(seat: Seat, what: str, piece: Swept, room: float, radius: float, moun
         f"{piece.part} passes the axis of spindle {spindle.name} at {room:.2f} mm, and its {what} of "
         f"{2 * radius:g} mm has to go on there to the other plate",
         room,
-        radius + BESIDE,
+        radius + CLEARANCE,
         "mm",
         ", or ".join(words) or "a frame of two plates is not for this mechanism",
         Stage.PARTS,
