@@ -11,7 +11,7 @@ O-word
 
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 
 import numpy as np
 
@@ -322,7 +322,7 @@ class Macros(Values):
                 )
         raise ValueError(f"O{label} has no {' or '.join(sorted(wanted))}")
 
-    def _before(self, index: int, label: str, wanted: set[str]) -> int | None:
+    def _before(self, index: int, label: str, wanted: Set[str]) -> int | None:
         """The last line before another, of the same label, that has one of the words."""
         places = self.places[label]
         for at in range(bisect_right(places, index - 1) - 1, -1, -1):
