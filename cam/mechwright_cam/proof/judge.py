@@ -20,7 +20,7 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import operations, step_times
 from mechwright_cam.setup.job import Job
 
-SWITCHED = re.compile(r"^\s*/", re.MULTILINE)
+SWITCHED = re.compile(r"^[^\S\n]*/", re.MULTILINE)
 """A line that a switch at the machine skips."""
 RULES = tuple(rule() for rule in BUILT_IN)
 """What is asked unless a host knows more."""

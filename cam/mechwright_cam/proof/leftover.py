@@ -24,7 +24,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.beyond import Foot, beyond_reach
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
+from mechwright_cam.proof.plane import Boundary, Shape, grow, swept, without_specks
 from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.proof.wall import on_walls
 from mechwright_cam.proof.wanted import COARSE, Wanted, recesses
@@ -98,7 +98,7 @@ def _on_floors(
     region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
     if job.gone:  # where earlier setups have been there is no floor
         region = shapely.difference(region, grow(job.air_below(band.bottom), slack, COARSE))
-    rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
+    rest = without_specks(shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE)))
     if rest.is_empty:
         return 0.0, None
     corners = shapely.get_coordinates(rest)

@@ -38,6 +38,19 @@ def overlay(operation: Callable[..., Any], one: Any, other: Any) -> Shape:
     return found
 
 
+def without_specks(shape: Shape) -> Shape:
+    """The parts of a shape that are anywhere wider than :data:`SNAP`: what is thinner is rounding of numbers.
+
+    Examples
+    --------
+    >>> speck = shapely.Polygon([(0, 0), (1, 1), (0.5, 0.5 - 1e-15)])
+    >>> without_specks(shapely.union(speck, shapely.box(2, 0, 3, 0.001))).bounds
+    (2.0, 0.0, 3.0, 0.001)
+    """
+    parts = shapely.get_parts(shape)
+    return shapely.union_all(parts[shapely.area(parts) > SNAP * shapely.length(parts)])
+
+
 def closing(keep: Shape, radius: float) -> Shape:
     """What a round cutter leaves of the surroundings of ``keep``: keep, and the corners it cannot enter.
 

@@ -35,8 +35,7 @@ _IN_WORD = re.compile(
     re.IGNORECASE,
 )
 """Places of comments, each of which is :data:`_MARK`, where no word could begin."""
-_O_WORD = re.compile(rf"[\s{_MARK}]*/?\s*(?:N[0-9]+\s*)?O", re.IGNORECASE)
-_NOT_LAST = re.compile(rf"{_MARK}[\s{_MARK}]*[^\s{_MARK}]")
+_O_WORD = re.compile(rf"[\s{_MARK}]*(?:/\s*)?(?:N[0-9]+\s*)?O", re.IGNORECASE)
 _BLANKS = {ord(" "): None, ord("\t"): None}
 
 
@@ -128,7 +127,8 @@ def check_comments(line: int, text: str) -> None:
     mechwright.errors.ProgramError: line 3: a comment stands inside of a word; put it at the end of the line
     """
     marked = _COMMENT.sub(lambda match: _MARK if match[0][0] == "(" else "", text)
-    if (_NOT_LAST if _O_WORD.match(marked) else _IN_WORD).search(marked):
+    inside = _MARK in marked.rstrip(f" \t{_MARK}") if _O_WORD.match(marked) else _IN_WORD.search(marked)
+    if inside:
         raise fail(line, "a comment stands inside of a word; put it at the end of the line")
 
 

@@ -10,8 +10,8 @@ O-word
 """
 
 import re
-from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Sequence, Set
 
 import numpy as np
 
@@ -43,6 +43,10 @@ FEW_LINES = 500
 """Fewer plain lines wait for what follows on them."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
+BEGIN = frozenset({"sub", "if", "repeat", "while", "do"})
+"""Words with which something begins that has a label."""
+BARE = frozenset({"sub", "else", "endif", "do", "endwhile", "endrepeat", "break", "continue"})
+"""Words that nothing stands behind."""
 _O_WORD = re.compile(
     r"(?:n[0-9]+)?o([0-9]+|<[^<>]+>)"
     r"(sub|endsub|return|call|do|while|endwhile|if|elseif|else|endif|repeat|endrepeat|break|continue|$)(.*)"
@@ -71,7 +75,9 @@ class Macros(Values):
         self.words: dict[int, tuple[str, str, str]] = {}
         self.places: dict[str, list[int]] = {}
         """Lines of each label, in order."""
-        percents = 0
+        self.inside: dict[int, str] = {}
+        """The subroutine that each of these lines stands in, empty for the main program."""
+        percents, inside = 0, ""
         for index, line in enumerate(lines):
             code = "".join(COMMENT.sub("", line).split()).lower()
             percents += code == "%"
@@ -83,6 +89,9 @@ class Macros(Values):
                 label = str(int(match[1])) if match[1].isdigit() else match[1]
                 self.words[index] = (label, match[2], match[3])
                 self.places.setdefault(label, []).append(index)
+                inside = label if match[2] == "sub" else inside
+                self.inside[index] = inside
+                inside = "" if match[2] == "endsub" else inside
             elif match := _WORKED_OUT.fullmatch(code):
                 self.words[index] = (match[1], "call", match[2])
             elif match := _M98.fullmatch(code):
@@ -148,7 +157,27 @@ class Macros(Values):
 
     # -- structures -------------------------------------------------------------------------------------
 
+    def _check_label(self, index: int, label: str, word: str, rest: str) -> None:
+        """Refuse what LinuxCNC does: words behind an O-word, a second use of a label, an end of nothing."""
+        if rest and word in BARE:
+            raise ValueError(f"{rest[:12]!r} stands behind O{label} {word}")
+        if word in BEGIN and not (word == "while" and self._ends_do(index, label)):
+            for other in self.places[label][: bisect_left(self.places[label], index)]:
+                before, same = self.words[other][1], self.inside[other] == self.inside[index]
+                if before == word == "sub" or (same and before in BEGIN - {"sub"} and word != "sub"):
+                    raise ValueError(
+                        f"O{label} begins something in line {other + 1} already; use another number"
+                    )
+        if word == "endif" and self._before(index, label, {"if"}) is None:
+            raise ValueError(f"O{label} has no if")
+
+    def _ends_do(self, index: int, label: str) -> bool:
+        """Whether a while is the end of do ... while."""
+        before = self._before(index, label, {"do", "while"})
+        return before is not None and self.words[before][1] == "do"
+
     def _obey(self, index: int, label: str, word: str, rest: str) -> None:
+        self._check_label(index, label, word, rest)
         match word:
             case "sub":
                 self.at = self._find(index, label, {"endsub"}) + 1
@@ -174,7 +203,7 @@ class Macros(Values):
             case "endwhile":
                 self.at = self._find_back(index, label, "while")
             case "repeat":
-                count = whole(Reader(rest, self._value).real())
+                count = whole(self.alone(rest))
                 self.frames[-1].repeats[index] = count
                 if count <= 0:
                     self.at = self._find(index, label, {"endrepeat"}) + 1
@@ -184,9 +213,9 @@ class Macros(Values):
                 if self.frames[-1].repeats[start] > 0:
                     self.at = start + 1
             case "break":
-                self.at = self._end(index, label) + 1
+                self.at = self._end(index, label, word) + 1
             case "continue":
-                self.at = self._end(index, label)
+                self.at = self._end(index, label, word)
 
     def _start(self, label: str, word: str) -> int:
         """The first line of the subroutine of a label, which has the word."""
@@ -236,7 +265,7 @@ class Macros(Values):
         self.follow = (np.minimum.accumulate(other[::-1])[::-1] - number).tolist()
 
     def _return(self, word: str, rest: str) -> None:
-        result = Reader(rest, self._value).real() if rest and word != "m99" else None
+        result = self.alone(rest) if rest and word != "m99" else None
         frame = self.frames[-1]
         if frame.start < 0:
             if word == "m99":
@@ -269,24 +298,31 @@ class Macros(Values):
         self.at = index + 1
 
     def _while(self, index: int, label: str, rest: str) -> None:
-        before = self._before(index, label, {"do", "while"})
-        if before is not None and self.words[before][1] == "do":  # the end of do ... while
-            self.at = before + 1 if self.condition(rest) else index + 1
+        if self._ends_do(index, label):
+            start = self._find_back(index, label, "do")
+            self.at = start + 1 if self.condition(rest) else index + 1
         elif not self.condition(rest):
             self.at = self._find(index, label, {"endwhile"}) + 1
 
-    def _end(self, index: int, label: str) -> int:
-        """The line that closes the loop of a label."""
-        return self._find(index, label, {"endwhile", "endrepeat", "while"})
+    def _end(self, index: int, label: str, word: str) -> int:
+        """The line that closes the loop of a label, which is no repeat."""
+        begun = self._before(index, label, BEGIN)
+        if begun is None or self.words[begun][1] not in {"while", "do"}:
+            raise ValueError(f"O{label} {word} stands in no while or do of this number")
+        return self._find(index, label, {"endwhile", "while"})
 
     def _find(self, index: int, label: str, wanted: set[str]) -> int:
         places = self.places[label]
         for at in range(bisect_right(places, index), len(places)):
             if self.words[places[at]][1] in wanted:
                 return places[at]
+            if self.words[places[at]][1] in {"if", "repeat", "do"} and wanted != {"endsub"}:
+                raise ValueError(
+                    f"O{label} begins something in line {places[at] + 1} as well; use another number"
+                )
         raise ValueError(f"O{label} has no {' or '.join(sorted(wanted))}")
 
-    def _before(self, index: int, label: str, wanted: set[str]) -> int | None:
+    def _before(self, index: int, label: str, wanted: Set[str]) -> int | None:
         """The last line before another, of the same label, that has one of the words."""
         places = self.places[label]
         for at in range(bisect_right(places, index - 1) - 1, -1, -1):

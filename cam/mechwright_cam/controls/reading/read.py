@@ -17,7 +17,7 @@ from mechwright_cam.controls.reading.plain import PlainLines, Row, WorkedOut
 from mechwright_cam.controls.reading.run import Run, joined
 from mechwright_cam.controls.reading.values import Lines
 
-CODE = re.compile(r"\s*/?\s*[A-Z:]\s*[-+.#\[\d]", re.IGNORECASE)
+CODE = re.compile(r"\s*(?:/\s*)?[A-Z:]\s*[-+.#\[\d]", re.IGNORECASE)
 """How a line of a program begins, and no line of prose."""
 MOST_BLOCKS = 20_000
 """So many texts of lines are remembered."""

@@ -192,9 +192,17 @@ class Values(Lines):
         )
         return " ".join(words) + comments
 
+    def alone(self, rest: str) -> float:
+        """The value of an expression that has nothing behind it."""
+        reader = Reader(rest, self._value)
+        value = reader.real()
+        if reader.at < len(reader.text):
+            raise ValueError(f"{reader.text[reader.at :][:12]!r} stands behind the value of an O-word")
+        return value
+
     def condition(self, rest: str) -> bool:
         """Whether an expression is other than 0."""
-        return bool(Reader(rest, self._value).real())
+        return bool(self.alone(rest))
 
 
 def whole(value: float) -> int:

@@ -1,0 +1,62 @@
+"""O-words that LinuxCNC refuses: labels used twice, ends of nothing, words behind them."""
+
+from pathlib import Path
+
+import pytest
+from by_control import interpret
+from rs274 import needs_rs274, run_rs274
+
+from mechwright.errors import ProgramError
+
+HEAD = "G21 G90 G17 G40 G91.1 G94\nG0 X1 Y1 Z5\n"
+REFUSED = {
+    "o1 endif": "line 3: O1 has no if",
+    "o1 if [1]\no2 endif\no1 endif": "line 4: O2 has no if",
+    "o1 endif [1]": "line 3: '\\[1]' stands behind O1 endif",
+    "o1 else [1]\no1 endif": "line 3: '\\[1]' stands behind O1 else",
+    "o1 do [1]\no1 while [0]": "line 3: '\\[1]' stands behind O1 do",
+    "o1 sub [1]\no1 endsub": "line 3: '\\[1]' stands behind O1 sub",
+    "o1 repeat [1]\no1 endrepeat [1]": "line 4: '\\[1]' stands behind O1 endrepeat",
+    "o1 while [1]\no1 break [1]\no1 endwhile": "line 4: '\\[1]' stands behind O1 break",
+    "o1 if [1] G1 X1": "line 3: 'g1x1' stands behind the value",
+    "o1 while [0] X1\no1 endwhile": "line 3: 'x1' stands behind the value",
+    "o1 repeat [1] X1\no1 endrepeat": "line 3: 'x1' stands behind the value",
+    "o1 sub\no1 return [1] X\no1 endsub\no1 call": "line 4: 'x' stands behind the value",
+    "o1 if [1]\no1 endif\no1 if [1]\no1 endif": "line 5: O1 begins something in line 3 already",
+    "o1 while [0]\no1 endwhile\no1 while [0]\no1 endwhile": "line 5: O1 begins something in line 3 already",
+    "o1 if [1]\no1 endif\no1 while [0]\no1 endwhile": "line 5: O1 begins something in line 3 already",
+    "o1 repeat [1]\no1 endrepeat\no1 repeat [1]\no1 endrepeat": "line 5: O1 begins something in line 3 already",
+    "o1 sub\no1 endsub\no1 sub\no1 endsub": "line 5: O1 begins something in line 3 already",
+    "o1 if [0]\no1 if [1]\no1 endif\no1 endif": "line 3: O1 begins something in line 4 as well",
+    "o1 repeat [2]\no1 break\no1 endrepeat": "line 4: O1 break stands in no while or do",
+    "o1 repeat [2]\no1 continue\no1 endrepeat": "line 4: O1 continue stands in no while or do",
+}
+TAKEN = (
+    "o1 sub\no9 if [1]\no9 endif\no1 endsub\no2 sub\no9 if [1]\no9 endif\no2 endsub\no1 call\no2 call",
+    "o1 sub\no9 if [1]\no9 endif\no1 endsub\no9 if [1]\no9 endif\no1 call",
+    "o1 sub\no1 endsub\no1 if [1]\no1 endif",
+    "o1 if [1] (yes)\no1 endif (end)",
+    "o1 if [0]\no1 elseif [1]\no1 else\no1 endif",
+    "o1 sub\no1 return [1]\no1 endsub [2]\no1 call",
+    "#1=0\no1 do\n#1=[#1+1]\no1 while [#1 lt 3]",
+    "o1 while [1]\no1 break\no1 endwhile",
+)
+
+
+@pytest.mark.parametrize(("lines", "reason"), REFUSED.items())
+def test_what_linuxcnc_refuses_of_labels(lines: str, reason: str) -> None:
+    with pytest.raises(ProgramError, match=f"^{reason}"):
+        interpret(f"{HEAD}{lines}\nG0 X2\nM2\n")
+
+
+@pytest.mark.parametrize("lines", TAKEN)
+def test_labels_as_linuxcnc_takes_them(lines: str) -> None:
+    assert interpret(f"{HEAD}{lines}\nG0 X2\nM2\n").end[-1, 0] == 2
+
+
+@needs_rs274
+@pytest.mark.parametrize(
+    ("lines", "taken"), [*((one, False) for one in REFUSED), *((one, True) for one in TAKEN)]
+)
+def test_linuxcnc_says_the_same_of_labels(lines: str, taken: bool, tmp_path: Path) -> None:
+    assert run_rs274(f"{HEAD}{lines}\nG0 X2\nM2\n", tmp_path).ok == taken
