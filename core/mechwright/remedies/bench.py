@@ -1,12 +1,12 @@
 """Trying changes of one design, and remembering what came of each."""
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import Key, keys_of
@@ -117,6 +117,21 @@ class Bench:
         """Whether no error is left with a change."""
         return self.errors(change) == []
 
+    def spoils(self, change: Change) -> bool:
+        """Whether a motion that nothing was said against is warned of with a change.
+
+        A crank that turned becomes a lever, say: what builds then is not what was asked for.
+        """
+        found, start = self.found(change), self.found({})
+        if found is None or start is None or errors(start, Stage.MOTION):
+            return False
+        return bool({one.code for one in _of_motion(found)} - {one.code for one in _of_motion(start)})
+
+    def kept_by(self, change: Change) -> Callable[[Change], bool]:
+        """What a smaller change has to keep: that the design builds, and that the motion is not spoiled."""
+        spoilt = self.spoils(change)
+        return lambda smaller: self.builds(smaller) and (spoilt or not self.spoils(smaller))
+
     def size(self, change: Change) -> float:
         """How much a change is: how far its keys go, how many they are, and how much they are meant."""
         sizes = (
@@ -145,6 +160,11 @@ class Bench:
             return None
         finally:
             self._used += time.process_time() - start
+
+
+def _of_motion(findings: Iterable[Finding]) -> Iterator[Finding]:
+    """The warnings among findings that are about the motion."""
+    return (one for one in findings if one.severity is Severity.WARNING and one.stage is Stage.MOTION)
 
 
 def same(finding: Finding, findings: Iterable[Finding] | None) -> Finding | None:

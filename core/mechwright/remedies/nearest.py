@@ -17,6 +17,9 @@ MOST_CHANGES = 10
 """Keys that a remedy changes at most: more is another design."""
 _ENOUGH = 3
 """Keys of a remedy found step by step with which the other way is not looked at."""
+_FAR = 8.0
+"""Size of a remedy found step by step from which the other way is looked at all the same: three lengths that
+the file asks for, changed by half each, or one of them by eight times."""
 _FIRST_WAY = 0.5
 """Share of the tries that the steps may use up: the other way needs its own where they end nowhere."""
 _AGAIN = 3
@@ -38,14 +41,21 @@ def nearest(bench: Bench) -> Change | None:
 
 
 def candidates(bench: Bench, enough: int = 0) -> list[Change]:
-    """Changes with which the design builds, the smallest first; one of at most ``enough`` keys is alone."""
+    """Changes with which the design builds, the best first; one of at most ``enough`` keys is alone.
+
+    Those that are not too large come first, of them those that leave the motion as it was, then the smallest.
+    """
     bench.share = _FIRST_WAY
     by_steps = _by_steps(bench)
     bench.share = 1.0
     found = [] if by_steps is None else [by_steps]
-    if by_steps is None or len(by_steps) > enough:
+    if by_steps is None or len(by_steps) > enough or bench.size(by_steps) > _FAR or bench.spoils(by_steps):
         found += _from_known(bench)
-    return sorted((_trimmed(bench, change) for change in found), key=bench.size)
+
+    def rank(change: Change) -> tuple[bool, bool, float]:
+        return len(change) > MOST_CHANGES, bench.spoils(change), bench.size(change)
+
+    return sorted((_trimmed(bench, change) for change in found), key=rank)
 
 
 def _by_steps(bench: Bench) -> Change | None:
@@ -107,11 +117,11 @@ def _given_back(bench: Bench, known: Change) -> Change:
 
     What the file asks for is given back first.
     """
-    kept = dict(known)
+    kept, keeps = dict(known), bench.kept_by(known)
 
     def give(paths: list[str]) -> None:
         without = {path: value for path, value in kept.items() if path not in paths}
-        if bench.builds(without):
+        if keeps(without):
             kept.clear()
             kept.update(without)
         elif len(paths) > 1:
@@ -126,4 +136,4 @@ def _given_back(bench: Bench, known: Change) -> Change:
 def _trimmed(bench: Bench, change: Change) -> Change:
     """The same remedy without what it does not need, its numbers as near as they may be."""
     small = _given_back(bench, change)
-    return drawn_back(bench, small, bench.builds)
+    return drawn_back(bench, small, bench.kept_by(small))

@@ -7,7 +7,7 @@ from enum import IntEnum
 from itertools import zip_longest
 from typing import Any
 
-from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.contracts.finding import Change, Finding, Severity, Stage
 from mechwright.designs.chains import STAGE
 from mechwright.remedies.bench import KEY, Bench, identity
 from mechwright.remedies.keys import Key, meant, named
@@ -32,7 +32,8 @@ class Worth(IntEnum):
     HELPS = 1
     """The finding is gone, and no error stands that did not stand before."""
     REVEALS = 2
-    """The finding is gone, and others stand: checks not reached before, or what the change spoils."""
+    """The finding is gone, and others stand: checks not reached before, or what the change spoils. So does a
+    change of the motion's kind, for the sake of what is no matter of the motion."""
     USELESS = 3
     """The finding stays, or the design is refused."""
 
@@ -53,6 +54,8 @@ def worth(bench: Bench, finding: Finding, before: Iterable[Finding], change: Cha
         return Worth.USELESS
     if identity(finding) in {identity(one) for one in found if one.severity is not Severity.NOTE}:
         return Worth.USELESS
+    if finding.stage is not Stage.MOTION and bench.spoils(change):
+        return Worth.REVEALS
     if not left:
         return Worth.BUILDS
     stood = {identity(one) for one in before}
