@@ -9,6 +9,7 @@ import numpy as np
 from mechwright import Array, kept
 from mechwright.mechanics.gearing import RatioLaw, Rolling
 from mechwright.mechanics.peak import peak
+from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.fourier import FourierLaw
 from mechwright_noncircular_gears.laws.pitch import CircleLaw, EllipseLaw, LimaconLaw
 from mechwright_noncircular_gears.laws.slider import SliderLaw
@@ -26,6 +27,12 @@ PITCH_LAWS: dict[str, Callable[[tuple[int, int], float], RatioLaw]] = {
 }
 
 
+FORMULAS: dict[str, Callable[[tuple[int, int], str], RatioFormula | AngleFormula]] = {
+    "ratio": RatioFormula,
+    "angle": AngleFormula,
+}
+
+
 @kept
 def law_of(params: NoncircularParams) -> RatioLaw:
     """The law of a design; whether it can be run, :func:`extremes_of` tells."""
@@ -39,6 +46,8 @@ def law_of(params: NoncircularParams) -> RatioLaw:
     if params.law == "table":
         nodes = params.nodes or ()
         return TableLaw(lobes, tuple((math.radians(one), math.radians(two)) for one, two in nodes))
+    if params.law in FORMULAS:
+        return FORMULAS[params.law](lobes, params.value(params.law))
     if params.law == "slider":
         angles = (math.radians(params.value(name)) for name in ("stroke_start", "stroke_end", "window"))
         return SliderLaw(lobes, params.value("rod_ratio"), *angles)

@@ -4,13 +4,12 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding
+from mechwright_noncircular_gears.formula_checks import LEAST_RATIO, formula_finding
 from mechwright_noncircular_gears.law import law_of, slowest_of
+from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.softer import nearest, said
-
-LEAST_RATIO = 1e-3
-"""Share of the mean ratio below which the driven gear as good as stands."""
 
 
 def law_findings(params: NoncircularParams) -> Iterator[Finding]:
@@ -31,6 +30,11 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
                 f"make blend {most}, or window smaller" if most > 0 else "make window smaller",
                 proposed=({"parameters.blend": most},) if most > 0 else (),
             )
+            return
+    if isinstance(law, RatioFormula | AngleFormula):
+        wrong = formula_finding(params.law, law)
+        if wrong is not None:
+            yield wrong
             return
     if runs(params):
         return

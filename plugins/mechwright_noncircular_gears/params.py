@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
+from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
@@ -28,6 +29,8 @@ LAW_FIELDS = {
     "fourier": ("sines", "cosines"),
     "window": ("window_ratio", "window", "blend"),
     "table": ("nodes",),
+    "ratio": ("ratio",),
+    "angle": ("angle",),
     "slider": ("rod_ratio", "stroke_start", "stroke_end", "window"),
     "ellipse": ("eccentricity",),
     "limacon": ("eccentricity",),
@@ -52,6 +55,7 @@ SLIDER_WINDOW = 150.0
 """Degrees of the driver for the stroke of a slider, where the design names none."""
 
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
+FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
 Turned = Annotated[float, Field(ge=0, le=3600), Unit("deg")]
 
 
@@ -66,12 +70,14 @@ class NoncircularParams(Parameters):
     60
     """
 
-    law: Literal["fourier", "window", "table", "slider", "ellipse", "limacon", "eccentric-circle"] = Field(
+    law: Literal[
+        "fourier", "window", "table", "ratio", "angle", "slider", "ellipse", "limacon", "eccentric-circle"
+    ] = Field(
         "fourier",
         description=(
             "Where the law comes from. fourier: harmonics; window: a window of constant ratio; table: pairs "
-            "of angles; slider: constant speed of a slider-crank behind it; ellipse, limacon, "
-            "eccentric-circle: the pitch curve of the driver."
+            "of angles; ratio, angle: a formula of either; slider: constant speed of a slider-crank behind "
+            "it; ellipse, limacon, eccentric-circle: the pitch curve of the driver."
         ),
         json_schema_extra=FIRST,
     )
@@ -112,6 +118,20 @@ class NoncircularParams(Parameters):
         description=(
             'Pairs [φ, ψ] of both gears over one lobe for law = "table", from [0, 0]; the end of the lobe '
             "follows from the lobes."
+        ),
+    )
+    ratio: FormulaText | None = Field(
+        None,
+        description=(
+            'Formula of phi (rad) for law = "ratio", such as "exp(0.3*cos(phi))"; its shape counts: it is '
+            "multiplied by what closes the turn."
+        ),
+    )
+    angle: FormulaText | None = Field(
+        None,
+        description=(
+            'Formula of phi (rad) for law = "angle", the angle of the driven gear in rad, such as '
+            '"phi + 0.3*sin(phi)".'
         ),
     )
     rod_ratio: Annotated[float, Field(gt=1, le=100), Unit("")] | None = Field(
@@ -243,6 +263,16 @@ class NoncircularParams(Parameters):
             raise ValueError("stroke_end is to be above stroke_start")
         if self.law == "table":
             self._nodes()
+        if self.law in {"ratio", "angle"}:
+            self._formula(getattr(self, self.law))
+
+    def _formula(self, text: str | None) -> None:
+        if text is None:
+            raise ValueError(f'law = "{self.law}" needs {self.law}, a formula of phi')
+        try:
+            Formula(text, "phi")
+        except FormulaError as error:
+            raise ValueError(f"{self.law}: {error}") from None
 
     def _nodes(self) -> None:
         if self.nodes is None:

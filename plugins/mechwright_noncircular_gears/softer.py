@@ -8,6 +8,8 @@ from pydantic import ValidationError
 
 from mechwright import MechwrightError
 from mechwright.contracts.finding import Change
+from mechwright_noncircular_gears.law import law_of
+from mechwright_noncircular_gears.laws.formula import RatioFormula
 from mechwright_noncircular_gears.params import NoncircularParams
 
 _STEPS = 12
@@ -33,6 +35,15 @@ def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
                 (one, round(mean * one + share * (two - mean * one), 4)) for one, two in params.nodes
             )
         }
+    if params.law == "ratio":
+        law = law_of(params)
+        assert isinstance(law, RatioFormula)  # noqa: S101 - of this law
+        mean = params.lobes / params.mate_lobes
+        return {"ratio": f"{(1 - share) * mean:.4g} + {share * law.factor:.4g}*({params.ratio})"}
+    if params.law == "angle":
+        mean = params.lobes / params.mate_lobes
+        turning = "phi" if mean == 1 else f"{params.lobes}/{params.mate_lobes}*phi"
+        return {"angle": f"{turning} + {share:.4g}*({params.angle} - {turning})"}
     if params.law == "slider":
         return None
     return {"eccentricity": _down(share * params.value("eccentricity"))}
@@ -80,6 +91,8 @@ def _plain(value: Any) -> Any:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, str):
+        return f'"{value}"'
     return f"[{', '.join(map(_text, value))}]" if isinstance(value, tuple) else f"{value:g}"
 
 

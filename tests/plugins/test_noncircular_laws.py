@@ -145,6 +145,7 @@ def test_a_corner_is_integrated_wherever_it_lies():
         assert whole.total == pytest.approx(total, rel=1e-14)
 
 
-def test_a_pole_is_refused():
-    with pytest.raises(GeometryError, match="no bound"):
-        Primitive.of(lambda x: 1 / (x - 2.0), math.tau)
+@pytest.mark.parametrize("function", [lambda x: 1 / (x - 2.0), lambda x: np.where(x < 2.0, 1.0, 1.1)])
+def test_a_pole_and_a_jump_are_refused(function):
+    with pytest.raises(GeometryError, match=r"jumps, has no bound"):
+        Primitive.of(function, math.tau)

@@ -30,6 +30,9 @@ _ROUNDING = 1e-13
 _MOST_PANELS = 4096
 """So many need only functions without a bound: one with a corner needs some fifty."""
 
+_NARROWEST = 1e-14
+"""Share of the period: a panel is halved down to it only beside a jump or a pole."""
+
 _NODES = np.cos(np.pi * (np.arange(_TERMS) + 0.5) / _TERMS)
 _TO_TERMS = np.linalg.inv(chebyshev.chebvander(_NODES, _TERMS - 1))
 
@@ -70,7 +73,7 @@ class Primitive:
         Raises
         ------
         GeometryError
-            The function has no bound, or more waves than panels.
+            The function jumps, has no bound, or has more waves than panels.
         """
         inner = sorted({one for one in breaks if 0 < one < period})
         bounds = np.array([0.0, *inner, period])
@@ -85,8 +88,8 @@ class Primitive:
             low, high = low[rough], high[rough]
             middle = (low + high) / 2
             low, high = np.concatenate((low, middle)), np.concatenate((middle, high))
-            if low.size > _MOST_PANELS:
-                raise GeometryError("the law of a pair of gears has no bound, or swings without end")
+            if low.size > _MOST_PANELS or (low.size and (high - low).min() < _NARROWEST * period):
+                raise GeometryError("the law of a pair of gears jumps, has no bound, or swings without end")
         start, half, terms = (np.concatenate(column) for column in zip(*done, strict=True))
         order = np.argsort(start)
         start, half, terms = start[order], half[order], terms[order]

@@ -1,0 +1,131 @@
+"""Whether a formula is a law: finite everywhere, without a corner, and back where it began after a lobe."""
+
+import math
+
+import numpy as np
+
+from mechwright import Array, Finding, GeometryError
+from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
+
+LEAST_RATIO = 1e-3
+"""Share of the mean ratio below which the driven gear as good as stands."""
+
+CLOSED = 1e-9
+"""Share of the mean ratio by which both ends of a lobe may differ: rounding of a formula that closes."""
+
+JUMP = 1e-6
+"""Share of the greatest ratio by which ratio or slope may change within rounding of a place."""
+
+_HALVINGS = 36
+"""From a step of the grid to 1e-13 of a turn."""
+
+GRID = 2881
+"""Places of a lobe at which a formula has to be finite."""
+
+
+def formula_finding(key: str, law: RatioFormula | AngleFormula) -> Finding | None:
+    """What keeps a formula from being a law; None where nothing does."""
+    phi = law.grid(GRID)
+    finite = np.all([np.isfinite(one) for one in law.shape(phi)], axis=0)
+    if not finite.all():
+        at = math.degrees(float(phi[~finite][0]))
+        return Finding.error(
+            "law.formula",
+            key,
+            f"the formula has no value, or no slope, at {at:.1f} degrees of the driver",
+            at,
+            unit="deg",
+            remedy="write one that is smooth over the whole lobe, or give a table",
+        )
+    if isinstance(law, AngleFormula):
+        return _closure(key, law) or _corner(key, law, phi)
+    return _corner(key, law, phi) or _positive(key, law, phi) or _bounded(key, law)
+
+
+def _closure(key: str, law: AngleFormula) -> Finding | None:
+    wanted = math.tau / law.lobes[1]
+    if abs(law.turned - wanted) <= CLOSED * wanted:
+        return None
+    return Finding.error(
+        "law.closure",
+        key,
+        f"over a lobe of the driver, {math.degrees(law.period):g} degrees, the formula turns the driven gear "
+        f"by {math.degrees(law.turned):.6g} degrees, and its lobe has {math.degrees(wanted):g}",
+        math.degrees(law.turned),
+        math.degrees(wanted),
+        "deg",
+        f"add {(wanted - law.turned) / law.period:.6g}*phi to it, or write the law as a ratio, which is "
+        "scaled to close",
+        proposed=({f"parameters.{key}": f"{law.text} + {(wanted - law.turned) / law.period!r}*phi"},),
+    )
+
+
+def _positive(key: str, law: RatioFormula, phi: Array) -> Finding | None:
+    values = law.shape(phi)[0]
+    worst = int(np.argmin(values))
+    least = float(values[worst])
+    if least > 0:
+        return None
+    # The constant with which the least ratio is LEAST_RATIO of the mean one, upwards to four digits.
+    lacking = (LEAST_RATIO * float(values.mean()) - least) / (1 - LEAST_RATIO)
+    step = 10.0 ** (math.floor(math.log10(abs(lacking) or 1.0)) - 3)
+    better = f"{law.text} + {math.ceil(lacking / step + 1) * step:.6g}"
+    return Finding.error(
+        "law.turns-back",
+        key,
+        f"the formula is {least:.4g} at {math.degrees(float(phi[worst])):.1f} degrees of the driver, and a "
+        "ratio is above 0: teeth only push on",
+        least,
+        0.0,
+        remedy=f'the nearest that turns on is {key} = "{better}"',
+        proposed=({f"parameters.{key}": better},),
+    )
+
+
+def _bounded(key: str, law: RatioFormula) -> Finding | None:
+    try:
+        _ = law.factor
+    except GeometryError:
+        return Finding.error(
+            "law.formula",
+            key,
+            "the formula has no bound, or swings too often for teeth",
+            remedy="write one that is smooth over the whole lobe, or give a table",
+        )
+    return None
+
+
+def _corner(key: str, law: RatioFormula | AngleFormula, phi: Array) -> Finding | None:
+    size = np.abs(law.shape(phi)[0]).max()
+    ends = law.shape(np.array([0.0, law.period]))
+    wave = "cos(phi)" if law.lobes[0] == 1 else f"cos({law.lobes[0]}*phi)"
+    period = f"{math.degrees(law.period):g} degrees"
+    for order, what in enumerate(("ratio", "slope of the ratio")):
+        begin, end = ends[order]
+        if abs(end - begin) > CLOSED * size:
+            where = f"is {begin:.9g} where a lobe begins and {end:.9g} where it ends"
+            remedy = f"use terms of period {period}, such as {wave}"
+        else:
+            at, begin, end = _widest_step(law, phi, order)
+            if abs(end - begin) <= JUMP * size:
+                continue
+            where = f"jumps from {begin:.6g} to {end:.6g} at {math.degrees(at):.1f} degrees of the driver"
+            remedy = "write one that is smooth over the whole lobe, or give a table"
+        message = f"the {what} {where}: the pitch curves have a corner there"
+        return Finding.error("law.corner", key, message, end, begin, remedy=remedy)
+    return None
+
+
+def _widest_step(law: RatioFormula | AngleFormula, phi: Array, order: int) -> tuple[float, float, float]:
+    """Where ratio or slope changes most within rounding of a place, and from what to what."""
+    low, high = phi[:-1], phi[1:]
+    before, after = law.shape(low)[order], law.shape(high)[order]
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        value = law.shape(middle)[order]
+        first = ~(np.abs(value - before) < np.abs(after - value))  # what is not finite counts as a step
+        low, before = np.where(first, low, middle), np.where(first, before, value)
+        high, after = np.where(first, middle, high), np.where(first, value, after)
+    step = np.nan_to_num(np.abs(after - before), nan=np.inf)
+    widest = int(np.argmax(step))
+    return float(low[widest]), float(before[widest]), float(after[widest])
