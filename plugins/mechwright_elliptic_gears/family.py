@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -75,6 +76,12 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: EllipticGearParams) -> "Transmission":
+        """A pair: gear 2 in, gear 4 out."""
+        from mechwright_elliptic_gears.stage import PairStage
+
+        return PairStage(params)
 
     def settings(self, params: EllipticGearParams) -> Mapping[str, EllipticGearParams]:
         """The other phases that the joint of gears 3 and 4 is set to."""

@@ -30,8 +30,13 @@ class Period:
 
 def period_of(params: FourBarParams, samples: Samples = PEAK_SAMPLES) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
+    time, drive = course_of(params).period(samples, params.speed * math.tau / 60)
+    return driven_by(params, drive, time)
+
+
+def driven_by(params: FourBarParams, drive: Turning, time: Array) -> Period:
+    """The links for any motion of the crank, at times (n,), s."""
     bar, course = bar_of(params), course_of(params)
-    time, drive = course.period(samples, params.speed * math.tau / 60)
     if bar.lines_up and not course.rocks:
         loop = close_through(bar, drive.theta, course.travel)
     else:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -41,10 +42,10 @@ class Geneva(Family[GenevaParams]):
         return findings(params)
 
     def judge(self, params: GenevaParams) -> Sequence[Finding]:
-        """The same, without the changes of several sizes that would cure it."""
-        from mechwright_geneva.unmended import unmended
+        """The same, without changes of several sizes that would cure it, nor sizes that would bear a load."""
+        from mechwright_geneva.unmended import judged
 
-        return unmended(params)
+        return judged(params)
 
     def solve(self, params: GenevaParams, samples: int) -> "Motion":
         """One turn of the driver, from the first entry."""
@@ -72,6 +73,12 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: GenevaParams) -> "Transmission":
+        """Driver in, wheel out."""
+        from mechwright_geneva.stage import WheelStage
+
+        return WheelStage(params)
 
     def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Roller in its slot, error of the wheel in motion, and the lock."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -75,6 +76,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: SliderCrankParams) -> "Transmission":
+        """Crank in; the slider is no shaft."""
+        from mechwright_slider_crank.stage import SliderStage
+
+        return SliderStage(params)
 
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""

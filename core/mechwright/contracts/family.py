@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.target import Target
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import ToleranceModel
+    from mechwright.contracts.transmission import Transmission
 
 P = TypeVar("P", bound=Parameters)
 
@@ -122,6 +123,19 @@ class Family(Plugin, Generic[P]):
         DesignError
             This design has no shafts that a frame could carry: the key, what is wrong, and what to do, as in
             ``"parameters.bore: gears without a bore have no shafts; set bore = 10"``.
+        """
+        return None
+
+    def transmission(self, params: P) -> "Transmission | None":  # noqa: ARG002 - used by some
+        """The mechanism as a stage of a chain, whose input another stage may turn.
+
+        It is asked of a design whose ``check`` finds no error of the motion. None, the default: mechanisms of
+        this family are no stages, and a chain with one is refused.
+
+        Raises
+        ------
+        DesignError
+            This design is no stage: the key, what is wrong, and what to do.
         """
         return None
 

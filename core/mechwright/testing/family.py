@@ -45,6 +45,7 @@ from mechwright.testing.results import Results
 from mechwright.testing.stretches import StretchTests
 from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
+from mechwright.testing.transmissions import TransmissionTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
 
@@ -52,7 +53,9 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests, StretchTests):
+class FamilyContract(
+    ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests, StretchTests, TransmissionTests
+):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
@@ -80,8 +83,7 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
     derivatives: ClassVar[Sequence[tuple[str, str]]] = ()
     """Channel and the channel of its rate over time, for each rate that the motion gives."""
     input_rate: ClassVar[str] = ""
-    """Channel of the input's own rate over time; empty where the input is the time. Rates of a motion whose
-    input goes there and back are compared over its channel ``time``."""
+    """Channel of the input's own rate over time; empty where it is the time or swings."""
     requirements: ClassVar[Mapping[str, Sequence[Mapping[str, Any]]]] = {}
     """Kind of synthesis to tables ``[requirement]`` that can be met; of a kind not named, its defaults."""
     max_examples: ClassVar[int] = 30
