@@ -1,6 +1,8 @@
 """Sweeps by the command: the folder that they write and go on with, and the example."""
 
+import errno
 import json
+import os
 import re
 import tomllib
 from pathlib import Path
@@ -33,6 +35,28 @@ def test_a_sweep_that_was_stopped_goes_on_to_the_same_bytes(tmp_path):
     other = swept(tmp_path / "one", text="seed = 2")
     assert other.exit_code == 1
     assert "holds the sweep of another study (study)" in str(other.exception)
+
+
+def test_a_full_disk_is_one_line_and_the_sweep_goes_on_from_there(tmp_path, monkeypatch):
+    assert swept(tmp_path / "whole", "--workers", "1").exit_code == 0
+    stored, fsync = [], os.fsync
+
+    def full(number):
+        stored.append(number)
+        if len(stored) == 2:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        fsync(number)
+
+    monkeypatch.setattr(os, "fsync", full)
+    done = swept(tmp_path / "out", "--workers", "1")
+    assert done.exit_code != 0
+    assert str(done.exception).endswith(
+        "part-000001.parquet: cannot be written: No space left on device; what is finished stays, and the same "
+        "command goes on with it"
+    )
+    assert [path.name for path in (tmp_path / "out" / "tables").iterdir()] == ["part-000000.parquet"]
+    assert swept(tmp_path / "out", "--workers", "1").exit_code == 0
+    assert bytes_of(tmp_path / "out") == bytes_of(tmp_path / "whole")
 
 
 def test_a_study_in_which_nothing_is_allowed_says_what_forbids(tmp_path):

@@ -1,14 +1,19 @@
 """Sweeps by several processes or a cluster: tables that are the same whoever makes them."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from by_night import by_night
 from strokes import bytes_of, swept
+
+from mechwright.sweep import workers
+from mechwright.sweep.task import Task
 
 
 @by_night
@@ -78,6 +83,40 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
     said, _ = running.communicate(timeout=240)
     assert running.returncode == 0, said.decode()
     assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
+
+
+@pytest.mark.parametrize("address", ["nonsense://host:8786", "tcp://host:door"])
+def test_what_is_no_address_is_one_line_at_once(tmp_path, address):
+    pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
+    done = swept(tmp_path / "out", "--scheduler", address)
+    assert done.exit_code == 1
+    assert re.fullmatch(
+        rf"--scheduler: {address}: is no address: [^\n]+; give one such as tcp://host:8786",
+        str(done.exception),
+    )
+
+
+class Echo:
+    """A source whose tables are their names."""
+
+    def done(self, task):
+        return task.name.encode()
+
+
+def test_one_pool_does_every_task_once(monkeypatch):
+    """Far more tasks than are given out ahead."""
+    pools = []
+
+    def pool(count, *_):
+        pools.append(ThreadPoolExecutor(count))
+        return pools[-1]
+
+    monkeypatch.setattr(workers, "ProcessPoolExecutor", pool)
+    tasks = [Task(f"part-{number}", number, number) for number in range(100)]
+    done = list(workers.Processes(2).done(Echo(), tasks))
+    assert len(pools) == 1
+    assert sorted(task.first for task, _ in done) == list(range(100))
+    assert all(content == task.name.encode() for task, content in done)
 
 
 @by_night

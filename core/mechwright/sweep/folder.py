@@ -1,5 +1,6 @@
 """The folder of a sweep: each table in one step, so that a sweep that was stopped goes on where it stood."""
 
+import contextlib
 import json
 import os
 from pathlib import Path
@@ -81,8 +82,11 @@ class SweepFolder:
                 os.fsync(file.fileno())
             part.replace(path)
         except OSError as error:
+            with contextlib.suppress(OSError):
+                part.unlink(missing_ok=True)
             raise OutputError(
-                f"{path}: cannot be written: {error.strerror or error}; what is finished stays"
+                f"{path}: cannot be written: {error.strerror or error}; what is finished stays, and the same "
+                "command goes on with it"
             ) from error
 
     def write(self, output: Output) -> None:

@@ -1,6 +1,7 @@
 """Who does the work of a sweep: processes of this machine, or the workers of a Dask cluster."""
 
 import contextlib
+import itertools
 import multiprocessing
 import time
 from collections.abc import Iterator, Sequence
@@ -88,7 +89,7 @@ class Processes:
 
 
 def _some(tasks: Iterator[Task], count: int) -> list[Task]:
-    return [task for task, _ in zip(tasks, range(count), strict=False)] if count > 0 else []
+    return list(itertools.islice(tasks, max(count, 0)))
 
 
 class Cluster:
@@ -144,20 +145,36 @@ class Cluster:
 
     def _connected(self, seconds: float, why: str = "") -> Any:
         distributed = optional("distributed")
+        self._spelled()
         end = time.monotonic() + seconds
         while True:
             try:
                 return distributed.Client(
                     self.address, timeout=max(end - time.monotonic(), 1.0), set_as_default=False
                 )
-            except (OSError, ValueError, TypeError) as error:
-                if time.monotonic() >= end or not isinstance(error, OSError):
+            except OSError as error:
+                if time.monotonic() >= end:
                     said = f"; it had ended: {why}" if why else ""
                     raise PluginError(
                         f"--scheduler: {self.address}: nobody answers within {seconds:g} s{said}; what is "
                         "finished stays"
                     ) from error
                 time.sleep(0.5)
+
+    def _spelled(self) -> None:
+        """Refuse what is no address before a client waits for it."""
+        optional("distributed")
+        from distributed.comm.addressing import parse_address, parse_host_port
+        from distributed.comm.registry import get_backend
+
+        try:
+            scheme, place = parse_address(self.address)
+            get_backend(scheme)
+            parse_host_port(place, 0)
+        except (ValueError, TypeError) as error:
+            raise PluginError(
+                f"--scheduler: {self.address}: is no address: {error}; give one such as tcp://host:8786"
+            ) from error
 
     def _check(self, client: Any, family: str) -> None:
         """Refuse a cluster without workers, or with one whose tables could differ from this process's."""
