@@ -62,6 +62,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
     listing = json.loads(out)
     assert code == 0
     names = [
+        "cam-follower",
         "elliptic-gears",
         "five-bar",
         "four-bar",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Array, Channel, Curve, Motion, Poses, Trace
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import along, turning_channels
 from mechwright_elliptic_gears.clamp import clamp_of
@@ -36,7 +36,7 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import place, point_of_coupler
 
 
-def motion_of(params: EllipticGearParams, samples: int) -> Motion:
+def motion_of(params: EllipticGearParams, samples: Samples) -> Motion:
     """Sample one turn of gear 2 at constant speed, both ends included.
 
     The origin is the axis of the coupler's gear 2 (single pair) or 4 (train), the axis of its mate lies at

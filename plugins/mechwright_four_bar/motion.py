@@ -8,6 +8,7 @@ import numpy as np
 
 from mechwright import Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import (
@@ -24,7 +25,7 @@ from mechwright_four_bar.plates import frames_of, held_by, pivot_of
 from mechwright_four_bar.reach import bar_of, course_of, is_lever, toggles, transmission_of
 
 
-def motion_of(params: FourBarParams, samples: int) -> Motion:
+def motion_of(params: FourBarParams, samples: Samples) -> Motion:
     """Sample one turn of the crank, or one swing there and back, both ends included.
 
     At a change point the linkage goes smoothly on, and a period may be two turns.

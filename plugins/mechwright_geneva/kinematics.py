@@ -26,6 +26,7 @@ axis of symmetry then lies at -θw0. With W = θw0 + θoff:
     (3) n = i V/|V|, V = dC/dθd - i θw' C: atan2 in complex numbers, whole plane, no branches to mix up
     κ = Im(conj(V) A)/|V|³, A = C'' - 2i θw' C' - i θw'' C - θw'² C
     A wall moves with |V| (1 - κ r) on the left and |V| (1 + κ r) on the right.
+    Normal, walls and κ are those of mechwright.mechanics.envelope.
 
 Every array has the design axis first and the sample axis last.
 """
@@ -37,13 +38,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array
+from mechwright.mechanics.envelope import LEFT, RIGHT, Points, left_normal, regularity, touched, way_curvature
 from mechwright.mechanics.laws import Law
 
-Points = NDArray[np.complex128]
-"""Points of the plane, mm."""
-
-LEFT, RIGHT = 1, -1
-"""The walls, as signs of the roller's normal."""
+__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "regime", "stroke"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,27 +140,21 @@ class Stroke:
     @property
     def normal(self) -> Points:
         """The unit normal to the left of the roller's way, fixed axes; 0 where the roller turns back."""
-        speed = self.speed
-        normal: Points = 1j * self.velocity / np.where(speed > 0, speed, np.inf)
-        return normal
+        return left_normal(self.velocity, self.speed)
 
     def wall(self, radius: ArrayLike, side: int) -> Points:
         """The left or right wall of a slot for a roller of this radius, wheel frame."""
-        points: Points = (self.centre + side * np.asarray(radius) * self.normal) * self.to_wheel
+        points: Points = touched(self.centre, self.normal, radius, side) * self.to_wheel
         return points
 
     @property
     def curvature(self) -> Array:
         """κ of the roller's way, 1/mm, positive where it bends to the left."""
-        cross = self.velocity.real * self.acceleration.imag - self.velocity.imag * self.acceleration.real
-        with np.errstate(divide="ignore", invalid="ignore"):
-            value: Array = cross / (self.speed * self.speed * self.speed)
-        return value
+        return way_curvature(self.velocity, self.acceleration, self.speed)
 
     def regularity(self, radius: ArrayLike, side: int) -> Array:
         """1 - κ r on the left, 1 + κ r on the right: the wall turns back where this is below 0."""
-        value: Array = 1 - side * self.curvature * np.asarray(radius)
-        return value
+        return regularity(self.curvature, radius, side)
 
 
 def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:

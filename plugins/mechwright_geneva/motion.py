@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Stage, refuse
 from mechwright.contracts.joint import fixed
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.mechanics.planar.channels import rate_channels
 from mechwright_geneva.contact import contact
@@ -25,7 +25,7 @@ _END = 1e-9
 """Crank angle, rad, by which a sample may be past the end of a stroke and still be at it: rounding."""
 
 
-def motion_of(params: GenevaParams, samples: int) -> Motion:
+def motion_of(params: GenevaParams, samples: Samples) -> Motion:
     """Sample one turn of the driver, both ends included.
 
     Forwards the first stroke begins at θd = 0; backwards at 2 θd0, and θd falls. During dwell rates, forces

@@ -18,7 +18,7 @@ from mechwright import (
     kept,
 )
 from mechwright.contracts.finding import errors
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_noncircular_gears.checks import findings
@@ -39,7 +39,7 @@ def turns_of(params: NoncircularParams) -> int:
     return params.mate_lobes // math.gcd(params.lobes, params.mate_lobes)
 
 
-def motion_of(params: NoncircularParams, samples: int) -> Motion:
+def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
     """Sample the turns of the driver at constant speed, both ends included.
 
     The driver turns about the origin, the driven gear about (a, 0), the other way round.

@@ -1,6 +1,7 @@
 """The family ``slider-crank``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -54,6 +55,13 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: SliderCrankParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_slider_crank.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
         """Base, rails, crank, rod, slider, and the turned parts that join them."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Array, Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import Turning, acceleration_pole
 from mechwright.mechanics.planar.channels import (
@@ -31,7 +32,7 @@ _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 """Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
 
 
-def motion_of(params: SliderCrankParams, samples: int) -> Motion:
+def motion_of(params: SliderCrankParams, samples: Samples) -> Motion:
     """Sample one turn of the crank, or a lever's swing there and back, both ends included.
 
     At its limit, c = a + |e|, the linkage goes smoothly through both assemblies, in two turns of the crank.

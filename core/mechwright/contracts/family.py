@@ -1,7 +1,7 @@
 """The contract of a mechanism family."""
 
 from abc import abstractmethod
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.finding import Finding, Stage
@@ -86,6 +86,21 @@ class Family(Plugin, Generic[P]):
         MechwrightError
             ``check`` has an error of the motion.
         """
+
+    def stretches(self, params: P, samples: int) -> "Iterator[Motion]":
+        """The motion of ``solve``, as many samples after the other as memory is to be spent on.
+
+        Tables of millions of samples are written so. What follows each other are motions of the same bodies
+        and channels, each with the figures of the whole; put together they are the motion of ``solve``. The
+        default asks that for all at once: see :func:`~mechwright.contracts.stretch.in_stretches`, by which
+        most families need no more than two lines.
+
+        Raises
+        ------
+        MechwrightError
+            As ``solve``, when the first of them is asked for, or a later one.
+        """
+        yield self.solve(params, samples)
 
     @abstractmethod
     def parts(self, params: P) -> "Sequence[Part]":

@@ -143,6 +143,13 @@ class Design:
             motion = around.around(motion)
         return motion
 
+    def stretches(self, samples: int) -> "Iterator[Motion]":
+        """The same motion, a stretch after the other: see :meth:`Family.stretches`."""
+        for motion in self.family.stretches(self.params, samples):
+            for around in self.surroundings:
+                motion = around.around(motion)
+            yield motion
+
     def settings(self) -> "dict[str, Design]":
         """What the same machine is set to besides: see :meth:`Family.settings`."""
         others = self.family.settings(self.params)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.motion import travelled
 from mechwright.contracts.parameters import kept
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.contracts.turning import Turning
 from mechwright.mechanics.chain.links import Families, Link, links_of, turns_of
 from mechwright.mechanics.chain.params import ChainParams
@@ -55,7 +55,7 @@ def inputs_of(links: Sequence[Link], first: Turning) -> Iterator[Turning]:
         before = link
 
 
-def run_of(links: tuple[Link, ...], samples: int) -> Run:
+def run_of(links: tuple[Link, ...], samples: Samples) -> Run:
     """One period of a chain, both ends included."""
     own = links[0].transmission
     sense = -1.0 if own.speed < 0 else 1.0

@@ -1,0 +1,1 @@
+"""Disc cams and their followers."""

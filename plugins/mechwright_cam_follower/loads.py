@@ -1,0 +1,113 @@
+"""What presses follower and cam together, and what turns the cam.
+
+Source: R. L. Norton, Design of Machinery, chapter 15 (force-closed followers), without friction and damping.
+Force of a slide, N, and torque of a lever, N·m, at the angle θ of a cam of constant speed ω:
+
+    F = m ω² s'' + F0 + k s + F_load        T = J ω² ψ'' + T0 + k ψ + T_load
+    N = F/cos α                             N = T/(l cos α), l from the lever's axis to the contact
+    torque of the camshaft = F s'           = T ψ'
+
+The follower stays on its cam as long as F is above 0. Of a conjugate pair the first cam carries where it is,
+and the second where it is below.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array, material
+from mechwright.mechanics.laws import Rates
+from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
+from mechwright_cam_follower.geometry import Contact
+from mechwright_cam_follower.params import CamParams
+
+SHARPEST = 1e-3
+"""Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
+
+
+def inertia_at(params: CamParams, rates: Rates) -> Array:
+    """Force or torque that the acceleration asks for, N or N·m."""
+    moved: Array = (
+        (params.value("mass") / 1000 if params.translating else params.value("inertia"))
+        * rates.a
+        * params.omega**2
+    )
+    return moved
+
+
+def spring_of(params: CamParams) -> tuple[float, float, float]:
+    """Preload, rate and load: N, N/mm and N of a slide, N·m, N·m/rad and N·m of a lever."""
+    names = (
+        ("spring_preload", "spring_rate", "load")
+        if params.translating
+        else ("spring_torque", "spring_stiffness", "load_torque")
+    )
+    preload, rate, load = (params.value(name) for name in names)
+    return preload, rate, load
+
+
+def force_at(params: CamParams, rates: Rates) -> Array:
+    """F or T: below 0 a follower with a spring leaves its cam."""
+    preload, rate, load = spring_of(params)
+    force: Array = inertia_at(params, rates) + preload + rate * rates.s + load
+    return force
+
+
+@dataclass(frozen=True)
+class Loads:
+    """At each angle (n,).
+
+    Parameters
+    ----------
+    force
+        Of each contact, N; 0 where it does not carry.
+    pressure
+        Hertz pressure of each, MPa.
+    torque
+        Of the camshaft, N·m, against its turning where above 0.
+    """
+
+    force: tuple[Array, ...]
+    pressure: tuple[Array, ...]
+    torque: Array
+
+
+def loads_at(params: CamParams, rates: Rates, contacts: tuple[Contact, ...]) -> Loads:
+    """Loads of one contact, or of both of a conjugate pair."""
+    whole = force_at(params, rates)
+    scale = 1.0 if params.translating else 1000.0
+    forces = tuple(
+        np.maximum(sign * whole, 0.0) * scale / contact.share
+        for sign, contact in zip((1.0, -1.0), contacts, strict=False)
+    )
+    if len(contacts) == 1:
+        whole = np.maximum(whole, 0.0)
+    torque = whole * rates.v / (1000.0 if params.translating else 1.0)
+    pressures = tuple(map(lambda one, force: _pressure(params, one, force), contacts, forces))
+    return Loads(forces, pressures, torque)
+
+
+def _pressure(params: CamParams, contact: Contact, force: Array) -> Array:
+    cam = material(params.material)
+    if params.contact == "roller":
+        with np.errstate(divide="ignore"):
+            radius = relative_radius(params.value("roller_radius"), contact.radius)
+        mate = material(params.roller_material)
+    else:
+        radius, mate = contact.radius, cam
+    return line_pressure(force, params.thickness, np.maximum(radius, SHARPEST), contact_modulus(cam, mate))
+
+
+def preload_needed(params: CamParams, rates: Rates) -> Array:
+    """Preload at which the force is just 0 here, with the rate as it is."""
+    preload, _, _ = spring_of(params)
+    needed: Array = preload - force_at(params, rates)
+    return needed
+
+
+def rate_needed(params: CamParams, rates: Rates) -> Array:
+    """Rate of the spring at which the force is just 0 here, with the preload as it is; nan at no lift."""
+    _, rate, _ = spring_of(params)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed: Array = np.where(rates.s > 0, rate - force_at(params, rates) / rates.s, np.nan)
+    return needed
