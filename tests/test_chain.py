@@ -292,3 +292,42 @@ def test_change_of_a_place_that_is_not_there_is_refused() -> None:
     """By its number."""
     with pytest.raises(DesignError, match=r"stage\.3\.start: '3' is no place"):
         changed({"stage": [{}, {}]}, {"stage.3.start": 1})
+
+
+@pytest.mark.parametrize(
+    ("field", "limit", "value"),
+    [
+        ("most_ca", 8.4, 8.493266),
+        ("most_acceleration", 200, 5.406981 * math.tau**2),
+        ("most_jerk", 11000, 48.0416 * math.tau**3),
+    ],
+)
+def test_what_is_asked_of_an_output_is_held(field: str, limit: float, value: float) -> None:
+    """A straight wheel of four slots at one turn a second, by its closed forms; a slack limit passes."""
+    geneva = {"law": "straight", "entry_radius": 80, "roller_radius": 4}
+    design = chain(("elliptic-gears", EVEN), ("geneva", geneva, {field: limit}))
+    found = next(one for one in design.check() if one.code == "chain.asked")
+    assert found.parameter == f"stage.2.{field}"
+    assert found.value == pytest.approx(value, rel=1e-4)
+    slack = design.changed({f"stage.2.{field}": value * 1.01})
+    assert not [one for one in slack.check() if one.code == "chain.asked"]
+
+
+def test_a_limit_of_what_a_stage_does_not_have_is_refused() -> None:
+    """A pair of gears makes no moves from rest to rest."""
+    design = chain(("elliptic-gears", EVEN), ("elliptic-gears", EVEN, {"turned": 60, "most_ca": 5}))
+    found = next(one for one in design.check() if one.code == "chain.asked")
+    assert "no such figure" in found.message
+
+
+def test_live_fields_of_a_chain_are_those_of_its_stages() -> None:
+    """By keys that a change takes."""
+    from mechwright_cad.live.fields import fields_of
+
+    design = chain(("elliptic-gears", EVEN), ("geneva", {"slots": 6}))
+    fields = {one["key"]: one for one in fields_of(design)}
+    assert fields["stage.2.parameters.slots"]["value"] == 6
+    assert fields["stage.2.parameters.slots"]["given"]
+    assert not fields["stage.1.parameters.bore"]["given"]
+    again = design.changed({"stage.2.parameters.slots": 5})
+    assert {one["key"]: one for one in fields_of(again)}["stage.2.parameters.slots"]["value"] == 5

@@ -11,6 +11,7 @@ from stills import still
 from tree import ROOT
 
 import mechwright as mw
+from mechwright.mechanics.chain import Chain
 from mechwright_cad.animation import PAGE_SAMPLES, motion_html
 from mechwright_cad.animation.scene import scene
 
@@ -25,8 +26,9 @@ FAMILIES = (
     "five-bar",
     "spherical",
     "plate",
+    Chain.name,
 )
-"""In the order of the menu."""
+"""In the order of the menu; chains come last, whose stages are of any family."""
 WORTH_A_LINK = {
     "poles.html": "poles of acceleration, their loci and circles",
     "construction.html": "the construction with the auxiliary circle",
@@ -40,6 +42,7 @@ def design_files() -> list[Path]:
     found = [
         *EXAMPLES.glob("*.toml"),
         *(EXAMPLES / "motion").glob("*.toml"),
+        *(EXAMPLES / "chains").glob("*.toml"),
     ]
     return sorted(found, key=lambda path: path.name)
 
@@ -63,6 +66,8 @@ class Example:
     @cached_property
     def family(self) -> str:
         """By its name."""
+        if "\n[[stage]]\n" in self.text:
+            return Chain.name
         (name,) = re.findall(r'^family = "(.+)"$', self.text, re.M)
         return str(name)
 
@@ -128,11 +133,21 @@ def drawn(mechanism: mw.Mechanism) -> dict[str, str]:
     return made
 
 
+def about(family: str) -> str:
+    """A link to the page on a family, or on chains."""
+    return "[Chains](../chains.md)" if family == Chain.name else f"Family [{family}](../{family}.md)"
+
+
+def title_of(family: str) -> str:
+    """The heading over the examples of a family."""
+    return Chain.title if family == Chain.name else mw.host().family(family).title
+
+
 def page_of(example: Example, motion: Iterable[str] = (), findings: Iterable[str] = ()) -> str:
     """The page of one example: what it is, how it moves, its file, and what its family finds."""
     rows = [f"# {example.name}", "", example.said, "", *motion]
     rows += [
-        f"Family [{example.family}](../{example.family}.md) · [the file]({example.name}.toml)",
+        f"{about(example.family)} · [the file]({example.name}.toml)",
         "",
         f"    {example.command}",
         "",
@@ -175,7 +190,7 @@ def index(every: list[Example]) -> str:
         "",
     ]
     for family in FAMILIES:
-        title = mw.host().family(family).title
+        title = title_of(family)
         rows += [f"## {title}", "", '<div class="cards" markdown>', ""]
         for one in (one for one in every if one.family == family and not one.required):
             rows += [

@@ -11,6 +11,7 @@ from mechwright.mechanics.gearing import RatioLaw, Rolling
 from mechwright.mechanics.peak import peak
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.fourier import FourierLaw
+from mechwright_noncircular_gears.laws.indexing import IndexLaw
 from mechwright_noncircular_gears.laws.pitch import CircleLaw, EllipseLaw, LimaconLaw
 from mechwright_noncircular_gears.laws.slider import SliderLaw
 from mechwright_noncircular_gears.laws.table import TableLaw
@@ -48,6 +49,9 @@ def law_of(params: NoncircularParams) -> RatioLaw:
         return TableLaw(lobes, tuple((math.radians(one), math.radians(two)) for one, two in nodes))
     if params.law in FORMULAS:
         return FORMULAS[params.law](lobes, params.value(params.law))
+    if params.law == "geneva":
+        width, blend = math.radians(params.value("window")), math.radians(params.value("blend"))
+        return IndexLaw(lobes, params.value("slots"), params.value("ramp"), width, blend)
     if params.law == "slider":
         angles = (math.radians(params.value(name)) for name in ("stroke_start", "stroke_end", "window"))
         return SliderLaw(lobes, params.value("rod_ratio"), *angles)

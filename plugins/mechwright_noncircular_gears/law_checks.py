@@ -61,5 +61,7 @@ def _wider(params: NoncircularParams) -> str:
     return (
         "make the window of the stroke smaller, or the stroke shorter"
         if params.law == "slider"
+        else "make the window of the index wider, or ramp larger"
+        if params.law == "geneva"
         else ("draw the law nearer to a constant ratio")
     )

@@ -25,6 +25,9 @@ MOST_HARMONICS = 16
 LEAST_STEP = 1.0
 """Degrees between the angles of a table: closer ones ask for a ratio that the teeth cannot follow."""
 
+MOST_HALF_TURN = 178.0
+"""Degrees from the middle of an index to the end of its blend: some are left for the constant ratio."""
+
 LAW_FIELDS = {
     "fourier": ("sines", "cosines"),
     "window": ("window_ratio", "window", "blend"),
@@ -32,6 +35,7 @@ LAW_FIELDS = {
     "ratio": ("ratio",),
     "angle": ("angle",),
     "slider": ("rod_ratio", "stroke_start", "stroke_end", "window"),
+    "geneva": ("slots", "ramp", "window", "blend"),
     "ellipse": ("eccentricity",),
     "limacon": ("eccentricity",),
     "eccentric-circle": ("eccentricity",),
@@ -47,12 +51,14 @@ USUAL: dict[str, Any] = {
     "rod_ratio": 4.0,
     "stroke_start": 50.0,
     "stroke_end": 130.0,
+    "slots": 4,
+    "ramp": 0.145,
     "eccentricity": 0.2,
 }
 """Field of a law to its value where it is left out."""
 
-SLIDER_WINDOW = 150.0
-"""Degrees of the driver for the stroke of a slider, where the design names none."""
+USUAL_OF = {("slider", "window"): 150.0, ("geneva", "window"): 180.0, ("geneva", "blend"): 60.0}
+"""Law and field to a value of its own, degrees of the driver, where the design names none."""
 
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
@@ -71,13 +77,23 @@ class NoncircularParams(Parameters):
     """
 
     law: Literal[
-        "fourier", "window", "table", "ratio", "angle", "slider", "ellipse", "limacon", "eccentric-circle"
+        "fourier",
+        "window",
+        "table",
+        "ratio",
+        "angle",
+        "slider",
+        "geneva",
+        "ellipse",
+        "limacon",
+        "eccentric-circle",
     ] = Field(
         "fourier",
         description=(
             "Where the law comes from. fourier: harmonics; window: a window of constant ratio; table: pairs "
             "of angles; ratio, angle: a formula of either; slider: constant speed of a slider-crank behind "
-            "it; ellipse, limacon, eccentric-circle: the pitch curve of the driver."
+            "it; geneva: least acceleration of a straight Geneva wheel behind it; ellipse, limacon, "
+            "eccentric-circle: the pitch curve of the driver."
         ),
         json_schema_extra=FIRST,
     )
@@ -106,12 +122,13 @@ class NoncircularParams(Parameters):
     window: Annotated[float, Field(gt=0, lt=360), Unit("deg")] | None = Field(
         None,
         description=(
-            "Angle of the driver over which ratio or slider speed is constant; left out, 100, of a slider "
-            "150."
+            "Angle of the driver over which ratio or slider speed is constant, or a Geneva wheel goes on by "
+            "a slot; left out, 100, of a slider 150, of a Geneva wheel 180."
         ),
     )
     blend: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
-        None, description="Angle of the driver on each side of the window for the change; left out, 90."
+        None,
+        description="Angle of the driver on each side of the window for the change; left out, 90, geneva 60.",
     )
     nodes: Annotated[tuple[tuple[Turned, Turned], ...], Field(min_length=2, max_length=720)] | None = Field(
         None,
@@ -143,6 +160,16 @@ class NoncircularParams(Parameters):
     )
     stroke_end: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
         None, description="Crank where it ends; left out, 130."
+    )
+    slots: Annotated[int, Field(ge=3, le=24)] | None = Field(
+        None, description='Slots of the straight wheel behind the pair for law = "geneva"; left out, 4.'
+    )
+    ramp: Annotated[float, Field(ge=0.02, le=0.45), Unit("")] | None = Field(
+        None,
+        description=(
+            "Half the share of the index over which the wheel's acceleration changes its sign; the smaller, "
+            "the less acceleration and the sharper the pitch curves; left out, 0.145."
+        ),
     )
     eccentricity: Annotated[float, Field(ge=0, le=0.9), Unit("")] | None = Field(
         None,
@@ -255,10 +282,17 @@ class NoncircularParams(Parameters):
             for name in names:
                 if name not in own and getattr(self, name) is not None:
                     raise ValueError(f'{name} is for law = "{law}"; leave it out, or set that law')
-        if self.law in {"slider", "eccentric-circle"} and self.lobes != 1:
+        if self.law in {"slider", "geneva", "eccentric-circle"} and self.lobes != 1:
             raise ValueError(f'law = "{self.law}" has one lobe on the driver; set lobes = 1')
-        if self.law == "slider" and self.mate_lobes != 1:
-            raise ValueError('law = "slider" turns its crank once a turn; set mate_lobes = 1')
+        if self.law in {"slider", "geneva"} and self.mate_lobes != 1:
+            raise ValueError(f'law = "{self.law}" turns its crank once a turn; set mate_lobes = 1')
+        if self.law == "geneva" and self.value("window") / 2 + self.value("blend") > MOST_HALF_TURN:
+            most = math.floor(MOST_HALF_TURN - self.value("window") / 2)
+            raise ValueError(
+                f"window / 2 and blend take {self.value('window') / 2 + self.value('blend'):g} degrees, "
+                f"at most {MOST_HALF_TURN:g}; make "
+                + (f"blend {most}, or window smaller" if most > 0 else "window smaller")
+            )
         if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
             raise ValueError("stroke_end is to be above stroke_start")
         if self.law == "table":
@@ -304,7 +338,7 @@ class NoncircularParams(Parameters):
             return given
         if name == "sines" and self.cosines is not None:
             return ()
-        return SLIDER_WINDOW if name == "window" and self.law == "slider" else USUAL[name]
+        return USUAL_OF.get((self.law, name), USUAL[name])
 
     @property
     def mate_teeth(self) -> int:

@@ -44,7 +44,7 @@ def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
         mean = params.lobes / params.mate_lobes
         turning = "phi" if mean == 1 else f"{params.lobes}/{params.mate_lobes}*phi"
         return {"angle": f"{turning} + {share:.4g}*({params.angle} - {turning})"}
-    if params.law == "slider":
+    if params.law in {"slider", "geneva"}:
         return None
     return {"eccentricity": _down(share * params.value("eccentricity"))}
 

@@ -14,6 +14,7 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.contracts.table import Table
 from mechwright.errors import DesignError
+from mechwright.mechanics.chain.params import MOST_STAGES, StageTable
 from mechwright.plugins.host import Host
 
 FORMAT = 1
@@ -74,6 +75,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
         }
         for name, table in asked.items()
     ]
+    chains = not requirement and not family
     return {
         "$schema": DIALECT,
         "title": f"mechwright {own if requirement else 'design'}" + (f", {family}" if family else ""),
@@ -91,12 +93,38 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
                 "description": "Of bare lengths and feeds; cutting speeds are in m or feet per minute.",
             },
             own: asked[family] if family else {"type": "object"},
+            **({"stage": _stages(names, cases, defs)} if chains else {}),
             **tables,
         },
-        "required": ["family"],
+        **(
+            {"anyOf": [{"required": ["family"]}, {"required": ["stage"]}]}
+            if chains
+            else {"required": ["family"]}
+        ),
         "additionalProperties": False,
         **({} if family else {"allOf": cases}),
         "$defs": defs,
+    }
+
+
+def _needed(key: str) -> dict[str, Any]:
+    return {"required": [key]}
+
+
+def _stages(names: list[str], cases: list[dict[str, Any]], defs: dict[str, Any]) -> dict[str, Any]:
+    """The tables ``[[stage]]`` of a chain: each by its family, as a design of its own."""
+    fields = placed_schema(StageTable, "stage", defs)["properties"]
+    return {
+        "type": "array",
+        "minItems": 2,
+        "maxItems": MOST_STAGES,
+        "items": {
+            "type": "object",
+            "properties": {**fields, "family": {"enum": names}, "parameters": {"type": "object"}},
+            "required": ["family"],
+            "additionalProperties": False,
+            "allOf": cases,
+        },
     }
 
 

@@ -34,7 +34,9 @@ def study_schema(host: Host, family: str = "") -> dict[str, Any]:
         own[name] |= _each(name, what, _columns(one), defs)
     found["title"] = f"mechwright {TABLE}" + (f", {family}" if family else "")
     found["properties"][TABLE] = asked
-    found["required"] = [*found["required"], TABLE]
+    found["properties"].pop("stage", None)  # of chains there are no studies
+    found.pop("anyOf", None)
+    found["required"] = ["family", TABLE]
     for table in [found["properties"]["parameters"], *_cases(found)]:
         table.pop("required", None)  # what has a range is left out
     return found

@@ -12,6 +12,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.errors import MechwrightError
+from mechwright.mechanics.chain.asked import asked_findings
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import moves_of
 from mechwright.mechanics.chain.links import Families, joining, links_of, staged
@@ -51,6 +52,7 @@ def _findings(params: ChainParams, families: Families, judge: Judge) -> tuple[Fi
     for link, own in zip(links, loaded(params, families), strict=True):
         found += [staged(link.number, link.family, one) for one in judge(link.family, own)]
     found += centre_findings(in_plan(links))
+    found += asked_findings(params, families)
     if not errors(found, Stage.PARTS):
         found += _joined(params, families)
     return (*found, *_notes(params, families))

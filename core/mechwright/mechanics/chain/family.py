@@ -1,6 +1,6 @@
 """A chain as a family: whatever is asked of a mechanism is asked of its stages and put together."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from mechwright.contracts.family import Family
@@ -8,6 +8,10 @@ from mechwright.contracts.finding import Finding
 from mechwright.mechanics.chain.params import ChainParams
 
 if TYPE_CHECKING:
+    import shapely
+
+    from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
 
@@ -50,3 +54,21 @@ class Chain(Family[ChainParams]):
         from mechwright.mechanics.chain.assembly import parts_of
 
         return parts_of(params, self.families)
+
+    def settings(self, params: ChainParams) -> Mapping[str, ChainParams]:
+        """Those of each stage."""
+        from mechwright.mechanics.chain.made import settings_of
+
+        return settings_of(params, self.families)
+
+    def check_cut(self, params: ChainParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
+        """What the family of each stage says of its parts as cut."""
+        from mechwright.mechanics.chain.made import cut_findings
+
+        return tuple(cut_findings(params, self.families, cut))
+
+    def as_made(self, params: ChainParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """What the family of each stage says of it with its parts as made."""
+        from mechwright.mechanics.chain.made import as_made
+
+        return as_made(params, self.families, made)

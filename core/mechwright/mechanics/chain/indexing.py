@@ -50,13 +50,14 @@ class Move:
 
 @kept
 def moves_of(params: ChainParams, families: Families) -> tuple[Move, ...]:
-    """All whole moves within a period of the chain, stage by stage."""
+    """All moves that begin within a period of the chain, stage by stage."""
     return tuple(_moves(params, families))
 
 
 def _moves(params: ChainParams, families: Families) -> Iterator[Move]:
-    links, run = links_of(params, families), finely(params, families)
-    first = run.inputs[0].theta
+    links, one = links_of(params, families), finely(params, families).inputs[0].theta
+    first = np.concatenate((one, one[1:] + (one[-1] - one[0])))  # a move may go on beyond the period
+    run = over(links, first)
     for place, link in enumerate(links):
         own, angle = link.transmission, run.inputs[place].theta
         period = math.tau * float(own.period)
@@ -67,11 +68,13 @@ def _moves(params: ChainParams, families: Families) -> Iterator[Move]:
                 ends = index.begin + k * period, index.end + k * period
                 if ends[0] < low - _NEAR or ends[1] > high + _NEAR:
                     continue
-                yield _move(links, place, index, [_when(links, place, first, one) for one in ends])
+                when = sorted(_when(links, place, first, end) for end in ends)
+                if min(abs(end - one[0]) for end in when) < abs(one[-1] - one[0]) - _NEAR:
+                    yield _move(links, place, index, when)
 
 
 _NEAR = 1e-9
-"""rad. A move at the end of a period is in it."""
+"""rad. A move that begins at the end of a period is that at its beginning."""
 
 
 def _when(links: tuple[Link, ...], place: int, first: Array, goal: float) -> float:

@@ -27,6 +27,15 @@ class StageTable(Parameters):
     gap: Annotated[float, Field(ge=0.1, le=500), Unit("mm")] | None = Field(
         None, description="Air between the planes of the stage before and of this one; left out, 1."
     )
+    most_ca: Annotated[float, Field(gt=4, le=1000), Unit("")] | None = Field(
+        None, description="Greatest Ca = α T²/Δ that its moves from rest to rest may have; no law has 4."
+    )
+    most_acceleration: Annotated[float, Field(gt=0, le=1e9), Unit("rad/s^2")] | None = Field(
+        None, description="Greatest angular acceleration that its output may have."
+    )
+    most_jerk: Annotated[float, Field(gt=0, le=1e12), Unit("rad/s^3")] | None = Field(
+        None, description="Greatest angular jerk that its output may have."
+    )
     parameters: SerializeAsAny[InstanceOf[Parameters]] = Field(description="Of its family.")
 
 

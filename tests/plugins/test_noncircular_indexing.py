@@ -1,0 +1,117 @@
+"""The law that drives a straight Geneva wheel with the least acceleration, against the reference."""
+
+import math
+
+import numpy as np
+import pytest
+from by_night import examples
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from plugins.noncircular import REFERENCE
+
+from mechwright.mechanics.laws import Law
+from mechwright_geneva.straight import StraightSlot
+from mechwright_noncircular_gears.gear import pair_of
+from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.laws.indexing import IndexLaw
+from mechwright_noncircular_gears.params import NoncircularParams
+
+FACTS = {one["name"]: one for one in REFERENCE["facts"]}
+
+PAIRS = {
+    "GP4": {"slots": 4, "ramp": 0.145, "window": 180, "blend": 60},
+    "GP6": {"slots": 6, "ramp": 0.2, "window": 160, "blend": 40},
+}
+
+
+def pair(name: str) -> NoncircularParams:
+    """A pair of the reference."""
+    return NoncircularParams.model_validate({"law": "geneva", "teeth": 60, "module": 2, **PAIRS[name]})
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_law_and_sizes_are_those_of_the_reference(name: str) -> None:
+    """Ratio, its derivatives at the end of the index, the constant beyond, curvature and centre distance."""
+    params = pair(name)
+    law, found = law_of(params), extremes_of(params)
+    assert isinstance(law, IndexLaw)
+    a = pair_of(params).distance
+    half = np.asarray(law.width / 2)
+    end = [float(one) for one in law.rates(half)]
+    values = {
+        "a": a,
+        "i@0": float(law.rates(np.asarray(0.0))[0]),
+        "i@1": float(law.rates(np.asarray(1.0))[0]),
+        "i@2.5": float(law.rates(np.asarray(2.5))[0]),
+        "psi@1": float(law.angle(np.asarray(1.0))),
+        "i_min": found.slowest.value,
+        "i_max": found.fastest.value,
+        "nu_max_deg": math.degrees(found.steepest.value),
+        "a_kappa1_min": found.curvatures[0].value,
+        "a_kappa2_min": found.curvatures[1].value,
+        "i_end": end[0],
+        "di_end": end[1],
+        "d2i_end": end[2],
+        "i_dwell": law.beyond,
+        "wheel_peak_Ca": law.constant,
+    }
+    for key, value in values.items():
+        fact = FACTS[f"chain.{name}.{key}"]
+        assert value == pytest.approx(fact["expected"], abs=fact["tolerance"]), key
+
+
+@settings(max_examples=examples(6, 60), deadline=None)
+@given(
+    slots=st.integers(3, 12),
+    ramp=st.floats(0.05, 0.45),
+    window=st.floats(90, 220),
+    share=st.floats(0.3, 0.95),
+)
+def test_wheel_behind_the_law_is_the_wanted_one(slots: int, ramp: float, window: float, share: float) -> None:
+    """Through the wheel's own closed form: its acceleration is Ca Δ/β² times the clipped ramp everywhere."""
+    law = IndexLaw((1, 1), slots, ramp, math.radians(window), math.radians(share * (178 - window / 2)))
+    wheel: Law = StraightSlot(slots)
+    v = np.linspace(-0.4999, 0.4999, 41)
+    phi = v * law.width
+    i, first, _ = law.rates(phi)
+    crank = math.pi - math.tau / slots  # of a stroke
+    rates = wheel.at(
+        0.5
+        + law.angle(np.where(phi < 0, phi + math.tau, phi)) / crank
+        - np.where(phi < 0, math.tau, 0.0) / crank
+    )
+    way = math.tau / slots
+    found = way * (rates.a * (i / crank) ** 2 + rates.v * first / crank)
+    wanted = -law.constant * way / law.width**2 * np.clip(v / ramp, -1, 1)
+    np.testing.assert_allclose(found, wanted, atol=1e-7 * law.constant * way / law.width**2)
+    assert law.angle(np.asarray(math.tau)) == pytest.approx(math.tau, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_ratio_has_no_jump_up_to_its_second_derivative_but_in_the_ramp(name: str) -> None:
+    """At ends of index and blends, and where the series takes over; derivatives are slopes between."""
+    law = law_of(pair(name))
+    assert isinstance(law, IndexLaw)
+    half = law.width / 2
+    for place in (half, half - 0.05, half + law.blend, math.pi):
+        before, after = (law.rates(np.asarray(place + way)) for way in (-1e-9, 1e-9))
+        for one, two in zip(before, after, strict=True):
+            assert float(one) == pytest.approx(float(two), abs=1e-7)
+    phi, way = np.linspace(-3.0, 3.0, 50) + 0.0123, 1e-5
+    low, here, high = (law.rates(phi + step) for step in (-way, 0.0, way))
+    for order in (0, 1):
+        np.testing.assert_allclose((high[order] - low[order]) / (2 * way), here[order + 1], atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"window": 200, "blend": 90}, "make blend 78"),
+        ({"mate_lobes": 2}, "set mate_lobes = 1"),
+        ({"law": "fourier", "slots": 6}, 'slots is for law = "geneva"'),
+    ],
+)
+def test_fields_that_do_not_go_together_are_refused(fields: dict[str, object], said: str) -> None:
+    """With what to do."""
+    with pytest.raises(ValueError, match=said):
+        NoncircularParams.model_validate({"law": "geneva", **fields})
