@@ -41,7 +41,11 @@ class TestCamFollower(DayContract):
             "screw_circle": 50,
         },
         {**SMALL, "lifts": [8, 8, 0, 0], "laws": ["4-5-6-7"]},
-        {"follower": "oscillating", "laws": ["4-5-6-7"]},
+        {
+            "follower": "oscillating",
+            "laws": ["4-5-6-7", "polynomial"],
+            "polynomial": [0, 0, 0, 0, 35, -84, 70, -20],
+        },
         {"contact": "flat", "laws": ["4-5-6-7"], "turning": "cw"},
         {
             "contact": "flat",
