@@ -27,15 +27,17 @@ import numpy as np
 import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
+import golden_cases
 import golden_compensation
 import golden_operations
 import height_map
 import random_outcomes
 import random_parts
 from block_mutants import PLACES, faults, inserted, kinds, wrong
-from by_control import BY_NAME, prove, read
+from by_control import BY_NAME, CONTROLS, prove, read
+from line_faults import STATES
 from mutant_traces import differences, trace
-from mutants import FAULTS, STATES, Mutant, mutant
+from mutants import FAULTS, Mutant, mutant
 
 from mechwright.contracts.details import Chamfer, Engraving
 from mechwright.errors import ProgramError
@@ -88,8 +90,8 @@ class Verdict:
 def golden() -> tuple[Source, ...]:
     """The kept programs, each of one file."""
     found = []
-    for control in golden_operations.CONTROLS:
-        for operation in golden_operations.CASES:
+    for control in CONTROLS:
+        for operation in golden_cases.CASES:
             for one in golden_operations.made(operation, control):
                 found.append(Source(f"{one.program.name} {control}", control, one.job, one.text))
     for way in golden_compensation.WAYS:
@@ -301,7 +303,7 @@ def block_cases(share: float, seed: int) -> list[tuple[Source, Mutant]]:
     """Every fault of every kind of block of each control, and every state at every kind of place."""
     rng = np.random.default_rng(seed)
     found = []
-    for control in golden_operations.CONTROLS:
+    for control in CONTROLS:
         mine = [source for source in golden() if source.control == control]
         homes: dict[str, list[Source]] = {}
         for source in mine:

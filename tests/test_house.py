@@ -42,6 +42,13 @@ def test_files_are_small():
     assert statistics.median(lines.values()) <= MEDIAN
 
 
+def test_files_beside_the_sources_are_small():
+    beside = [path for folder in ("docs", "examples", "tests") for path in (ROOT / folder).rglob("*.py")]
+    assert len(beside) > 300
+    lines = {str(path): len(path.read_text(encoding="utf-8").splitlines()) for path in beside}
+    assert {name: count for name, count in lines.items() if count > LONGEST} == {}
+
+
 def test_the_wheel_holds_every_file_of_the_sources():
     # A packager leaves out what .gitignore names, and so would git.
     packed = {file.path for file in WheelBuilder(str(ROOT)).recurse_included_files()}

@@ -48,7 +48,9 @@ if TYPE_CHECKING:
     from mechwright.contracts.target import Target, point_targets
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
+    from mechwright.contracts.transmission import Index, Port, Transmission
     from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
+    from mechwright.contracts.turning import Turning
     from mechwright.designs.design import Design
     from mechwright.errors import (
         DesignError,
@@ -103,6 +105,8 @@ _HOMES = {
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
     "mechwright.contracts.turned": "Groove KeySeat Step Turned",
+    "mechwright.contracts.transmission": "Index Port Transmission",
+    "mechwright.contracts.turning": "Turning",
     "mechwright.designs.design": "Design",
     "mechwright.errors": (
         "DesignError GeometryError KinematicsError MechwrightError OutputError PluginError ProgramError "
@@ -156,6 +160,7 @@ __all__ += [
     "until_error",
 ]
 __all__ += ["Batch", "Columns"]
+__all__ += ["Index", "Port", "Transmission", "Turning"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis", "Target", "point_targets"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]

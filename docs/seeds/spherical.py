@@ -13,12 +13,11 @@ from pathlib import Path
 import numpy as np
 import spherical_machine
 from planar_machine import EXAMPLE, reached
-from spherical_figures import figure_lines, pictures
+from spherical_figures import MOVING, figure_lines, pictures
 from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
 from mechwright.arrays import Array
 from mechwright.designs.design import load
-from mechwright.output.svg import path as polyline
 from mechwright.plugins.host import host
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
@@ -39,22 +38,19 @@ from mechwright_spherical.vectors import arc
 
 HERE = Path(__file__).parent
 PAGE = HERE / "spherical.md"
-PICTURE = HERE.parent / "images" / "spherical-structural-error.svg"
+IMAGES = HERE.parent / "images"
 
 ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
 TABLE_2 = np.array(printed.TABLE_2)
 DESIGN = PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, TABLE_2)
 
 PICTURES = pictures(DESIGN)
-"""Figures of the source, by file name."""
+"""By file name: figures of the source, and the structural error of all positions."""
 
 LENGTHS = (0.5, 0.75, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 22)
 """Projection lengths of the table: those of the source's axis."""
 
 TOLERANCES = (0.02, 0.01, 0.005, 0.002, 0.001)
-MOVING = (2, 3, 4, 6, 7)
-"""Positions with an error; 1 and 5 are met by construction."""
-
 EXACT = 1e-12
 """Errors below this are rounding, and differ from machine to machine."""
 
@@ -397,48 +393,7 @@ def page() -> str:
     return "\n".join([*lines, ERRATA])
 
 
-WIDTH, HEIGHT = 150.0, 80.0
-"""Size of the picture's axes, mm."""
-
-
-def picture() -> str:
-    """Figure 12 with all positions: error times d over d."""
-    lengths = np.linspace(0.05, 22, 440)
-    values = structural_errors(DESIGN, lengths) * lengths[:, None]
-    sx, sy = WIDTH / 22, HEIGHT / 0.12
-    drawn = []
-    for x in range(0, 23, 2):
-        drawn.append(f'<path d="{polyline([(x * sx, 0), (x * sx, HEIGHT)])}" class="grid"/>')
-        drawn.append(f'<text x="{x * sx:.2f}" y="5" text-anchor="middle">{x}</text>')
-    for step in range(7):
-        y = 0.02 * step
-        drawn.append(f'<path d="{polyline([(0, y * sy), (WIDTH, y * sy)])}" class="grid"/>')
-        drawn.append(f'<text x="-2" y="{1.2 - y * sy:.2f}" text-anchor="end">{y:.2f}</text>')
-    for n, colour in zip(MOVING, ("#7a8794", "#1b6e3c", "#b3261e", "#8a5a00", "#2456a6"), strict=True):
-        line = polyline(zip(lengths * sx, values[:, n - 1] * sy, strict=True))
-        width = 0.9 if n in (4, 7) else 0.5
-        drawn.append(f'<path d="{line}" fill="none" stroke="{colour}" stroke-width="{width}"/>')
-        x, y = 0.7 * WIDTH, HEIGHT - 8 - 6 * MOVING.index(n)
-        drawn.append(f'<path d="{polyline([(x, y), (x + 8, y)])}" stroke="{colour}" stroke-width="{width}"/>')
-        drawn.append(f'<text x="{x + 10:g}" y="{1.2 - y:g}">position {n}</text>')
-    box = f"-16 {-HEIGHT - 4:g} {WIDTH + 22:g} {HEIGHT + 18:g}"
-    side = f"translate(-12,{-HEIGHT / 2:g}) rotate(-90)"
-    return "\n".join(
-        [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" '
-            'width="760" font-family="sans-serif" font-size="3.6">',
-            "<title>Structural error times the projection length, for every position</title>",
-            "<style>.grid{stroke:#c8d0d8;stroke-width:.2;fill:none}</style>",
-            *drawn,
-            f'<text x="{WIDTH / 2:g}" y="11" text-anchor="middle">projection length d</text>',
-            f'<text transform="{side}" text-anchor="middle">error × d</text>',
-            "</svg>\n",
-        ]
-    )
-
-
 if __name__ == "__main__":
     PAGE.write_text(page(), encoding="utf-8")
-    PICTURE.write_text(picture(), encoding="utf-8")
     for name, draw in PICTURES.items():
-        (PICTURE.parent / name).write_text(draw(), encoding="utf-8")
+        (IMAGES / name).write_text(draw(), encoding="utf-8")

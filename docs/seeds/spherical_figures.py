@@ -18,7 +18,10 @@ from mechwright_spherical.structural import PlanarDesign, errors
 
 ROOT = Path(__file__).parents[2]
 PLANE = PlaneSpace(0j)
-COLOURS = ("#2456a6", "#b3261e", "#1b6e3c", "#8a5a00")
+MOVING = (2, 3, 4, 6, 7)
+"""Positions with an error; 1 and 5 are met by construction."""
+
+COLOURS = ("#2456a6", "#b3261e", "#1b6e3c", "#8a5a00", "#7a8794")
 """Of phases, and of positions."""
 
 CHOSEN = 5.0
@@ -118,7 +121,7 @@ def section() -> str:
 
 
 def chart(design: PlanarDesign, positions: Sequence[int], top: float) -> str:
-    """Error times d over d for all positions of a phase, with a mark at the chosen length."""
+    """Error times d over d for some positions, with a mark at the chosen length."""
     lengths = np.linspace(0.05, LONGEST, 440)
     values = errors(design, lengths) * lengths[:, None]
     chosen = errors(design, CHOSEN) * CHOSEN
@@ -173,6 +176,7 @@ def pictures(design: PlanarDesign) -> dict[str, Callable[[], str]]:
         "spherical-figure-11.svg": lambda: chart(design, (2, 3, 4), 0.12),
         "spherical-figure-12.svg": lambda: chart(design, (6, 7), 0.042),
         "spherical-figure-13.svg": figure,
+        "spherical-structural-error.svg": lambda: chart(design, MOVING, 0.12),
     }
 
 

@@ -1,6 +1,7 @@
 """The family ``cam-follower``."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -31,6 +32,13 @@ class CamFollower(Family[CamParams]):
         from mechwright_cam_follower.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: CamParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_cam_follower.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: CamParams) -> "Sequence[Part]":
         """Cams, follower, rollers, rails."""

@@ -19,7 +19,7 @@ from mechwright import (
     kept,
 )
 from mechwright.contracts.finding import errors
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.envelope import Points
 from mechwright.mechanics.laws import Rates
 from mechwright.mechanics.planar import Turning
@@ -42,7 +42,7 @@ _DRAWN = 721
 """Points of a pitch curve that is drawn: each half degree."""
 
 
-def motion_of(params: CamParams, samples: int) -> Motion:
+def motion_of(params: CamParams, samples: Samples) -> Motion:
     """Sample a turn, both ends included.
 
     Raises
@@ -53,7 +53,7 @@ def motion_of(params: CamParams, samples: int) -> Motion:
     for finding in errors(closure_findings(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     theta = travelled(math.tau, samples)
-    rates, omega, zero = cycle_of(params).at(theta), params.omega, np.zeros(samples)
+    rates, omega, zero = cycle_of(params).at(theta), params.omega, np.zeros_like(theta)
     cam = Turning(params.sense * theta, zero + params.sense * omega, zero, zero)
     contacts = contacts_at(params, rates)
     channels = {"time": Channel(theta / omega, "s", "time"), **turning_channels(cam, "theta", "1", "the cam")}

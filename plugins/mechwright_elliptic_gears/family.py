@@ -1,6 +1,7 @@
 """The family ``elliptic-gears``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -54,6 +56,13 @@ class EllipticGears(Family[EllipticGearParams]):
 
         return motion_of(params, samples)
 
+    def stretches(self, params: EllipticGearParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_elliptic_gears.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
+
     def parts(self, params: EllipticGearParams) -> "Sequence[Part]":
         """The gears, and of a train all that carries and joins them."""
         from mechwright_elliptic_gears.checks import findings
@@ -67,6 +76,12 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: EllipticGearParams) -> "Transmission":
+        """A pair: gear 2 in, gear 4 out."""
+        from mechwright_elliptic_gears.stage import PairStage
+
+        return PairStage(params)
 
     def settings(self, params: EllipticGearParams) -> Mapping[str, EllipticGearParams]:
         """The other phases that the joint of gears 3 and 4 is set to."""

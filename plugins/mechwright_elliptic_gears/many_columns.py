@@ -10,7 +10,7 @@ from scipy.special import ellipe
 from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.evaluation import SAMPLES, told
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import travelled
 from mechwright_elliptic_gears.kinematics import Turning, alpha_peak, jerk_peak
 from mechwright_elliptic_gears.motion import pair_channels
 from mechwright_elliptic_gears.point import place

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Array, Channel, Curve, Motion, Poses, Trace
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import along, turning_channels
 from mechwright_elliptic_gears.clamp import clamp_of
@@ -36,18 +36,23 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import place, point_of_coupler
 
 
-def motion_of(params: EllipticGearParams, samples: int) -> Motion:
+def motion_of(params: EllipticGearParams, samples: Samples) -> Motion:
     """Sample one turn of gear 2 at constant speed, both ends included.
 
     The origin is the axis of the coupler's gear 2 (single pair) or 4 (train), the axis of its mate lies at
     2a on x; gear 2 of a train turns about (-2a, 0).
     """
-    a, e = ellipse_of(params).semi_major, params.eccentricity
     omega = params.speed * math.tau / 60
     theta2 = travelled(math.tau, samples)
+    return driven_by(params, Turning.of(theta2, omega), theta2 / omega)
+
+
+def driven_by(params: EllipticGearParams, gear2: Turning, time: Array) -> Motion:
+    """The motion for any motion of gear 2, at times (n,), s; coordinates as :func:`motion_of` says."""
+    a, e = ellipse_of(params).semi_major, params.eccentricity
     phase, c = params.phase_angle, place(params.point_along, params.point_across, a)
-    turning = _turning(theta2, e, omega, phase)
-    channels = _channels(turning, a, e, omega, math.radians(params.pressure_angle), c)
+    turning = _turning(gear2, e, phase)
+    channels = _channels(turning, a, e, time, math.radians(params.pressure_angle), c)
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
     around = np.linspace(0, math.tau, _PITCH_SAMPLES)
@@ -61,9 +66,8 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves)
 
 
-def _turning(theta2: Array, e: Any, omega: Any, phase: float | None) -> dict[str, Turning]:
+def _turning(gear2: Turning, e: Any, phase: float | None) -> dict[str, Turning]:
     """The gears by their numbers, and the coupler last; many pairs are columns (m, 1)."""
-    gear2 = Turning.of(theta2, omega)
     if phase is None:
         gear4 = driven(gear2, e)
         return {"2": gear2, "4": gear4, "3": coupler(gear2, gear4)}
@@ -73,19 +77,21 @@ def _turning(theta2: Array, e: Any, omega: Any, phase: float | None) -> dict[str
 
 def pair_channels(theta2: Array, a: Any, e: Any, omega: Any, alpha: Any, c: Any) -> dict[str, Channel]:
     """The channels of pairs at angles (n,) of gear 2; all else are columns (m, 1), angles in rad."""
-    return _channels(_turning(theta2, e, omega, None), a, e, omega, alpha, c)
+    return _channels(_turning(Turning.of(theta2, omega), e, None), a, e, theta2 / omega, alpha, c)
 
 
 def _channels(
-    turning: Mapping[str, Turning], a: Any, e: Any, omega: Any, alpha: Any, c: Any
+    turning: Mapping[str, Turning], a: Any, e: Any, time: Any, alpha: Any, c: Any
 ) -> dict[str, Channel]:
     *_, link = turning
     pair, gear2 = link == "3", turning["2"]
     first, second = (gear2, turning["4"]) if pair else (turning["4"], turning["5"])
     q = point_of_coupler(first, second, a, e, c)
-    channels = {"time": Channel(gear2.theta / omega, "s", "time")}
+    channels = {"time": Channel(time, "s", "time")}
     for number, one in turning.items():
         channels |= turning_channels(one, f"theta{number}", number, _called(number, link))
+    # A gear that stands, as behind a Geneva wheel, has no ratio of speeds: 0.
+    omega = np.where(gear2.omega == 0, np.inf, gear2.omega)
     channels["ratio"] = Channel(second.omega / omega, "", "ratio of the speeds")
     if pair:
         s2, s4 = pitch_radii(gear2, a, e)

@@ -29,7 +29,7 @@ from mechwright_five_bar.reach import (
     ways_about,
     within,
 )
-from mechwright_five_bar.strength_checks import teeth_bear
+from mechwright_five_bar.strength_checks import teeth_bear, teeth_judged
 from mechwright_five_bar.train import train_of
 
 GOOD_TRANSMISSION = 40.0
@@ -51,10 +51,20 @@ def findings(params: FiveBarParams) -> tuple[Finding, ...]:
 
     No error among it means that the parts can be built.
     """
+    return until_error(params, _sound, teeth_bear, clamps_hold)
+
+
+@kept
+def judged(params: FiveBarParams) -> tuple[Finding, ...]:
+    """The same without the sizes that would bear a load."""
+    return until_error(params, _sound, teeth_judged, clamps_hold)
+
+
+@kept
+def _sound(params: FiveBarParams) -> tuple[Finding, ...]:
     return until_error(
-        params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures, _bearings,
-        teeth_bear, clamps_hold,
-    )  # fmt: skip
+        params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures, _bearings
+    )
 
 
 def _joined(params: FiveBarParams) -> Iterator[Finding]:

@@ -1,6 +1,7 @@
 """The family ``five-bar``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -36,13 +37,14 @@ class FiveBars(Family[FiveBarParams]):
     def check(self, params: FiveBarParams) -> Sequence[Finding]:
         """Closure, transmission angle, gears, room for holes and slots, layers, clamps, order of setting."""
         from mechwright_five_bar.checks import findings
-        from mechwright_five_bar.clamp_checks import setting_findings
-        from mechwright_five_bar.phases import in_phase
 
-        own = tuple(setting_findings(params))
-        if errors(own):
-            return own
-        return (*findings(in_phase(params)), *own)
+        return _with_settings(params, findings)
+
+    def judge(self, params: FiveBarParams) -> Sequence[Finding]:
+        """The same without the sizes that would bear a load."""
+        from mechwright_five_bar.checks import judged
+
+        return _with_settings(params, judged)
 
     def solve(self, params: FiveBarParams, samples: int) -> "Motion":
         """The turns of the crank that bring the linkage back, or its swing there and back."""
@@ -50,6 +52,14 @@ class FiveBars(Family[FiveBarParams]):
         from mechwright_five_bar.phases import in_phase
 
         return motion_of(in_phase(params), samples)
+
+    def stretches(self, params: FiveBarParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_five_bar.motion import motion_of
+        from mechwright_five_bar.phases import in_phase
+
+        return in_stretches(partial(motion_of, in_phase(params)), samples)
 
     def parts(self, params: FiveBarParams) -> "Sequence[Part]":
         """Ground, gears and links as plates, their shafts, pins, studs, bushings, clamps and posts."""
@@ -105,3 +115,14 @@ class FiveBars(Family[FiveBarParams]):
         from mechwright_five_bar.adjustable_synthesis import through_phases
 
         return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)
+
+
+def _with_settings(
+    params: FiveBarParams, findings: Callable[[FiveBarParams], Sequence[Finding]]
+) -> Sequence[Finding]:
+    """What is found of a design, unless it cannot be set to its phases."""
+    from mechwright_five_bar.clamp_checks import setting_findings
+    from mechwright_five_bar.phases import in_phase
+
+    own = tuple(setting_findings(params))
+    return own if errors(own) else (*findings(in_phase(params)), *own)

@@ -15,13 +15,14 @@ from mechwright_five_bar.phases import set_joints
 from mechwright_five_bar.train import train_of
 
 
-@kept
 def layout_of(params: FiveBarParams) -> Layout:
     """Plates and layers of a design that shows its first phase; raises as :func:`laid_out`."""
-    return laid_out(params)
+    return _kept_layout(params.unloaded)
 
 
-@kept
+_kept_layout = kept(laid_out)
+
+
 def layout_or_none(params: FiveBarParams) -> Layout | None:
     """As :func:`layout_of`; None where there is none."""
     from mechwright import GeometryError, KinematicsError

@@ -1,5 +1,6 @@
 """Masses of the links from their real parts, the forces in the joints, and the torques of the gears."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,12 +22,16 @@ MILLI, MICRO = 1e-3, 1e-6
 MOVING = ("crank", "coupler", "rocker", "arm", "idler")
 
 
-@kept
-def masses_of(params: FiveBarParams) -> dict[str, Mass]:
+def masses_of(params: FiveBarParams) -> Mapping[str, Mass]:
     """Mass of each moving body with what is fixed to it, in its own frame, wheel and clamp on the arm.
 
     Screws and washers are left out.
     """
+    return _masses(params.unloaded)
+
+
+@kept
+def _masses(params: FiveBarParams) -> Mapping[str, Mass]:
     found: dict[str, list[Mass | None]] = {name: [] for name in MOVING}
     places = fixed_frames(params)
     turn = _wheel_turn(params)
@@ -78,7 +83,7 @@ class Carried:
 
 
 def carried_of(
-    params: FiveBarParams, bar: FiveBar, loop: Loop, bodies: dict[str, BodyMotion], masses: dict[str, Mass]
+    params: FiveBarParams, bar: FiveBar, loop: Loop, bodies: dict[str, BodyMotion], masses: Mapping[str, Mass]
 ) -> Carried:
     """Forces and torques of a motion.
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar.channels import point_channels, rate_channels, turning_channels
 from mechwright_five_bar.checks import findings
 from mechwright_five_bar.frames import frames_of, held_by, pivot_of
@@ -16,7 +17,7 @@ from mechwright_five_bar.peaks import JOINTS, carried, peaks_of, period_of, rate
 from mechwright_five_bar.reach import bar_of, course_of, is_lever, transmission_of
 
 
-def motion_of(params: FiveBarParams, samples: int) -> Motion:
+def motion_of(params: FiveBarParams, samples: Samples) -> Motion:
     """Sample the turns of the crank that bring the linkage back, or one swing there and back, ends included.
 
     Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.

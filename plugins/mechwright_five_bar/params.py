@@ -168,6 +168,11 @@ class FiveBarParams(Parameters):
         return complex(self.coupler_point_x, self.coupler_point_y)
 
     @property
+    def unloaded(self) -> "FiveBarParams":
+        """The same machine, whatever it carries and however fast: what shapes and masses follow from."""
+        return self.model_copy(update={"load_x": 0.0, "load_y": 0.0, "speed": 1.0})
+
+    @property
     def ratio(self) -> float:
         """Turns of the arm per turn of the crank: below 0 without an idler."""
         return (1 if self.idler_teeth else -1) * self.crank_teeth / self.arm_teeth

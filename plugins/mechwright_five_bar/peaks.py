@@ -1,11 +1,13 @@
 """One period of a design, and the peaks of its channels."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Scalar
+from mechwright import Array, Scalar, kept
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_five_bar.loop import Loop, close
 from mechwright_five_bar.masses import MILLI, Carried, carried_of, masses_of, wheel_force
@@ -28,7 +30,7 @@ class Period:
     bodies: dict[str, BodyMotion]
 
 
-def period_of(params: FiveBarParams, samples: int | None = None) -> Period:
+def period_of(params: FiveBarParams, samples: Samples | None = None) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
     bar, course = bar_of(params), course_of(params)
     if samples is None:
@@ -43,11 +45,25 @@ def carried(params: FiveBarParams, period: Period) -> Carried:
     return carried_of(params, bar_of(params), period.loop, period.bodies, masses_of(params))
 
 
-def peaks_of(params: FiveBarParams) -> dict[str, Scalar]:
+@dataclass(frozen=True)
+class Loads:
+    """The largest sizes over a period, and whether the torque on the arm ``reverses`` its sign."""
+
+    peaks: Mapping[str, Scalar]
+    reverses: bool
+
+
+def peaks_of(params: FiveBarParams) -> Mapping[str, Scalar]:
     """Largest sizes over a period of rates, joint forces and torques."""
+    return loads_of(params).peaks
+
+
+@kept
+def loads_of(params: FiveBarParams) -> Loads:
+    """Forces of a period as far as checks ask for them; the parts can be made."""
     period = period_of(params)
     found = carried(params, period)
-    return {
+    peaks = {
         **rate_peaks(period.bodies),
         "drive_torque": most(found.drive, "N*m"),
         "arm_torque": most(found.arm_torque, "N*m"),
@@ -55,6 +71,7 @@ def peaks_of(params: FiveBarParams) -> dict[str, Scalar]:
         "shaking_force": most(np.abs(found.forces.shaking) * MILLI, "N"),
         **{f"force_{name}": most(found.joint(name), "N") for name in JOINTS},
     }
+    return Loads(peaks, float(found.arm_torque.min()) < 0 < float(found.arm_torque.max()))
 
 
 def rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:

@@ -76,6 +76,8 @@ def _halved(function: Callable[[Array], Array], low: Array, high: Array, halving
     sign = function(low) > 0
     for _ in range(halvings):
         middle = (low + high) / 2
+        if not np.any((low < middle) & (middle < high)):
+            break  # down to rounding: what follows changes nothing
         same = (function(middle) > 0) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return np.asarray((low + high) / 2)

@@ -6,19 +6,28 @@ from mechwright import Finding, GeometryError, Stage, kept, of_stage
 from mechwright.mechanics.strength.allowed import REVERSING_ROOT, ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.judging import Stress, Way, judged
 from mechwright.mechanics.strength.tooth_bending import root_stress
-from mechwright_five_bar.masses import wheel_force
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import carried, period_of
+from mechwright_five_bar.peaks import loads_of
 from mechwright_five_bar.train import train_of
 
 
 @of_stage(Stage.PARTS)
 def teeth_bear(params: FiveBarParams) -> Iterator[Finding]:
     """Bending at the roots of the teeth, over a period with load and inertia."""
+    yield from _teeth(params, advise=True)
+
+
+@of_stage(Stage.PARTS)
+def teeth_judged(params: FiveBarParams) -> Iterator[Finding]:
+    """The same without what would bear more."""
+    yield from _teeth(params, advise=False)
+
+
+def _teeth(params: FiveBarParams, *, advise: bool) -> Iterator[Finding]:
     ways = [Way("gear_thickness", params.gear_thickness), Way("speed", params.speed, up=False)]
     if params.module is not None:
         ways.insert(1, Way("module", params.module))
-    yield from judged("five-bar.root", params, root_stresses, ways)
+    yield from judged("five-bar.root", params, root_stresses, ways, advise=advise)
 
 
 @kept
@@ -32,14 +41,13 @@ def root_stresses(params: FiveBarParams) -> tuple[Stress, ...]:
         train = train_of(params)
     except GeometryError:
         return ()
-    torque = carried(params, period_of(params)).arm_torque
-    force = float(wheel_force(params, torque).max())
-    turns_over = float(torque.min()) < 0 < float(torque.max())
+    loads = loads_of(params)
+    force = loads.peaks["tooth_force"].value
     bears = allowed(params.material).root
     found = []
     for name, teeth in train.teeth.items():
         value = float(root_stress(force, params.gear_thickness, train.module, float(teeth)))
-        limit = bears * (REVERSING_ROOT if turns_over or name == "idler" else 1.0)
+        limit = bears * (REVERSING_ROOT if loads.reverses or name == "idler" else 1.0)
         what = f"teeth of the {name} are bent at their roots by {force:.4g} N with"
         found.append(Stress(what, value, limit, ROOT_SAFETY * bears))
     return tuple(found)

@@ -19,10 +19,10 @@ from mechwright_four_bar.bounds import bears
 from mechwright_four_bar.checks import LEAST_ROOM, LEAST_TRANSMISSION
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.period import Period, give_extremes
-from mechwright_four_bar.reach import TURN_BACK, reach_cosines
 from mechwright_four_bar.sizes import OF_BORE, bore_about
+from mechwright_four_bar.swings import courses, toggles, transmission
 
-_APART = {"phases", "phase", "setting_angle", "swing_from", "swing_to", "coupler_bend", "frame"}
+_APART = {"phases", "phase", "setting_angle", "coupler_bend", "frame"}
 """What is not varied here."""
 
 _TOGGLE = 1e-2
@@ -32,7 +32,7 @@ _TOGGLE = 1e-2
 def covered(designs: Designs) -> bool:
     """Whether these are plain four-bars whose frame may have two plates."""
     one = designs.common
-    plain = one.swing_from is None and not one.phases and one.coupler_bend == 0
+    plain = not one.phases and one.coupler_bend == 0
     return plain and one.frame != "one" and not _APART & set(designs.varied)
 
 
@@ -44,49 +44,14 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     sizes: list[Any] = [designs.full(name) for name in ("crank", "coupler", "follower", "ground")]
     sizes += [np.radians(designs.full("ground_angle")), np.where(designs.full("branch") == "open", 1, -1)]
     bar = FourBar(*sizes)
-    course, least, greatest = _motion(found, designs, bar)
+    course = courses(found, designs, bar)
+    least, greatest = transmission(bar, course)
     if stage is not Stage.MOTION:
         _parts(found, designs, bar, course, least)
     found.doubt(least < _TOGGLE)
     _figures(found, columns, bar, course, least, greatest)
     give_extremes(found, columns, designs, bar, course)
     return found
-
-
-def _motion(found: Answer, designs: Designs, bar: FourBar) -> tuple[Period, Array, Array]:
-    """Errors of the motion, the period, and least and greatest transmission angle, rad."""
-    ratio, rocks = designs.full("acceleration_ratio"), np.asarray(bar.rocks)
-    near, far = map(np.asarray, reach_cosines(bar, TURN_BACK))
-    found.forbid("four-bar.closure", ~np.asarray(bar.closes))
-    found.forbid("four-bar.rotation", rocks & ((near <= -1) | (far >= 1) | (far >= near)))
-    found.doubt(rocks & (near >= 1) & (far <= -1))  # at the edge of what turns, by rounding alone
-    found.forbid("four-bar.acceleration", rocks & (ratio != 0))
-    found.doubt(np.asarray(bar.lines_up))
-    low, high = np.arccos(np.minimum(near, 1.0)), np.arccos(np.maximum(far, -1.0))
-    one = np.where(near >= 1, -high, low)
-    two = np.where(near < 1, np.where(far <= -1, math.tau - low, high), high)
-    sense = np.where(designs.full("direction") == "ccw", 1.0, -1.0)
-    begin, end = (
-        np.where(sense > 0, one, two) + bar.ground_angle,
-        np.where(sense > 0, two, one) + bar.ground_angle,
-    )
-    course = Period(
-        np.where(rocks, begin, 0.0),
-        np.where(rocks, end - begin, sense * math.tau),
-        rocks,
-        ratio,
-        designs.full("speed") * math.tau / 60,
-    )
-    a, f = bar.crank, bar.ground
-    ends: list[Any] = [np.where(rocks, x - bar.ground_angle, 0.0) for x in (begin, end)]
-    cosines: list[Any] = [bar.cosine_over(a * a + f * f - 2 * a * f * np.cos(x)) for x in ends]
-    straight = [np.asarray(bar.cosine_over((f - a) ** 2)), np.asarray(bar.cosine_over((f + a) ** 2))]
-    passed = [~rocks | (near >= 1), ~rocks | ((near < 1) & (far <= -1))]
-    cosines += [np.where(some, value, cosines[0]) for some, value in zip(passed, straight, strict=True)]
-    angles = [np.arccos(np.minimum(1.0, np.abs(value))) for value in cosines]
-    square = np.minimum.reduce(cosines) * np.maximum.reduce(cosines) <= 0
-    least, greatest = np.minimum.reduce(angles), np.where(square, math.pi / 2, np.maximum.reduce(angles))
-    return course, least, greatest
 
 
 def _parts(found: Answer, designs: Designs, bar: FourBar, course: Period, least: Array) -> None:
@@ -140,7 +105,7 @@ def _figures(
     for name in asked & simple.keys():
         found.give(name, simple[name]())
     if asked & {"swing", "time_ratio", "limit_extended", "limit_folded"}:
-        limits, cranks = bar.folding(), _crank_rocker(bar)
+        limits, cranks = bar.folding(), _crank_rocker(bar) & ~course.rocks
         for name, value in (
             ("swing", np.degrees(limits.swing)),
             ("time_ratio", limits.time_ratio),
@@ -150,15 +115,13 @@ def _figures(
             if name in asked:
                 found.give(name, np.where(cranks, value, np.nan))
     ends = np.sort(np.stack([course.start, course.start + course.travel]), axis=0)
-    near, far = map(np.asarray, reach_cosines(bar))
-    low, high = np.arccos(np.minimum(near, 1.0)), np.arccos(np.maximum(far, -1.0))
-    toggle = np.where(near >= 1, -high, low), np.where((near < 1) & (far <= -1), math.tau - low, high)
+    toggle = toggles(bar, course)
     lever = {
         "swing_from": ends[0],
         "swing_to": ends[1],
         "input_range": ends[1] - ends[0],
-        "toggle_low": toggle[0] + bar.ground_angle,
-        "toggle_high": toggle[1] + bar.ground_angle,
+        "toggle_low": toggle[0],
+        "toggle_high": toggle[1],
     }
     for name in asked & lever.keys():
         found.give(name, np.where(course.rocks, np.degrees(lever[name]), np.nan))

@@ -1,11 +1,13 @@
 """The family ``four-bar``."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
 
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
         Synthesis,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -34,6 +37,7 @@ class FourBars(Family[FourBarParams]):
     batch = 1 << 16
     requirements: ClassVar = {
         "path": PathRequirement,
+        "nine-points": NinePointsRequirement,
         "adjustable-path": AdjustablePathRequirement,
         "poles": PolesRequirement,
         "poses": PosesRequirement,
@@ -59,6 +63,14 @@ class FourBars(Family[FourBarParams]):
 
         return motion_of(in_phase(params), samples)
 
+    def stretches(self, params: FourBarParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_four_bar.motion import motion_of
+        from mechwright_four_bar.phases import in_phase
+
+        return in_stretches(partial(motion_of, in_phase(params)), samples)
+
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
         """Ground, crank, coupler and follower as plates, their pins and bushings."""
         from mechwright_four_bar.phases import in_phase
@@ -73,6 +85,12 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.phases import in_phase
 
         return mounting_of(in_phase(params))
+
+    def transmission(self, params: FourBarParams) -> "Transmission":
+        """Crank in, follower out."""
+        from mechwright_four_bar.stage import FollowerStage
+
+        return FollowerStage(params)
 
     def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
         """The other phases that the pivots of the coupler are set to."""
@@ -111,6 +129,10 @@ class FourBars(Family[FourBarParams]):
             from mechwright_four_bar.paths.synthesis import through_points
 
             return through_points(PathRequirement.model_validate(requirement), progress)
+        if kind == "nine-points":
+            from mechwright_four_bar.nine.synthesis import through_nine
+
+            return through_nine(NinePointsRequirement.model_validate(requirement), progress)
         if kind == "adjustable-path":
             from mechwright_four_bar.adjustable_synthesis import through_phases
 

@@ -1,12 +1,14 @@
 """The motion of a design: channels, poses and figures over one period of the crank."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, KinematicsError, Load, Motion, Scalar, Stage, Trace
+from mechwright import Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import (
@@ -18,12 +20,12 @@ from mechwright.mechanics.planar.channels import (
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import peaks_of, period_of, rate_peaks
+from mechwright_four_bar.peaks import Period, peaks_of, period_of, rate_peaks
 from mechwright_four_bar.plates import frames_of, held_by, pivot_of
 from mechwright_four_bar.reach import bar_of, course_of, is_lever, toggles, transmission_of
 
 
-def motion_of(params: FourBarParams, samples: int) -> Motion:
+def motion_of(params: FourBarParams, samples: Samples) -> Motion:
     """Sample one turn of the crank, or one swing there and back, both ends included.
 
     At a change point the linkage goes smoothly on, and a period may be two turns.
@@ -35,16 +37,28 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
+    check_moves(params)
+    varies = is_lever(params) or bool(params.acceleration_ratio)
+    return motion_over(params, period_of(params, samples), varies=varies)
+
+
+def check_moves(params: FourBarParams) -> Sequence[Finding]:
+    """What ``check`` finds; raises KinematicsError where there is an error of the motion."""
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    bar, period = bar_of(params), period_of(params, samples)
+    return found
+
+
+def motion_over(params: FourBarParams, period: Period, *, varies: bool = True) -> Motion:
+    """The motion over samples of the crank; ``varies``: its speed is not constant."""
+    found, bar = check_moves(params), bar_of(params)
     loop, bodies, drive = period.loop, period.bodies, period.drive
     channels = {
         "phi": Channel(drive.theta, "rad", "angle of the crank"),
         "time": Channel(period.time, "s", "time"),
     }
-    driven, varies = rate_channels(drive, "_a", "the crank"), is_lever(params) or params.acceleration_ratio
+    driven = rate_channels(drive, "_a", "the crank")
     channels |= driven if varies else {"omega_a": driven["omega_a"]}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
         channels |= turning_channels(bodies[name].turning, angle, suffix, f"the {name}")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Scalar
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_four_bar.change_point import close_through
 from mechwright_four_bar.loop import Loop, close
@@ -27,10 +28,15 @@ class Period:
     bodies: dict[str, BodyMotion]
 
 
-def period_of(params: FourBarParams, samples: int = PEAK_SAMPLES) -> Period:
+def period_of(params: FourBarParams, samples: Samples = PEAK_SAMPLES) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
+    time, drive = course_of(params).period(samples, params.speed * math.tau / 60)
+    return driven_by(params, drive, time)
+
+
+def driven_by(params: FourBarParams, drive: Turning, time: Array) -> Period:
+    """The links for any motion of the crank, at times (n,), s."""
     bar, course = bar_of(params), course_of(params)
-    time, drive = course.period(samples, params.speed * math.tau / 60)
     if bar.lines_up and not course.rocks:
         loop = close_through(bar, drive.theta, course.travel)
     else:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array, kept, material
+from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.strength.hertz import YIELD, contact_modulus, line_pressure
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
@@ -105,7 +106,7 @@ class Drive:
     length: float
     stiffness: float
     alpha: "float | Array" = 0.0
-    sense: int = 1
+    sense: "int | NDArray[np.int_]" = 1
 
     def accelerating(self, run: Stroke) -> Array:
         """J θw'' ω², N·m: what needs no push in the middle of a curved slot."""
@@ -116,16 +117,24 @@ class Drive:
         return np.asarray(self.inertia * run.first * self.alpha + self.sense * self.torque)
 
 
-def contact(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Contact:
-    """The contact over a stroke; ``stroke`` (k,) is its number, counted as θd is: the speed depends on it."""
-    drive = drive_of(mechanism, run, stroke)
+def contact(
+    mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0, turning: Turning | None = None
+) -> Contact:
+    """The contact over a stroke; ``stroke`` (k,) is its number, counted as θd is: the speed depends on it.
+
+    Something else than the design's own law may be ``turning`` the driver.
+    """
+    drive = drive_of(mechanism, run, stroke, turning)
     return _straight(run, drive) if mechanism.straight else curved(run, drive)
 
 
-def drive_of(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Drive:
-    """What loads the contact over a stroke."""
+def drive_of(
+    mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0, given: Turning | None = None
+) -> Drive:
+    """What loads the contact over a stroke; the driver is turned by its own law unless it is ``given``."""
     m, params = mechanism, mechanism.params
-    turning = m.driver.at(m.crank_half - run.phi + stroke * m.pitch)
+    turning = m.driver.at(m.crank_half - run.phi + stroke * m.pitch) if given is None else given
+    sense = m.driver.sense if given is None else np.where(given.omega < 0, -1, 1)
     return Drive(
         turning.omega,
         params.load_inertia,
@@ -134,7 +143,7 @@ def drive_of(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Dr
         np.maximum(m.params.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
         turning.alpha,
-        m.driver.sense,
+        sense,
     )
 
 

@@ -1,6 +1,7 @@
 """The family ``geneva``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -40,16 +42,23 @@ class Geneva(Family[GenevaParams]):
         return findings(params)
 
     def judge(self, params: GenevaParams) -> Sequence[Finding]:
-        """The same, without the changes of several sizes that would cure it."""
-        from mechwright_geneva.unmended import unmended
+        """The same, without changes of several sizes that would cure it, nor sizes that would bear a load."""
+        from mechwright_geneva.unmended import judged
 
-        return unmended(params)
+        return judged(params)
 
     def solve(self, params: GenevaParams, samples: int) -> "Motion":
         """One turn of the driver, from the first entry."""
         from mechwright_geneva.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: GenevaParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_geneva.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: GenevaParams) -> "Sequence[Part]":
         """Wheel, driver and rollers."""
@@ -64,6 +73,12 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: GenevaParams) -> "Transmission":
+        """Driver in, wheel out."""
+        from mechwright_geneva.stage import WheelStage
+
+        return WheelStage(params)
 
     def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Roller in its slot, error of the wheel in motion, and the lock."""

@@ -20,13 +20,23 @@ from mechwright_geneva.walls import switches
 
 def load_findings(m: Mechanism) -> Iterator[Finding]:
     """Warnings about motion and load, then the figures."""
+    yield from _loaded(m)
+    yield from stud_findings(m)
+    yield _walls(m)
+
+
+def load_judged(m: Mechanism) -> Iterator[Finding]:
+    """The same without the sizes that would bear a load, and without the changes of walls."""
+    yield from _loaded(m)
+    yield from stud_findings(m, advise=False)
+
+
+def _loaded(m: Mechanism) -> Iterator[Finding]:
     if not m.straight:
         yield from _against_straight(m)
         yield from _middle(m)
         yield from _ramp(m)
     yield from _pressure(m)
-    yield from stud_findings(m)
-    yield _walls(m)
 
 
 def _against_straight(m: Mechanism) -> Iterator[Finding]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.contracts.evaluation import SAMPLES, told
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import travelled
 from mechwright_geneva.contact import peak_of, sampled
 from mechwright_geneva.figures import sizes_and_times
 from mechwright_geneva.many import Mechanisms

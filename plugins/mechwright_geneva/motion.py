@@ -4,16 +4,17 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Stage, refuse
 from mechwright.contracts.joint import fixed
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.mechanics.planar.channels import rate_channels
 from mechwright_geneva.contact import contact
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.figures import figures
-from mechwright_geneva.kinematics import LEFT, RIGHT
+from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 
@@ -24,7 +25,7 @@ _END = 1e-9
 """Crank angle, rad, by which a sample may be past the end of a stroke and still be at it: rounding."""
 
 
-def motion_of(params: GenevaParams, samples: int) -> Motion:
+def motion_of(params: GenevaParams, samples: Samples) -> Motion:
     """Sample one turn of the driver, both ends included.
 
     Forwards the first stroke begins at θd = 0; backwards at 2 θd0, and θd falls. During dwell rates, forces
@@ -38,9 +39,13 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     """
     refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
-    theta_d = travelled(m.driver.sense * math.tau, samples, m.driver.start)
-    turning = m.driver.at(theta_d)
-    channels = channels_of(m, theta_d)
+    return driven_by(m, m.driver.at(travelled(m.driver.sense * math.tau, samples, m.driver.start)))
+
+
+def driven_by(m: Mechanism, turning: Turning, time: Array | None = None) -> Motion:
+    """The motion for any motion of the driver, by θd; ``time`` (n,), s, is left out where it is its own."""
+    params, theta_d = m.params, turning.theta
+    channels = channels_of(m, theta_d, None if time is None else (turning, time))
     theta_w = channels["theta_w"].values
     rates = [channels[f"{name}_w"].values for name in ("omega", "alpha", "jerk")]
     # The roller stands at a - b exp(iφ): the crank line points to π + φ.
@@ -64,16 +69,26 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     )
 
 
-def channels_of(m: Mechanism, theta_d: Array) -> dict[str, Channel]:
-    """The channels at angles (n,) of the driver, rad, from that of its start on; of many designs (m, n)."""
-    driver = m.driver
-    turning = driver.at(theta_d)
+def at_angle(m: Mechanism, theta_d: Array) -> tuple[Array, NDArray[np.bool_], Stroke]:
+    """Number of the stroke at angles (...) of the driver, rad, whether the wheel moves, and the stroke."""
     turn = np.floor((theta_d + _END) / m.pitch)
     within = np.clip(theta_d - turn * m.pitch, 0, None)
     moving = within <= 2 * m.crank_half + _END
-    u = np.clip(within / (2 * m.crank_half), 0, 1)
-    run = m.stroke(u)
-    forces = contact(m, run, turn)
+    return turn, moving, m.stroke(np.clip(within / (2 * m.crank_half), 0, 1))
+
+
+def channels_of(
+    m: Mechanism, theta_d: Array, given: tuple[Turning, Array] | None = None
+) -> dict[str, Channel]:
+    """The channels at angles (n,) of the driver, rad, from that of its start on; of many designs (m, n).
+
+    ``given`` is how something else turns the driver, and the times, s.
+    """
+    driver = m.driver
+    turning = driver.at(theta_d) if given is None else given[0]
+    time = driver.time(theta_d) if given is None else given[1]
+    turn, moving, run = at_angle(m, theta_d)
+    forces = contact(m, run, turn, None if given is None else turning)
     rates = turning.carried(run.first, run.second, run.third)
     theta_w = 2 * m.wheel_half * turn + run.theta
 
@@ -82,10 +97,10 @@ def channels_of(m: Mechanism, theta_d: Array) -> dict[str, Channel]:
 
     driven = rate_channels(turning, "_d", "the driver")
     return {
-        "time": Channel(driver.time(theta_d), "s", "time"),
+        "time": Channel(time, "s", "time"),
         "theta_d": Channel(theta_d, "rad", "angle of the driver"),
         "omega_d": driven["omega_d"],
-        **(driven if driver.varies else {}),
+        **(driven if driver.varies or given else {}),
         "theta_w": Channel(theta_w, "rad", "angle of the wheel"),
         "omega_w": Channel(still(rates[0]), "rad/s", "angular velocity of the wheel"),
         "alpha_w": Channel(still(rates[1]), "rad/s^2", "angular acceleration of the wheel"),

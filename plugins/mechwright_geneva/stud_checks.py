@@ -5,6 +5,7 @@ the roller.
 """
 
 from collections.abc import Iterator
+from functools import partial
 
 from mechwright import Finding, material
 from mechwright.geometry.keyway import Opening
@@ -26,8 +27,9 @@ from mechwright_geneva.openings import driver_opening, wheel_opening
 from mechwright_geneva.params import Sizes
 
 
-def stud_findings(m: Mechanism) -> Iterator[Finding]:
-    """What the studs bear, then how far they lean, then the keys."""
+def stud_findings(m: Mechanism, *, advise: bool = True) -> Iterator[Finding]:
+    """What the studs bear, then how far they lean, then the keys; values that help only to ``advise``."""
+    told = partial(judged, advise=advise)
     params, load = m.params, loads(m)
     said = f"{load.force:.4g} N on the roller"
     pin = Way("pin_diameter", params.pin_diameter)
@@ -35,10 +37,10 @@ def stud_findings(m: Mechanism) -> Iterator[Finding]:
     if params.load_torque:
         less.append(Way("load_torque", params.load_torque, up=False))
     deep = Way("crank_thickness", params.crank_thickness)
-    yield from judged("geneva.stud", params, stud_stresses, [pin, deep, *less], said)
-    yield from judged("geneva.stud-slope", params, stud_slopes, [pin, *less], said)
+    yield from told("geneva.stud", params, stud_stresses, [pin, deep, *less], said)
+    yield from told("geneva.stud-slope", params, stud_slopes, [pin, *less], said)
     key = [Way("thickness", params.thickness), Way("crank_thickness", params.crank_thickness), *less]
-    yield from judged("geneva.key", params, key_stresses, key)
+    yield from told("geneva.key", params, key_stresses, key)
 
 
 def stud_stresses(params: Sizes) -> list[Stress]:

@@ -12,7 +12,7 @@ from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.clearance_checks import clearance_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.figures import dwell_share, peaks_of
-from mechwright_geneva.load_checks import load_findings
+from mechwright_geneva.load_checks import load_findings, load_judged
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES, slot_findings
@@ -23,6 +23,17 @@ from mechwright_geneva.wheel import Wheel
 def unmended(params: GenevaParams) -> tuple[Finding, ...]:
     """The findings. The remedy of an error is empty where no change of one size is one."""
     return until_error(params, feasibility, _mechanism_findings, clearance_findings)
+
+
+@kept
+def judged(params: GenevaParams) -> tuple[Finding, ...]:
+    """The same without the sizes that would bear a load, and without the figures."""
+    return until_error(params, feasibility, _mechanism_judged, clearance_findings)
+
+
+@of_stage(Stage.PARTS)
+def _mechanism_judged(params: GenevaParams) -> tuple[Finding, ...]:
+    return until_error(mechanism_of(params), slot_findings, body_findings, load_judged)
 
 
 @of_stage(Stage.PARTS)

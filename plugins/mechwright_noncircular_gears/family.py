@@ -1,15 +1,17 @@
 """The family ``noncircular-gears``."""
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Stage, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
+from mechwright_noncircular_gears.fit.requirements import REQUIREMENTS, FitRequirement
 from mechwright_noncircular_gears.params import NoncircularParams
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import AsMade, MadePart, Motion, Mounting, Part
+    from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis, Transmission
 
 
 class NoncircularGears(Family[NoncircularParams]):
@@ -19,6 +21,7 @@ class NoncircularGears(Family[NoncircularParams]):
     title = "Non-circular gears"
     summary = "A pair of gears that turns one shaft by any law of the other, with lobes of any numbers."
     Params = NoncircularParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
 
     def check(self, params: NoncircularParams) -> Sequence[Finding]:
         """The law, convexity, undercut, tips, roots, bore, pressure angle at the shaft, the mesh proof."""
@@ -38,6 +41,13 @@ class NoncircularGears(Family[NoncircularParams]):
 
         return motion_of(params, samples)
 
+    def stretches(self, params: NoncircularParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_noncircular_gears.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
+
     def parts(self, params: NoncircularParams) -> "Sequence[Part]":
         """Both gears."""
         from mechwright_noncircular_gears.checks import findings
@@ -52,6 +62,12 @@ class NoncircularGears(Family[NoncircularParams]):
 
         return mounting_of(params)
 
+    def transmission(self, params: NoncircularParams) -> "Transmission":
+        """Driver in, driven gear out."""
+        from mechwright_noncircular_gears.stage import PairStage
+
+        return PairStage(params)
+
     def check_cut(self, params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
         """Whether the pair as cut still meshes, and its keys go in."""
         from mechwright_noncircular_gears.cut import cut_findings
@@ -63,3 +79,13 @@ class NoncircularGears(Family[NoncircularParams]):
         from mechwright_noncircular_gears.as_made import as_made
 
         return as_made(params, made)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[NoncircularParams]":
+        """The law that a Geneva wheel, a slider, a quick return or a slow approach asks for."""
+        from mechwright_noncircular_gears.fit.synthesis import from_wish
+
+        if not isinstance(requirement, FitRequirement):
+            return super().synthesise(kind, requirement, progress)
+        return from_wish(requirement, progress)

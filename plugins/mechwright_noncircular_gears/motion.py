@@ -18,7 +18,7 @@ from mechwright import (
     kept,
 )
 from mechwright.contracts.finding import errors
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_noncircular_gears.checks import findings
@@ -39,7 +39,7 @@ def turns_of(params: NoncircularParams) -> int:
     return params.mate_lobes // math.gcd(params.lobes, params.mate_lobes)
 
 
-def motion_of(params: NoncircularParams, samples: int) -> Motion:
+def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
     """Sample the turns of the driver at constant speed, both ends included.
 
     The driver turns about the origin, the driven gear about (a, 0), the other way round.
@@ -49,20 +49,30 @@ def motion_of(params: NoncircularParams, samples: int) -> Motion:
     KinematicsError
         The law does not turn the driven gear on all the way.
     """
+    phi = travelled(math.tau * turns_of(params), samples)
+    return driven_by(params, Turning.of(phi, params.omega), phi / params.omega)
+
+
+def driven(params: NoncircularParams, driver: Turning) -> Turning:
+    """The driven gear of any motion of the driver, about +z: against the sense of the driver."""
+    law = law_of(params)
+    ratio, first, second = law.rates(driver.theta)
+    return Turning(-law.angle(driver.theta), *driver.carried(-ratio, -first, -second))
+
+
+def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion:
+    """The motion for any motion of the driver, at times (n,), s; raises as :func:`motion_of`."""
     for finding in errors(findings(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    law, pair, omega = law_of(params), pair_of(params), params.omega
-    phi = travelled(math.tau * turns_of(params), samples)
-    ratio, first, second = law.rates(phi)
-    zero = np.zeros_like(phi)
-    driver = Turning(phi, zero + omega, zero, zero)
-    driven = Turning(-law.angle(phi), -ratio * omega, -first * omega**2, -second * omega**3)
+    law, pair, phi = law_of(params), pair_of(params), driver.theta
+    ratio, first, _ = law.rates(phi)
     r1, r2 = pair.pitch_radii(phi)
     slope = np.abs(np.arctan2(first, ratio * (1 + ratio)))
+    mate = driven(params, driver)
     channels = {
-        "time": Channel(phi / omega, "s", "time"),
+        "time": Channel(time, "s", "time"),
         **turning_channels(driver, "theta1", "1", "gear 1"),
-        **turning_channels(driven, "theta2", "2", "gear 2"),
+        **turning_channels(mate, "theta2", "2", "gear 2"),
         "ratio": Channel(ratio, "", "ratio of the speeds"),
         "s1": Channel(r1, "mm", "pitch radius of gear 1"),
         "s2": Channel(r2, "mm", "pitch radius of gear 2"),
@@ -73,7 +83,7 @@ def motion_of(params: NoncircularParams, samples: int) -> Motion:
     a = pair.distance
     poses = {
         "gear-1": Poses.planar(0.0, 0.0, driver.theta),
-        "gear-2": Poses.planar(a, 0.0, driven.theta),
+        "gear-2": Poses.planar(a, 0.0, mate.theta),
     }
     held = {
         "o1": Joint("revolute", GROUND, "gear-1", drives=True),

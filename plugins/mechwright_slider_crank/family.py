@@ -1,6 +1,7 @@
 """The family ``slider-crank``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
         Target,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -54,6 +56,13 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
         return motion_of(params, samples)
 
+    def stretches(self, params: SliderCrankParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_slider_crank.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
+
     def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
         """Base, rails, crank, rod, slider, and the turned parts that join them."""
         from mechwright_slider_crank.checks import findings
@@ -67,6 +76,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: SliderCrankParams) -> "Transmission":
+        """Crank in; the slider is no shaft."""
+        from mechwright_slider_crank.stage import SliderStage
+
+        return SliderStage(params)
 
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""

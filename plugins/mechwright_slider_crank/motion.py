@@ -1,12 +1,13 @@
 """The motion of a design: channels, poses and figures over one turn of the crank."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from mechwright import Array, Channel, KinematicsError, Load, Motion, Scalar, Stage, Trace
+from mechwright import Array, Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import Turning, acceleration_pole
 from mechwright.mechanics.planar.channels import (
@@ -31,7 +32,7 @@ _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 """Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
 
 
-def motion_of(params: SliderCrankParams, samples: int) -> Motion:
+def motion_of(params: SliderCrankParams, samples: Samples) -> Motion:
     """Sample one turn of the crank, or a lever's swing there and back, both ends included.
 
     At its limit, c = a + |e|, the linkage goes smoothly through both assemblies, in two turns of the crank.
@@ -43,18 +44,29 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     KinematicsError
         The crank cannot turn.
     """
+    check_moves(params)
+    time, drive = course_of(params).period(samples, abs(params.omega))
+    return driven_by(params, drive, time, varies=course_of(params).rocks or bool(params.acceleration_ratio))
+
+
+def check_moves(params: SliderCrankParams) -> Sequence[Finding]:
+    """What ``check`` finds; raises KinematicsError where the crank cannot turn."""
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    linkage, course = params.linkage, course_of(params)
-    time, drive = course.period(samples, abs(params.omega))
+    return found
+
+
+def driven_by(params: SliderCrankParams, drive: Turning, time: Array, *, varies: bool = True) -> Motion:
+    """The motion for any motion of the crank, at times (n,), s; ``varies``: its speed is not constant."""
+    found, linkage = check_moves(params), params.linkage
     phi, bodies = drive.theta, linkage.bodies(drive.theta, drive)
     masses = None if errors(found) else masses_of(params)
     driven = rate_channels(drive, "_a", "the crank")
     channels = {
         "time": Channel(time, "s", "time"),
         "phi": Channel(phi, "rad", "angle of the crank"),
-        **(driven if course.rocks or params.acceleration_ratio else {"omega_a": driven["omega_a"]}),
+        **(driven if varies else {"omega_a": driven["omega_a"]}),
         **_slider(linkage, bodies),
         **turning_channels(bodies.rod.turning, "sigma", "_c", "the rod"),
         "transmission_angle": Channel(transmission_angle(linkage, phi), "rad", "transmission angle"),

@@ -1,6 +1,7 @@
 """The family ``spherical``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
@@ -36,6 +37,13 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.motion import motion_of
 
         return motion_of(params, samples)
+
+    def stretches(self, params: SphericalParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_spherical.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: SphericalParams) -> "Sequence[Part]":
         """Links, pins, drive, base plate and flat strips."""

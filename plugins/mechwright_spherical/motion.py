@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Channel, KinematicsError, Motion, Poses, Scalar, Trace
+from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import RATES, along, turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
@@ -26,7 +27,7 @@ from mechwright_spherical.vectors import norm
 _RATES = ("", "/s", "/s^2", "/s^3")
 
 
-def motion_of(params: SphericalParams, samples: int) -> Motion:
+def motion_of(params: SphericalParams, samples: Samples) -> Motion:
     """Sample the travel of the phase that is shown at constant input speed, both ends included.
 
     An input that is a lever goes there and back.
@@ -61,7 +62,7 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     slotted = clamped(params)
     bodies = poses(linkage, phase, state, angles, train, slotted)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
-    bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
+    bodies["base"] = Poses(np.tile(position, (angles.size, 1)), np.tile(rotation, (angles.size, 1, 1)))
     bodies |= axis_poses(params, bodies)
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}

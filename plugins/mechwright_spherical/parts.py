@@ -1,8 +1,8 @@
 """The parts of a design: links and pins as solids, base plate and flat strips as plates."""
 
 import math
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Callable, Iterator
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from mechwright import Colour, Instance, Part, Step, Turned
@@ -67,16 +67,26 @@ def _solid(
         hardware.pin_material if kind in {"pin", "gear"} else hardware.material,
         instances=(Instance(body),) if shown else (),
         colour=COLOURS[kind],
-        build=partial(_build, shape_of(params), name),
+        build=_builder(shape_of(params), name),
         turned=turned,
     )
 
 
 def shape_of(params: SphericalParams) -> SphericalParams:
-    """The design without what changes no solid, so that designs alike in shape share their solids."""
+    """The design without what changes no solid, so that designs alike in shape share their solids.
+
+    A machine has the same ones in every phase that it is set to.
+    """
     fields = type(params).model_fields
     idle = ("speed", "path_tolerance", "least_transmission", "flat")
-    return params.model_copy(update={name: fields[name].default for name in idle})
+    first = {name: getattr(params, name).model_copy(update={"phase": 1}) for name in ("four_bar", "five_bar")}
+    return params.model_copy(update={name: fields[name].default for name in idle} | first)
+
+
+@lru_cache(maxsize=512)
+def _builder(shape: SphericalParams, name: str) -> "Callable[[], cq.Solid]":
+    """What builds a solid: the same for designs alike in shape, so that their parts are equal."""
+    return partial(_build, shape, name)
 
 
 def _build(params: SphericalParams, name: str) -> "cq.Solid":

@@ -9,7 +9,9 @@ gets, is drawn.
 import re
 from collections.abc import Iterator
 
-from mutants import STATES, WORD, Mutant, Rng, code, pick
+from line_faults import STATES
+from mutants import Mutant
+from program_faults import WORD, Rng, code, pick
 
 LETTERS = "DFGHIJKLMNPQRSTXYZ"
 PLACES = {

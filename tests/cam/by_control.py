@@ -15,6 +15,9 @@ from mechwright_cam.pages import setup_sheet
 from mechwright_cam.pages.setup_sheet import procedure
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Program
+from mechwright_cam.proof import judge
+from mechwright_cam.proof.found_tabs import with_found_tabs
+from mechwright_cam.proof.rules import ask
 from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.setup.job import Job
 
@@ -23,6 +26,7 @@ BY_NAME: dict[str, GcodeControl] = {
     for name, registered in host().of(Control).items()
     if registered.distribution == "mechwright" and isinstance(registered.item, GcodeControl)
 }
+CONTROLS = tuple(BY_NAME)
 LINUXCNC = BY_NAME["linuxcnc"]
 
 
@@ -34,6 +38,14 @@ def interpret(text: str, reader: GcodeControl | Dialect = LINUXCNC, **settings: 
 
 def prove(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) -> proof.Proof:
     return proof.prove(text, job, control)
+
+
+RULES = {rule.name: rule for rule in judge.RULES}
+
+
+def asked(check: str, text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) -> proof.Check:
+    """What one rule of the proof says of a program without optional lines; no other one is asked."""
+    return ask(RULES[check], with_found_tabs(scene_of(text, job, control)))
 
 
 def posted(of: Job, program: Program | None = None, control: Control = LINUXCNC) -> str:

@@ -6,6 +6,8 @@ Every text has been read line by line as a machinist would before it was kept; r
 from dataclasses import replace
 from pathlib import Path
 
+from by_control import CONTROLS
+
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
@@ -14,7 +16,6 @@ from mechwright_cam.shop.posting import Measured, Posting
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 FOLDER = Path(__file__).parents[1] / "golden"
-CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 
 SPOT = Tool(name="spot-6", number=1, kind=ToolKind.SPOT_DRILL, diameter=6, flute_length=8, point_angle=90)
 DRILL = Tool(name="drill-5", number=2, kind=ToolKind.DRILL, diameter=5, flute_length=40)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from by_control import prove
-from random_parts import CONTROLS, CUTTERS, OPERATIONS, Drawn, cutters
+from by_control import CONTROLS, prove
+from random_parts import CUTTERS, OPERATIONS, Drawn, cutters
 
 from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Bore

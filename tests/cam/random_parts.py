@@ -17,7 +17,6 @@ from mechwright.geometry.lettering import lettering
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.tool import Tool, ToolKind
 
-CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
 SHAPES = {
     "bull-3-r0.3": (3, 0.3),

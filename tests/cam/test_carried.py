@@ -7,7 +7,7 @@ import height_map
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, cut_away, interpret, prove, simulated
+from by_control import BY_NAME, asked, cut_away, interpret, prove, simulated
 from by_night import by_night
 from planning_parts import LIBRARY, bore, rounded_box
 
@@ -150,7 +150,7 @@ def test_the_underside_does_not_cut_air():
     assert knowing.feed_mm < 0.9 * not_knowing.feed_mm
     assert knowing.air_mm < 0.6 * not_knowing.air_mm
     # Without what the first side has left, the program leaves floors standing.
-    assert not prove(second.text, blind).checks["leftover"].passed
+    assert not asked("leftover", second.text, blind).passed
 
 
 def rapid_into(text, x, y, z, *, first):
@@ -172,7 +172,7 @@ def test_rapids_know_the_real_stock():
 
     def passes(z, job, *, early=False):
         text = rapid_into(second.text, at.x, at.y, z, first=early)
-        return prove(text, job).checks["rapids-in-stock"].passed
+        return asked("rapids-in-stock", text, job).passed
 
     assert passes(-7.0, second.job)  # both recesses have been there
     assert not passes(-7.0, replace(second.job, gone=()))

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret, prove
+from by_control import BY_NAME, CONTROLS, asked, interpret, prove
 from by_night import examples, thinned
-from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
+from golden_programs import FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from long_program import long_program
@@ -123,11 +123,14 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
     job = plate_job()
     (astray,) = prove(texts["fanuc"], job, BY_NAME["linuxcnc"]).failures
     assert astray.message.startswith("line 17: nothing bounds how far LinuxCNC leaves the path")
-    with pytest.raises(ProgramError, match=r"^line 9: P means nothing in this line"):
+    usual = texts["linuxcnc"].replace(" G91.1", "")
+    with pytest.raises(ProgramError, match=r"^line 8: G91.1 is no code that is read in programs for Haas"):
         prove(texts["linuxcnc"], job, BY_NAME["haas"])
+    with pytest.raises(ProgramError, match=r"^line 9: P means nothing in this line"):
+        prove(usual, job, BY_NAME["haas"])
     with pytest.raises(ProgramError, match="no decimal point"):
-        prove(texts["linuxcnc"].replace("G64 P0.002 Q0", "G64"), job, BY_NAME["haas"])
-    assert not prove(texts["grbl"], job, BY_NAME["mach3"]).checks["tools"].passed
+        prove(usual.replace("G64 P0.002 Q0", "G64"), job, BY_NAME["haas"])
+    assert not asked("tools", texts["grbl"], job, BY_NAME["mach3"]).passed
     with pytest.raises(ProgramError, match="G64 is no code that is read in programs for Grbl"):
         prove(texts["mach3"], job, BY_NAME["grbl"])
 
@@ -151,7 +154,7 @@ def test_files_of_one_tool_each_are_proven_together() -> None:
     files = {name + ".nc": text for name, text in made.files.items()}
     last = [*files][-1]
     broken = {**files, last: files[last].replace("S", "S9", 1)}
-    found = prove(broken, made.job, BY_NAME["grbl"]).checks["speeds"]
+    found = asked("speeds", broken, made.job, BY_NAME["grbl"])
     assert found.message.startswith(f"{last}: line ")
     with pytest.raises(ProgramError, match=rf"^{last}: line 1: "):
         prove({**files, last: "G1 X..2\n" + files[last]}, made.job, BY_NAME["grbl"])

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret, prove
-from golden_programs import CONTROLS, every_operation
+from by_control import BY_NAME, CONTROLS, asked, interpret, prove
+from golden_programs import every_operation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import TOOLS, plate_job, plate_program
@@ -69,7 +69,7 @@ def test_a_tool_that_nobody_measured_is_noticed() -> None:
     assert prove(text, job, BY_NAME["grbl"]).ok
     at = text.index("M0\n", text.index("\nT2\n"))
     silent = text[:at] + text[at + 3 :]
-    found = prove(silent, job, BY_NAME["grbl"]).checks["length-offset"]
+    found = asked("length-offset", silent, job, BY_NAME["grbl"])
     assert not found.passed
     assert "as if it were as long as the tool before" in found.message
 
@@ -83,7 +83,7 @@ def test_a_length_that_was_not_measured_so_is_noticed() -> None:
     text = post_of("grbl").write(replace(program, sections=sections))
     job = plate_job(control="grbl", tools=tools)
     assert prove(text, job, BY_NAME["grbl"]).ok
-    found = prove(text.replace("G43.1 Z52", "G43.1 Z53"), job, BY_NAME["grbl"]).checks["length-offset"]
+    found = asked("length-offset", text.replace("G43.1 Z52", "G43.1 Z53"), job, BY_NAME["grbl"])
     assert "G43.1 Z53 while the measured length of T2 is 52 mm" in found.message
 
 
@@ -108,12 +108,12 @@ def test_a_retract_is_advised_as_the_control_and_the_machine_do_it(control, retr
     mill = made.settings.machine.model_copy(update={"retract_z": retract_z})
     made = replace(made, settings=made.settings.model_copy(update={"machine": mill}))
     text = post_of(control).write(replace(plate_program(), machine=mill))
-    assert prove(text, made, BY_NAME[control]).checks["positions"].passed
+    assert asked("positions", text, made, BY_NAME[control]).passed
     retract = (
         "G91 G28 Z0.\nG90\n" if control == "fanuc" else words.removeprefix("retract with ").split(",")[0]
     )
     assert retract in text  # it is what the post writes
-    found = prove(text.replace(retract, ""), made, BY_NAME[control]).checks["positions"]
+    found = asked("positions", text.replace(retract, ""), made, BY_NAME[control])
     assert not found.passed
     assert f"{words}, at X" in found.message
 
@@ -122,7 +122,7 @@ def test_whoever_touches_off_leaves_the_tool_low() -> None:
     text = post_of("grbl").write(plate_program())
     careless = text.replace("M0\nG53 G0 Z0\n", "M0\n")
     assert careless != text
-    assert not prove(careless, plate_job(control="grbl"), BY_NAME["grbl"]).checks["positions"].passed
+    assert not asked("positions", careless, plate_job(control="grbl"), BY_NAME["grbl"]).passed
 
 
 # -- rounding to three decimals -----------------------------------------------------------------------------

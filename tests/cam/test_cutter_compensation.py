@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, posted, prove, read
+from by_control import BY_NAME, asked, posted, prove, read
 from by_night import examples
 from golden_compensation import WAYS
 from hypothesis import event, given, settings
@@ -92,7 +92,7 @@ def test_the_proof_passes_and_says_what_it_has_seen(way: str, climb: bool) -> No
 def test_without_compensation_nothing_changes() -> None:
     text = text_of(sample("computer"))
     assert not re.search(r"G4[12]|D\d", re.sub(r"\(.*\)", "", text))
-    assert prove(text, sample("computer"), reader()).checks["compensation"].passed
+    assert asked("compensation", text, sample("computer"), reader()).passed
 
 
 # -- the proof does not trust the plan ----------------------------------------------------------------------
@@ -100,7 +100,7 @@ def test_without_compensation_nothing_changes() -> None:
 
 def test_a_d_that_the_entry_is_too_short_for_fails() -> None:
     text = text_of(sample("control", wear_limit=0.1))
-    check = prove(text, sample("control", wear_limit=0.5), reader()).checks["compensation"]
+    check = asked("compensation", text, sample("control", wear_limit=0.5), reader())
     assert not check.passed
     assert "with D 0.5 mm larger: line" in check.message
 
@@ -132,7 +132,7 @@ def test_an_inside_arc_as_narrow_as_the_planned_d_fails() -> None:
         "G17 G21 G40 G49 G80 G90 G94\nG54\nT24 M6\nS3000 M3\nG0 X-60 Y40\nG43 H24 Z5\nM8\nZ1\nG1 Z0.5 F100\n"
         "G41 D24 X-50 Y40\nX-40\nG3 X-36.96 Y43.04 I0 J3.04\nG1 Y60\nG40 Y70\nG0 Z5\nM9\nM5\nG53 G0 Z0\nM30\n"
     )
-    check = prove(text, one, reader()).checks["compensation"]
+    check = asked("compensation", text, one, reader())
     assert not check.passed
     assert (
         "with D 0.1 mm larger: line 12: the tool of radius 3.1 mm does not fit into an arc" in check.message

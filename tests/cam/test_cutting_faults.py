@@ -1,13 +1,13 @@
 """Programs in which a tool cuts with what does not cut, or takes more than it bears: refused on every control."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import pytest
-from by_control import BY_NAME, prove
+from by_control import BY_NAME, CONTROLS, asked, prove
 from by_night import thinned
-from golden_operations import CONTROLS, made
+from golden_operations import made
 from test_mutations import deep
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
@@ -62,13 +62,21 @@ def before(program: Program, moves: Sequence[Move], tool: int) -> Program:
     )
 
 
-def proof_of(program: Program, job: Job, control: str) -> Proof:
+def files_of(program: Program, control: str) -> str | Mapping[str, str]:
     files = BY_NAME[control].files(program)
-    return prove(files if len(files) > 1 else next(iter(files.values())), job, BY_NAME[control])
+    return files if len(files) > 1 else next(iter(files.values()))
+
+
+def proof_of(program: Program, job: Job, control: str) -> Proof:
+    return prove(files_of(program, control), job, BY_NAME[control])
+
+
+def found_by(check: str, program: Program, job: Job, control: str) -> Check:
+    return asked(check, files_of(program, control), job, BY_NAME[control])
 
 
 def refused(program: Program, one: Machined, control: str, check: str) -> Check:
-    found = proof_of(program, one.job, control).checks[check]
+    found = found_by(check, program, one.job, control)
     assert not found.passed
     assert found.line is not None
     assert f"line {found.line}: " in found.message
@@ -103,7 +111,7 @@ def test_a_chamfer_mill_does_not_cut_with_its_point(control: str) -> None:
     found = refused(changed(one.program, only("edge: chamfer")), one, control, "edges")
     assert "T40 (chamfer-6) is fed into material with its point, which does not cut" in found.message
     engraver = fitted(one, "chamfer-6", centre_cutting=True)
-    assert proof_of(changed(one.program, only("edge: chamfer")), engraver.job, control).checks["edges"].passed
+    assert found_by("edges", changed(one.program, only("edge: chamfer")), engraver.job, control).passed
 
 
 @pytest.mark.parametrize(("operation", "control"), thinned(3, ["drill", "spot"], CONTROLS))
@@ -144,7 +152,7 @@ def test_a_full_slot_bears_its_chip_load_and_not_twice_and_a_half(cut: tuple[str
     (one,) = made(operation, control)
     found = refused(changed(one.program, fed(2.5, name)), one, control, "chips")
     assert "mm per tooth into aluminium, the tool library says" in found.message
-    assert proof_of(changed(one.program, fed(1.3, name)), one.job, control).checks["chips"].passed
+    assert found_by("chips", changed(one.program, fed(1.3, name)), one.job, control).passed
 
 
 def turned_round(program: Program, name: str) -> Program:
@@ -179,7 +187,7 @@ def test_a_deep_cut_may_be_narrow_and_a_wide_one_shallow() -> None:
         *(Rapid(-8, 0), Rapid(z=1), Feed(None, None, 0, 400), Feed(None, None, -9, 150)),
         *(Feed(8, 0, None, 400), Rapid(z=5)),
     )
-    found = proof_of(before(program, slot, mill.number), of, "linuxcnc").checks["depth-of-cut"]
+    found = found_by("depth-of-cut", before(program, slot, mill.number), of, "linuxcnc")
     assert not found.passed
     assert "takes 9.0 mm deep and 6.0 mm wide of aluminium, 5" in found.message
 
@@ -188,7 +196,7 @@ def test_a_deep_cut_may_be_narrow_and_a_wide_one_shallow() -> None:
 def test_finishing_the_wrong_way_round_is_told_and_refused_where_climb_is_asked_for(control: str) -> None:
     (one,) = made("conventional", control)
     program = one.program
-    assert proof_of(program, one.job, control).checks["climb"].message.endswith("by conventional milling")
+    assert found_by("climb", program, one.job, control).message.endswith("by conventional milling")
 
     def job(**said: bool) -> Job:
         cam = one.job.settings
@@ -227,7 +235,7 @@ def test_planning_keeps_to_the_ramp_that_a_tool_can_do() -> None:
     gentle = fitted(one, "mill-8", ramp_angle=1.0)
     text = LinuxCnc().write(replace(plan(gentle.job), machine=one.job.settings.machine))
     assert prove(text, gentle.job).ok
-    found = prove(one.text, gentle.job).checks["entries"].message
+    found = asked("entries", one.text, gentle.job).message
     assert "T23 (mill-8) ramps into the stock at 1.6 degrees, the limit is 1, at " in found
 
 

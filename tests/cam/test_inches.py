@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from by_control import CONTROLS
 from golden_operations import made
 from planning_parts import LIBRARY
 from rs274 import needs_rs274, run_rs274
@@ -19,7 +20,6 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.settings import CamSettings
 
-CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 HALF = 25.4 / 2
 """Of a last decimal: so much rounding moves a coordinate, by 10^-decimals, mm."""
 

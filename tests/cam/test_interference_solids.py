@@ -60,7 +60,7 @@ def ball(radius):
     return cq.Workplane().sphere(radius).val()
 
 
-@pytest.mark.parametrize("depth", [0.025, pytest.param(0.1, marks=by_night), 2.0])
+@pytest.mark.parametrize("depth", [0.025, *(pytest.param(deep, marks=by_night) for deep in (0.1, 2.0))])
 def test_two_balls_are_as_deep_in_each_other_as_their_radii_say(depth):
     away = 5 + 3 - depth + 30 * (1 - np.cos(TURN - 1.234))
     place = np.column_stack((away * 0.6, away * 0.8, 0 * away))

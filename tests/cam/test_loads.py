@@ -3,7 +3,7 @@
 from dataclasses import fields
 
 import pytest
-from by_control import prove, scene_of
+from by_control import asked, prove, scene_of
 from shop import plate_job
 
 from mechwright_cam.proof.loads import Loads
@@ -66,5 +66,5 @@ def test_a_way_down_to_and_fro_excuses_itself_alone(
     left: tuple[str, float], right: tuple[str, float], passed: bool
 ) -> None:
     text = finished(down(WALLS[0], *left), down(WALLS[1], *right))
-    found = prove(text, plate_job(climb=True)).checks["climb"]
+    found = asked("climb", text, plate_job(climb=True))
     assert found.passed == passed, found.message

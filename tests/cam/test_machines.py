@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from by_control import prove
+from by_control import asked
 from planning_parts import LIBRARY, bore, job, plate
 from shop import plate_job, plate_program
 
@@ -141,7 +141,7 @@ def test_every_move_is_within_the_travel_as_the_stock_is_clamped(measured, axis,
     placed = plate_job(machine=ends, measured=measured)
     tools = tuple(tool.model_copy(update={"length": 0.0}) for tool in placed.tools)
     placed = plate_job(machine=ends, measured=measured, tools=tools)
-    found = prove(LinuxCnc().write(plate_program()), placed).checks["travel"]
+    found = asked("travel", LinuxCnc().write(plate_program()), placed)
     assert found.passed == (axis is None)
     if axis:
         assert f"leaves the travel of {axis} by" in found.message

@@ -9,11 +9,12 @@ import golden_compensation
 import golden_operations
 import numpy as np
 import pytest
-from by_control import BY_NAME, prove, read
-from by_night import NIGHT, thinned
-from golden_operations import SHARP
+from by_control import BY_NAME, CONTROLS, asked, prove, read
+from by_night import NIGHT, examples, thinned
+from golden_cases import SHARP
+from line_faults import STATES
 from mutant_traces import differences, trace
-from mutants import STATES, mutant
+from mutants import mutant
 from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket
@@ -37,7 +38,7 @@ def refused(
 ) -> Check:
     """The failed check of a program in which some text is another; the text has to be there."""
     assert old in one.text
-    found = prove(one.text.replace(old, new, count), one.job, BY_NAME[control]).checks[check]
+    found = asked(check, one.text.replace(old, new, count), one.job, BY_NAME[control])
     assert not found.passed
     assert found.message.startswith(f"line {found.line}: ")
     return found
@@ -71,16 +72,16 @@ def test_a_d_or_h_that_is_not_written_is_the_last_one_on_fanuc_and_haas(control:
 @pytest.mark.parametrize("control", ["fanuc", "haas"])
 def test_the_end_of_the_tape_ends_no_program_on_fanuc_and_haas(control: str) -> None:
     one = made("slot", control)
-    found = prove(one.text.replace("M30", "M0"), one.job, BY_NAME[control]).checks["program-end"]
+    found = asked("program-end", one.text.replace("M30", "M0"), one.job, BY_NAME[control])
     assert "the program has no end" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_hands_reach_in_only_when_the_spindle_stands_still(control: str) -> None:
     one = made("profile-outside", control)
     at = one.text.lower().index("(operation: clamp)")
     late = replace(one, files={"": one.text[:at] + one.text[at:].replace("M5\n", "", 1)})
-    found = prove(late.text, one.job, BY_NAME[control]).checks["stops"]
+    found = asked("stops", late.text, one.job, BY_NAME[control])
     assert "while the spindle turns; write M5 before it" in found.message
     assert late.text.splitlines()[found.line - 1] == "M0"
 
@@ -90,7 +91,7 @@ def test_a_stop_finds_the_tool_up() -> None:
     assert "with the tool down" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_rapid_stops_short_of_the_stock(control: str) -> None:
     one = made("helix", control)
     zero = "Z0. " if control in {"fanuc", "haas"} else "Z0 "
@@ -127,7 +128,7 @@ def test_a_flat_mill_plunges_slowly() -> None:
     lines = one.text.splitlines()
     at = next(k for k, line in enumerate(lines) if line.startswith("X-15.1546") and "Z" in line)
     lines[at - 1 : at] = ["G1 Z0 F1960", "G1 Z-0.5 F4000"]
-    found = prove("\n".join(lines), one.job).checks["chips"]
+    found = asked("chips", "\n".join(lines), one.job)
     assert found.line == at + 1
 
 
@@ -173,23 +174,23 @@ def test_a_level_that_is_missing_is_too_much_for_the_next() -> None:
         without = prove("\n".join(lines[:a] + lines[b - 1 :]), of)
         assert not without.ok
     (a, b), (c, _) = rounds[:2]
-    found = prove("\n".join(lines[:a] + lines[b - 1 :]), of).checks["depth-of-cut"]
+    found = asked("depth-of-cut", "\n".join(lines[:a] + lines[b - 1 :]), of)
     assert not found.passed
     assert found.line >= c - (b - 1 - a)
     assert "cuts more than 4.5 mm of aluminium at once, 1.5 times its step_down" in found.message
 
 
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_nothing_goes_far_below_the_plate(control: str) -> None:
     """A drill has its point below, and a through cut its 0.3 mm; a wrong digit is more."""
     one = made("peck", control)
     lines = one.text.splitlines()
     at = max(k for k, line in enumerate(lines) if "Z-19.20" in line)
     lines[at] = lines[at].replace("Z-19.20", "Z-29.20")
-    found = prove("\n".join(lines), one.job, BY_NAME[control]).checks["underside"]
+    found = asked("underside", "\n".join(lines), one.job, BY_NAME[control])
     assert re.match(rf"line {at + 1}: T4 goes 11.20 mm below the plate", found.message)
     shallow = one.text.replace("Z-19.20", "Z-20.10")
-    assert prove(shallow, one.job, BY_NAME[control]).checks["underside"].passed
+    assert asked("underside", shallow, one.job, BY_NAME[control]).passed
 
 
 def test_lines_that_a_switch_skips_are_proven_both_ways() -> None:
@@ -240,7 +241,7 @@ SOURCES = (
     ),
     *(("profile-outside", "fanuc"), ("second-side", "haas"), ("bull-nose", "linuxcnc"), ("floor", "grbl")),
 )
-EACH = 3
+EACH = examples(2, 3)
 
 
 def verdict(text: str, one: Machined, control: str) -> tuple[bool, str]:
@@ -273,7 +274,7 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
 
 
 @pytest.mark.parametrize("depth", ["1.", "-1."])
-@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_feed_move_from_the_upper_end_is_refused_in_a_line(control: str, depth: str) -> None:
     """Its length is not known; nor does it make the fall to the stock slower than it is fed."""
     one = made("pocket-contour", control)
@@ -303,14 +304,14 @@ def cuts(rows: np.ndarray) -> np.ndarray:
     return rows[np.isin(rows[:, 0], (Kind.FEED, Kind.ARC))]
 
 
-@pytest.mark.parametrize("control", thinned(3, golden_operations.CONTROLS))
+@pytest.mark.parametrize("control", thinned(3, CONTROLS))
 def test_state_words_at_any_place_are_refused_or_change_no_cut(control: str) -> None:
     """By the reader, by a rule, or because the program states it itself before the next cut."""
     rng = np.random.default_rng(53)
     one, reader = made("pocket-contour", control), BY_NAME[control]
     before = cuts(trace(read(one.text, one.job, reader)))
     refusals = 0
-    first = golden_operations.CONTROLS.index(control) % 2
+    first = CONTROLS.index(control) % 2
     for state in STATES if NIGHT else STATES[first::2]:
         wrong = mutant(one.text, f"inserted {state}", rng)
         assert wrong is not None

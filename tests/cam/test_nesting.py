@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import asked, prove
 from by_night import by_night, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -133,10 +133,10 @@ def test_the_program_of_a_nest_is_none_for_one_of_its_parts():
     nest = nest_of("nest", plates, wanted, 2 * channel_of(plates, wanted, LIBRARY) + 3.0)
     job = make_job(nest, wanted, choose_tools(nest, wanted, LIBRARY))
     text = machine(job, POST).text
-    assert prove(text, job).checks["beside"].passed
+    assert asked("beside", text, job).passed
     # The first of them lies at the nest's origin, where the part alone would lie.
     alone = make_job(plates[0], wanted, job.tools)
-    found = prove(text, alone).checks["beside"]
+    found = asked("beside", text, alone)
     assert not found.passed
     assert found.line is not None
     assert "mm outside of the stock" in found.message

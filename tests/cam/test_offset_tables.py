@@ -3,8 +3,8 @@
 import re
 
 import pytest
-from by_control import BY_NAME, interpret
-from machine_programs import CONTROLS, LENGTHS, at_the_end, job_of, judged, refused, scene_of, text_of
+from by_control import BY_NAME, CONTROLS, interpret
+from machine_programs import LENGTHS, at_the_end, job_of, judged, refused, scene_of, text_of
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove

@@ -6,10 +6,10 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from by_control import BY_NAME, interpret
+from by_control import BY_NAME, CONTROLS, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from machine_programs import CONTROLS, in_cut, job_of, judged, refused, scene_of, text_of
+from machine_programs import in_cut, job_of, judged, refused, scene_of, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import Dialect, Kind, Run, stretch
+from mechwright_cam.controls.reading import Dialect, Kind, Remark, Run, stretch
 from mechwright_cam.controls.reading.blocks import Block, read_block
 from mechwright_cam.controls.reading.plain import LETTERS, PlainLines
 
@@ -57,7 +57,28 @@ def assert_alike(text: str, dialect: Dialect) -> None:
 
 
 number = st.sampled_from(["0", "1", "-1", "2.5", "-.5", "+3.", "0.0", "10", "007.250", "0.3333"])
-tail = st.sampled_from(["", "", "", "", " ", "  ", " (then)", ";", "M8", "M9", "\t", "%"])
+TAILS = [
+    "",
+    "",
+    "",
+    "",
+    " ",
+    "  ",
+    " (then)",
+    ";",
+    "M8",
+    "M9",
+    "\t",
+    "%",
+    "M3",
+    " S800",
+    "S0",
+    "; (so)",
+    "(a)(b)",
+]
+tail = st.sampled_from(
+    [*TAILS, "(py,1)", ";py,", " M30", "(no", "G90 (on)", "N7", "G91.1", "G94 G17", "M4M8", "S-5"]
+)
 
 
 WORDS = [
@@ -107,6 +128,26 @@ def lines(draw: st.DrawFn) -> str:
 
 
 SAFE = "G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 X1 F200\n"
+STATED = "G21 G17 G90 G94 G54\nS500 M3 M8\nG0 X0 Y0 Z0\nG1 X1 F200\n"
+STATES = [
+    "",
+    "",
+    "G90",
+    "G21 G17",
+    "G91",
+    "G94",
+    "G20",
+    "G54",
+    "G55 ",
+    "M3",
+    "M4",
+    "M5 ",
+    "M8",
+    "M7",
+    "M9",
+    "G9 0",
+]
+beside = st.tuples(st.sampled_from(["", "", "S500", "S600", "S700."]), *[st.sampled_from(STATES)] * 2)
 ARCS = ["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0", "G3 X2 Y0 I1", "X0 Y0", "G3 X2 Y0 R-2"]
 MORE = ["G91\nG2 X1 Y1 R1\nX-1 Y1 R-1", "G91\nG1 X.1\nY.2 X-.3\nZ1", "G90", "G2 X0 Y0 R3", "G53 G0 Z0"]
 arcs = st.sampled_from([*ARCS, *MORE])
@@ -120,6 +161,19 @@ arcs = st.sampled_from([*ARCS, *MORE])
 )
 def test_a_stretch_runs_as_its_lines_do(head: str, body: list[str], control: str) -> None:
     assert_alike(head + "\n".join(body), BY_NAME[control])
+
+
+@settings(max_examples=examples(70, 200))
+@given(
+    st.sampled_from([STATED, STATED.replace(" M3", ""), SAFE]),
+    st.lists(st.tuples(beside, lines()), max_size=14),
+    st.sampled_from(sorted(BY_NAME)),
+)
+def test_words_of_state_and_speeds_beside_moves(
+    head: str, body: list[tuple[tuple[str, ...], str]], control: str
+) -> None:
+    said = (" ".join([*filter(None, words), line]) for words, line in body)
+    assert_alike(head + "\n".join(said), BY_NAME[control])
 
 
 steps = st.integers(-3000, 3000).map(lambda number: number / 1000)
@@ -142,7 +196,7 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
         assert_alike("\n".join([*out, "M30"]), BY_NAME[control])
 
 
-@given(st.lists(st.text("NGXYZIJRFgxK0123456789.+- \t(%", max_size=9), max_size=5))
+@given(st.lists(st.text("NGXYZIJRFSgxK0123456789.+- \t(%", max_size=9), max_size=5))
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
     read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):
@@ -150,7 +204,7 @@ def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
         words = dict(said)
         once = len(words) == len(said) and "N" not in list(words)[1:]
         plain = PLAIN.fullmatch(text) is not None and once
-        plain &= words.get("G", 0) in {0, 1, 2, 3} and not words.get("F", 0) < 0
+        plain &= words.get("G", 0) in {0, 1, 2, 3} and not words.get("F", 0) < 0 and words.get("S", 1) > 0
         assert bool(read.plain[index]) == plain, text
         for row, letter in enumerate(LETTERS):
             expected = words.get(letter, math.nan) if plain else math.nan
@@ -223,4 +277,20 @@ def test_most_lines_of_a_program_are_run_in_stretches(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr("mechwright_cam.controls.reading.read.read_block", counted)
     interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}(again)\n{STRAIGHT}M2\n")
-    assert read == [1, 2, 3, 43, 83]
+    assert read == [1, 2, 3, 83]
+
+
+def test_lines_that_say_what_is_so_anyway_are_run_in_stretches(monkeypatch: pytest.MonkeyPatch) -> None:
+    read: list[int] = []
+
+    def counted(line: int, text: str, dialect: Dialect) -> Block:
+        read.append(line)
+        return read_block(line, text, dialect)
+
+    monkeypatch.setattr("mechwright_cam.controls.reading.read.read_block", counted)
+    every = "".join(f"G90 G1 X{k}. F{k} S{900 + k} M3 (to {k})\n" for k in range(1, 40))
+    run = interpret(f"G21 G17 G90 G40\nS800 M3\nG0 X0 Y0 Z0\n{every}G91\n{every}M2\n")
+    assert read == [1, 2, 43, 44, 83]
+    assert [state.rpm for state in run.states[-3:]] == [937, 938, 939]
+    assert [run.states[at].rpm for at in run.state[1:4]] == [901, 902, 903]
+    assert run.remarks[5] == Remark(9, "to 6", 6)

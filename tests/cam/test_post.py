@@ -27,7 +27,7 @@ GOLDEN = """\
 (origin G55, Z0 on top of the stock, units mm and mm/min)
 (T2 H2 D 8 mm: drill-8, drill)
 (T3 H3 D 6 mm: mill-6, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: holes)

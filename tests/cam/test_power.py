@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, prove, simulated
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, asked, prove, simulated
+from golden_operations import made
 from shop import plate_job
 from test_simulation import row
 
@@ -142,7 +142,7 @@ def test_a_cut_beyond_the_spindle_is_refused_and_the_advice_helps(control: str) 
     assert [check.name for check in proof.failures] == ["power"]
     seen = set()
     for _ in range(30):  # each line that is beyond it names the feed which does
-        check = prove(text, of, BY_NAME[control]).checks["power"]
+        check = asked("power", text, of, BY_NAME[control])
         if check.passed:
             break
         said = re.match(

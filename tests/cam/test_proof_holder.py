@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from by_control import prove
+from by_control import asked
 from pydantic import ValidationError
 from shop import MILL, TOOLS, plate_job, plate_program
 
@@ -23,7 +23,7 @@ def held(**changes: float) -> Tool:
 
 def check(mill: Tool, name: str = "holder", **settings: object) -> Check:
     job = plate_job(tools=(*TOOLS[:2], mill), **settings)
-    return prove(LinuxCnc().write(plate_program(mill=mill)), job).checks[name]
+    return asked(name, LinuxCnc().write(plate_program(mill=mill)), job)
 
 
 def test_what_the_library_does_not_know_is_not_judged() -> None:
@@ -68,13 +68,13 @@ def test_a_holder_may_go_down_where_nothing_is_left() -> None:
 
     def found(last: list[object]) -> Check:
         section = ToolSection(mill, 8000, "flood", (Operation("o", (*clear, *last)),))
-        return prove(LinuxCnc().write(Program("plate", "G54", 5.0, (section,))), job).checks["holder"]
+        return asked("holder", LinuxCnc().write(Program("plate", "G54", 5.0, (section,))), job)
 
     assert found(row(0, -2.5, 17)).passed
     assert not found(row(9, -2.5, 17)).passed
     # In the other order the stock is still there.
     section = ToolSection(mill, 8000, "flood", (Operation("o", (*row(0, -2.5, 17), *clear)),))
-    assert not prove(LinuxCnc().write(Program("plate", "G54", 5.0, (section,))), job).checks["holder"].passed
+    assert not asked("holder", LinuxCnc().write(Program("plate", "G54", 5.0, (section,))), job).passed
 
 
 def test_the_holder_misses_the_clamp() -> None:
@@ -82,7 +82,7 @@ def test_the_holder_misses_the_clamp() -> None:
         hold = Hold(method="bore", clamp_diameter=20, clamp_height=15)
         mill = held(**changes)
         job: Job = plate_job(hold=hold, clearance=20.0, tools=(*TOOLS[:2], mill))
-        return prove(LinuxCnc().write(plate_program(mill=mill)), job).checks["clamp"]
+        return asked("clamp", LinuxCnc().write(plate_program(mill=mill)), job)
 
     found = clamped(stick_out=20.0, holder_diameter=100.0)
     assert not found.passed

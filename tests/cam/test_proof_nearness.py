@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from by_control import interpret, posted, prove
+from by_control import asked, interpret, posted, prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
@@ -186,12 +186,12 @@ def test_stock_above_a_tab_is_found(program: str) -> None:
     job = plate_job()
     tall = [replace(tab, top=tab.top + 2.0) for tab in job.tabs]
     high = replace(job, tabs=tuple(tall))
-    assert prove(program, high).checks["leftover"].passed
+    assert asked("leftover", program, high).passed
     # Where the cutter goes over tabs of 1 mm as if they were more than 2 mm high, stock stays above them.
     lifted = program.replace("Z-4.8", "Z-3.5").replace("\nZ-4.9\n", "\nZ-3.7\n")
     assert lifted != program
-    assert prove(lifted, high).checks["leftover"].passed
-    found = prove(lifted, job).checks["leftover"]
+    assert asked("leftover", lifted, high).passed
+    found = asked("leftover", lifted, job)
     assert not found.passed
     assert found.at is not None
     assert found.at[2] == pytest.approx(-4.5)

@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 import pytest
+from by_control import CONTROLS
 from by_night import by_night
-from golden_operations import CASES, made
-from golden_programs import CONTROLS, every_operation, with_options
+from golden_cases import CASES
+from golden_operations import made
+from golden_programs import every_operation, with_options
 from planning_parts import bore, job, plate
 from pygcode_reader import agree, needs_pygcode
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import asked, prove
 from height_map import read
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -86,7 +86,7 @@ class TestFlatFloors:
             lines = [f"X{29 if i % 2 else -29} Y{y:.3f}\nX{-29 if i % 2 else 29}" for i, y in enumerate(rows)]
             head = "G17 G21 G40 G49 G80 G90 G94\nG53 G0 Z0\nT49 M6\nG54 S10000 M3\nG0 X-29 Y-22\nG43 H49 Z5\nM8\n"
             text = head + "G1 Z-1 F800\n" + "\n".join(lines) + "\nG0 Z5\nM9\nM5\nG53 G0 Z0\nM30\n"
-            assert prove(text, job).checks["leftover"].passed == good
+            assert asked("leftover", text, job).passed == good
 
     def test_through_cuts_go_deeper_by_the_corner(self) -> None:
         job = laid(OUTSIDE, tools=("bull-6-r1",))
@@ -205,7 +205,7 @@ class TestRoundFloors:
         # A flat end mill on the same path, or one with a smaller corner, takes the fillet away.
         sharp = LIBRARY.get("bull-6-r1").model_copy(update={"corner_radius": 0.5})
         job = laid(round_pocket(1.0), tools=("bull-6-r1",), library=LIBRARY.extended((sharp,)))
-        found = prove(text, job).checks["gouge"]
+        found = asked("gouge", text, job)
         assert not found.passed
         # √2 - 1 times what the radii differ, less what the path keeps off the wall.
         assert found.value == pytest.approx((math.sqrt(2) - 1) * 0.5, abs=3e-3)
@@ -328,10 +328,10 @@ class TestRemarks:
         job = laid(POCKET, tools=("ball-6",))
         text = "G17 G21 G40 G49 G80 G90 G94\nG53 G0 Z0\nT49 M6\nG54 S10000 M3\nG0 X0 Y0\nG43 H49 Z5\nM8\n"
         text += "G1 Z-2 F100\nG0 Z5\nM9\nM5\nG53 G0 Z0\nM30\n"
-        assert prove(text, job).checks["entries"].passed
+        assert asked("entries", text, job).passed
         hollow = LIBRARY.get("ball-6").model_copy(update={"centre_cutting": False})
         other = laid(POCKET, tools=("ball-6",), library=LIBRARY.extended((hollow,)))
-        assert not prove(text, other).checks["entries"].passed
+        assert not asked("entries", text, other).passed
 
     def test_shallow_cuts_of_a_round_corner_are_fed_faster(self) -> None:
         shallow = Pocket("pocket", box(14, 9, 4), (), 0.0, 0.3)

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
-from by_control import BY_NAME, prove
-from machine_programs import CONTROLS, at_the_end, job_of, judged, refused, text_of
+from by_control import BY_NAME, CONTROLS, prove
+from machine_programs import at_the_end, job_of, judged, refused, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright_cam.proof.machine_rules import tools

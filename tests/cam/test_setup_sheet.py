@@ -217,6 +217,7 @@ def test_work_offset_is_set_once_and_every_tool_measured(offset, number):
     made = steps(job(work_offset=offset), [4, 7, 9], file_names=["wheel.nc"], deepest=-12.4)
     titles = [step.title for step in made]
     assert titles == [
+        "Look at the control's settings",
         "Clamp the stock",
         f"Set {offset} X and Y",
         f"Set {offset} Z once, with the Z setter",
@@ -225,12 +226,12 @@ def test_work_offset_is_set_once_and_every_tool_measured(offset, number):
         "Run",
     ]
     lines = [" ".join(step.lines) for step in made]
-    assert f"G10 L2 P{number} Z[N − h]" in lines[2]
-    assert "Do not touch it again" in lines[2]
-    assert "For each of T4, T7, T9" in lines[3]
-    assert "Hn = Zn − N" in lines[3]
-    assert f"T4 M6, {offset}, G43 H4" in lines[4]
-    assert "Z −12.40, 2.40 mm below the plate" in lines[0]
+    assert f"G10 L2 P{number} Z[N − h]" in lines[3]
+    assert "Do not touch it again" in lines[3]
+    assert "For each of T4, T7, T9" in lines[4]
+    assert "Hn = Zn − N" in lines[4]
+    assert f"T4 M6, {offset}, G43 H4" in lines[5]
+    assert "Z −12.40, 2.40 mm below the plate" in lines[1]
 
 
 def test_length_offsets_of_the_procedure_are_right():
@@ -249,7 +250,7 @@ def test_origin_words():
     for origin, words in (("corner", "lower left corner"), ("centre", "centre of the stock")):
         text = read(sheet(job(origin=origin), program(), PROOF)).text
         assert f"X0 Y0 the {words}" in text
-    corner = " ".join(steps(job(origin="corner"), [4], file_names=[""], deepest=0.0)[1].lines)
+    corner = " ".join(steps(job(origin="corner"), [4], file_names=[""], deepest=0.0)[2].lines)
     assert "X reads −r" in corner
 
 

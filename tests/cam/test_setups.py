@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, interpret, prove
+from by_control import BY_NAME, asked, interpret
 from by_night import examples, thinned
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -156,8 +156,8 @@ def test_what_the_first_side_has_cut_is_gone_from_the_second() -> None:
         "M30\n",
         f"G54\nG55\nG0 X{x:g} Y{y:g}\nG43 H{second.program.sections[-1].tool.number} Z5\nG0 Z-7\nG53 G0 Z0\nM30\n",
     )
-    assert prove(text, second.job).checks["rapids-in-stock"].passed
-    assert not prove(text, replace(second.job, gone=())).checks["rapids-in-stock"].passed
+    assert asked("rapids-in-stock", text, second.job).passed
+    assert not asked("rapids-in-stock", text, replace(second.job, gone=())).passed
 
 
 def test_dowels_stand_on_the_flip_axis_and_fit_both_sides() -> None:
@@ -256,7 +256,7 @@ def test_the_proof_knows_how_much_of_the_frame_may_go() -> None:
     def into(at, z=-3.0):
         tool = second.program.sections[-1].tool.number
         down = f"G54\nG55\nG0 X{at.x:.3f} Y{at.y:.3f}\nG43 H{tool} Z5\nG1 Z{z} F100\nG53 G0 Z0\n"
-        return prove(second.text.replace("M30\n", down + "M30\n"), job).checks["gouge"]
+        return asked("gouge", second.text.replace("M30\n", down + "M30\n"), job)
 
     x0, _, x1, y1 = job.body.bounds
     assert into(shapely.Point(x1 + 3.0, y1 - 4.0)).passed  # beside the end of the step

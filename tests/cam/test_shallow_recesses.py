@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import asked, prove
 from by_night import NIGHT, by_night, thinned
 from height_map import read
 from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
@@ -64,7 +64,7 @@ def test_a_mill_that_keeps_its_full_radius_off_a_shallow_wall_leaves_stock() -> 
         [(-15 + lack, -12 + lack), (15 - lack, -12 + lack), (15 - lack, 12 - lack), (-15 + lack, 12 - lack)]
     )
     text, _ = made(laid(Pocket("recess", small, (), 0.0, 0.3), tools=("bull-6-r1",)))
-    found = prove(text, job).checks["leftover"]
+    found = asked("leftover", text, job)
     assert not found.passed
     assert found.value == pytest.approx(math.sqrt(2) * lack, abs=0.01)  # in the corners
 

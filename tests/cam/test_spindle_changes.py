@@ -3,8 +3,8 @@
 import re
 
 import pytest
-from by_control import BY_NAME, prove
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, asked
+from golden_operations import made
 
 from mechwright_cam.proof import Check
 
@@ -12,7 +12,7 @@ from mechwright_cam.proof import Check
 def judged(lines: list[str], operation: str, control: str) -> Check:
     """The check of the spindle for a text of an operation's part."""
     one = made(operation, control)[0]
-    return prove("\n".join([*lines, ""]), one.job, BY_NAME[control]).checks["spindle"]
+    return asked("spindle", "\n".join([*lines, ""]), one.job, BY_NAME[control])
 
 
 def lines_of(operation: str, control: str) -> list[str]:

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from by_control import BY_NAME, interpret, prove
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, asked, interpret, prove
+from golden_operations import made
 from planning_parts import bore, job, plate
 
 from mechwright.plugins.host import host
@@ -55,7 +55,7 @@ def test_an_optional_stop_sets_no_clamp(control: str) -> None:
 def test_a_stop_that_a_switch_makes_is_judged_as_any(before: str, said: str, stop: str, control: str) -> None:
     (one,) = made("profile-outside", control)
     head, after = one.text.rsplit("\nM5\n", 1)
-    found = prove(f"{head}\nM5\n{before}{stop}\n{after}", one.job, BY_NAME[control]).checks["stops"]
+    found = asked("stops", f"{head}\nM5\n{before}{stop}\n{after}", one.job, BY_NAME[control])
     assert (stop if before else "") + " " * bool(before) + said in found.message
 
 

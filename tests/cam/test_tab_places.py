@@ -2,7 +2,7 @@
 
 import pytest
 import shapely
-from by_control import posted, prove
+from by_control import asked, posted, prove
 from planning_parts import job, part, rounded_box
 
 from mechwright.contracts.part import Part, Pocket, Profile
@@ -52,4 +52,4 @@ def test_behind_a_thin_wall_tabs_end_at_its_opening(wall):
     for tab in of.tabs:
         inner = 20.0 - shapely.distance(tab.shape, shapely.Point(0, 0))
         assert inner == pytest.approx(min(wall, 1.0), abs=0.03)
-    assert prove(posted(of), of).checks["tabs"].passed
+    assert asked("tabs", posted(of), of).passed

@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
-from by_control import BY_NAME, interpret
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, interpret
+from golden_operations import made
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError

@@ -99,3 +99,14 @@ def test_no_way_names_the_pairs():
 def test_a_missing_body_is_named():
     with pytest.raises(GeometryError, match="no poses of crank"):
         stack([GROUND, ARM], [SHAFT], {"ground": STILL}, 0.5, 0.3)
+
+
+@pytest.mark.parametrize(("gap", "meets"), [(0.2, True), (5.0, False)])
+def test_a_spindle_that_comes_by_for_a_moment_is_met_at_any_instant(gap, meets):
+    """A pin at 20 mm of the crank passes a small disc, at one of its samples or between two of them."""
+    pin = Spindle("pin", "crank", 20 + 0j, 1.0, ("arm",))
+    for at in np.linspace(0.0, math.tau, 38)[:-1]:
+        middle = (20 + 1 + gap + 2) * complex(math.cos(at), math.sin(at))
+        plate = Plate("plate", "ground", disc(2.0, (), middle), 3.0)
+        close = Closeness([ARM, plate], [pin], {"ground": STILL, "crank": crank()}, 0.5)
+        assert close.spindle(pin, plate, 1.0) is meets

@@ -1,6 +1,7 @@
 """Joint forces against the reference, virtual power, and equilibrium."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ from planar_circles import in_body
 
 from mechwright.errors import KinematicsError
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
-from mechwright.mechanics.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
+from mechwright.mechanics.planar.dynamics import BLOCK, GROUND, Link, Load, Pin, Slide, forces
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())["facts"]
 EXPECTED = {fact["name"]: fact["expected"] for fact in FACTS}
@@ -165,3 +166,18 @@ def test_a_dead_centre_is_named():
     forces(links, joints, "crank")
     with pytest.raises(KinematicsError, match="dead centre"):
         forces(links, joints, "slider")
+
+
+def test_of_more_samples_than_are_solved_together_each_gets_its_own():
+    """A mass on a crank whose speed grows from sample to sample: it pulls with m r ω², where it stands.
+    A guide holds the same whichever of its two senses it is given, which is another one from sample to sample."""
+    count = 2 * BLOCK + 37
+    theta, omega = np.linspace(0.0, 40.0, count), np.linspace(1.0, 3.0, count)
+    crank = BodyMotion.about(0j, Turning.of(theta, omega))
+    found = forces([Link("crank", crank, 2.0, 10 + 0j)], [Pin("shaft", GROUND, "crank", 0j * theta)], "crank")
+    assert np.allclose(found.joints["shaft"], -20 * omega**2 * np.exp(1j * theta), rtol=1e-12)
+    links, (*pins, guide), loads = slider(count)
+    turned = replace(guide, direction=np.where(theta < 20.0, 1.0, -1.0) + 0j)
+    alone, many = (forces(*one[:2], "crank", one[2]) for one in (slider(), (links, [*pins, turned], loads)))
+    assert np.allclose(many.joints["guide"], alone.joints["guide"], rtol=1e-9)
+    assert np.allclose(many.drive, alone.drive, rtol=1e-9)

@@ -5,7 +5,7 @@
 (T1 H1 D 6 mm: spot-6, spot drill)
 (T2 H2 D 5 mm: drill-5, drill)
 (T3 H3 D 6 mm: mill-6, end mill)
-N5 G17 G21 G40 G49 G80 G90 G94
+N5 G17 G21 G40 G49 G80 G90 G91.1 G94
 N10 G61
 (measured offsets)
 N15 G10 L2 P4 X-312.5 Y-201.25 Z-388.012
@@ -51,7 +51,7 @@ N200 G1 Z-7.5
 N205 G0 Z5
 (operation: peck drill 5)
 (restart point: T2 in the spindle)
-N210 G17 G21 G40 G49 G80 G90 G94
+N210 G17 G21 G40 G49 G80 G90 G91.1 G94
 N215 G61
 N220 G53 G0 Z-2
 N225 G57 S2400 M3
@@ -76,7 +76,7 @@ N315 G1 Z-17.5
 N320 G0 Z5
 (operation: drill 5, chips broken)
 (restart point: T2 in the spindle)
-N325 G17 G21 G40 G49 G80 G90 G94
+N325 G17 G21 G40 G49 G80 G90 G91.1 G94
 N330 G61
 N335 G53 G0 Z-2
 N340 G57 S2400 M3
@@ -112,7 +112,7 @@ N480 G1 X30
 N485 G0 Z5
 (operation: slot: ramp and finish)
 (restart point: T3 in the spindle)
-N490 G17 G21 G40 G49 G80 G90 G94
+N490 G17 G21 G40 G49 G80 G90 G91.1 G94
 N495 G61
 N500 G53 G0 Z-2
 N505 G57 S8000 M3

@@ -5,7 +5,7 @@
 (T1 H1 D 6 mm: spot-6, spot drill)
 (T2 H2 D 5 mm: drill-5, drill)
 (T3 H3 D 6 mm: mill-6, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: spot drill)

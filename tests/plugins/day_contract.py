@@ -14,6 +14,8 @@ class DayContract(FamilyContract):
 
     night: ClassVar[Mapping[str, Collection[int]]] = {}
     """Test to the places in ``examples`` that it takes by night only."""
+    nights: ClassVar[Collection[str]] = ()
+    """Tests that wait for the night as a whole: the family's own tests by day show the same."""
     compiles: ClassVar[bool] = False
     """Whether many designs at once are evaluated by kernels that take longer to compile than to run: by day
     ``test_plain_kernels.py`` runs them without the compiler."""
@@ -27,6 +29,8 @@ class DayContract(FamilyContract):
             pytest.skip("compiled by night, with MECHWRIGHT_NIGHT=1")
         if request.function.__name__ in self.ci and not NIGHT:
             pytest.skip("in CI besides, with MECHWRIGHT_NIGHT=1")
+        if request.function.__name__ in self.nights and not NIGHT:
+            pytest.skip("by night, with MECHWRIGHT_NIGHT=1")
         waits = self.night.get(request.function.__name__, ())
         if waits and not NIGHT and self.examples.index(request.getfixturevalue("design")) in waits:
             pytest.skip("by night, with MECHWRIGHT_NIGHT=1")

@@ -16,12 +16,15 @@ QUICK = {"designs": 1, "starts": 1}
 class TestEllipticGears(DayContract):
     family = EllipticGears
     night: ClassVar = {
-        # The pair and the train of one phase are examples that are machined, and of the two joints the clamp has
-        # more that is cut. Of a train with a clamp or pins no body meets another in the tests of the joint, and
-        # of one without in those of the example.
-        "test_programs_are_proven": {0, 3, 4},
+        # The pair and the train of one phase are examples that are machined, and the plates of a clamp are in the
+        # tests of the joint. Of a train with a clamp or pins no body meets another in those tests either, and of
+        # one without in those of the example.
+        "test_programs_are_proven": {0, 3, 4, 5},
         "test_no_interference": {3, 4, 5},
+        # One with a clamp or pins has all solids of a train of one phase.
+        "test_solids": {3},
     }
+    nights: ClassVar = ("test_synthesis",)
     max_frames = examples(8, 50)
     examples = (
         {},

@@ -16,6 +16,9 @@ from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright.standards.screws import ENGAGEMENT, LENGTHS
 from mechwright_cad.interference import interference, smooth_motion
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
+from mechwright_cam.planning.prepare import prepare
 from mechwright_elliptic_gears.clamp import MARK, SETTING, Clamp, clamp_of
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.joint_load import greatest_torque
@@ -90,6 +93,15 @@ def test_no_solid_stands_in_another():
     parts = [joined(part) if part.outline is not None else part for part in FAMILY.parts(params)]
     report = interference(parts, smooth_motion(partial(FAMILY.solve, params), parts))
     assert report.clear, report.collisions
+
+
+def test_the_plates_of_the_clamp_are_machined():
+    made = load(ROOT / "examples" / "figure-eight-train.toml", host())
+    findings, jobs = prepare(made, [part for part in FAMILY.parts(TRAIN) if part.name.startswith("clamp-")])
+    assert errors(findings) == []
+    assert {job.part.name for job in jobs} == {"clamp-flange", "clamp-register", "clamp-ring"}
+    for job in jobs:
+        machine(job, host().get(Control, "linuxcnc")).proof.require()
 
 
 def test_the_clamp_is_screwed_together():

@@ -8,12 +8,13 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright import Severity
 from mechwright.mechanics.gearing import prove_mesh
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.loop import FiveBar
 from mechwright_five_bar.masses import carried_of, masses_of
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import period_of
+from mechwright_five_bar.peaks import peaks_of, period_of
 from mechwright_five_bar.reach import bar_of, reach, square, transmission_range, turns_fully
 from mechwright_five_bar.train import gear_outlines, rack_of, train_of
 
@@ -118,3 +119,23 @@ def test_the_arm_turns_by_the_ratio_of_the_teeth():
     turned = motion.channels["phi"].values - motion.channels["phi"].values[0]
     np.testing.assert_allclose(turned, 0.4 * motion.channels["theta"].values, atol=1e-12)
     assert motion.channels["theta"].values[-1] == pytest.approx(5 * math.tau)
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"speed": 900.0}, {"load_x": 100.0}, {"load_y": -40.0, "gear_thickness": 3.0}]
+)
+def test_a_judge_finds_what_a_check_finds_without_what_would_bear_more(changes):
+    params = FiveBarParams(**changes)
+    told, judged = ([one for one in found if one.code == "five-bar.root"] for found in (
+        FAMILY.check(params), FAMILY.judge(params)))  # fmt: skip
+    assert [(one.severity, one.message) for one in judged] == [(one.severity, one.message) for one in told]
+    assert told
+    assert not any(one.proposed for one in judged)
+    assert any(one.proposed for one in told) == (told[0].severity is not Severity.NOTE)
+
+
+def test_shapes_and_masses_follow_from_no_load():
+    quiet, loud = FiveBarParams(), FiveBarParams(speed=300.0, load_x=50.0, load_y=-20.0)
+    assert masses_of(quiet) is masses_of(loud)
+    assert peaks_of(loud)["force_A"].value > peaks_of(quiet)["force_A"].value
+    assert masses_of(FiveBarParams(material="steel"))["crank"].mass > 2 * masses_of(quiet)["crank"].mass

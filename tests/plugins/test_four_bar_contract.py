@@ -4,7 +4,7 @@ import math
 from typing import ClassVar
 
 import pytest
-from by_night import examples
+from by_night import NIGHT, examples
 from day_contract import DayContract
 
 from mechwright_four_bar.family import FourBars
@@ -65,6 +65,7 @@ class TestFourBars(DayContract):
         "path": ({"starts": 4000, "designs": 2, "tolerance": 0.1},),
         "adjustable-path": ({"starts": 600, "designs": 1},),
         "poles": ({"starts": 800, "designs": 3},),
+        "nine-points": ({},) if NIGHT else (),
     }
 
 

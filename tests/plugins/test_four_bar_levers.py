@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from many import Many
 from scipy.optimize import brentq
 
 from mechwright import KinematicsError, Severity, Stage
@@ -227,3 +228,27 @@ def test_the_toggle_is_where_an_independent_search_finds_it():
     angle = brentq(gap, 1, 3)
     motion = FourBars().solve(params(70, 60, 75, 110), 9)
     assert motion.scalars["toggle_high"].value == pytest.approx(math.degrees(angle), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "swing", [{}, {"swing_from": 130, "swing_to": 40}, {"swing_from": -500, "swing_to": -430}]
+)
+def test_many_levers_at_once_swing_as_each_does(swing):
+    many = Many(FourBars())
+    batch = many.drawn(
+        12, {**swing, "ground": 100, "ground_angle": 10}, crank=(20, 120), coupler=(50, 110), follower=(50, 110),
+        branch=["open", "crossed"],
+    )  # fmt: skip
+    columns = [
+        "least_transmission_angle", "greatest_transmission_angle", "swing_from", "swing_to", "toggle_low", "toggle_high",
+    ]  # fmt: skip
+    found = many.same(batch, columns, Stage.MOTION)
+    assert not many.alone
+    allowed = found.forbidden == 0
+    assert allowed.any()
+    if swing:
+        assert "four-bar.swing" in found.counts
+        np.testing.assert_allclose(
+            np.ptp([found.values[end][allowed] for end in ("swing_from", "swing_to")], axis=0),
+            abs(np.subtract(*swing.values())),
+        )

@@ -78,11 +78,33 @@ def test_forces_and_masses_are_those_of_each():
 
 
 @pytest.mark.parametrize(
-    "content", [{"frame": "one"}, {"coupler_bend": 3}, {"swing_from": 10, "swing_to": 50}]
+    "content", [{"frame": "one"}, {"coupler_bend": 3}, {"coupler_bend": 3, "swing_from": 10, "swing_to": 50}]
 )
 def test_what_has_no_way_goes_one_by_one(content):
     MANY.same(MANY.drawn(3, content, crank=(15, 25)), ["alpha_b_max"], Stage.MOTION)
     assert MANY.alone == 3
+
+
+def test_swings_that_are_given():
+    batch = MANY.drawn(
+        60, {"speed": 100, "bushing_wall": 0}, crank=(20, 200), coupler=(5, 150), follower=(5, 150),
+        ground=(60, 150), ground_angle=(-300, 300), swing_from=(-360, 360), swing_to=(-360, 360),
+    )  # fmt: skip
+    found = MANY.same(batch, LINKS + FIGURES, Stage.PARTS)
+    assert {"four-bar.closure", "four-bar.swing"} <= set(found.counts)
+    assert (found.forbidden == 0).sum() > 5
+    assert not MANY.alone
+
+
+def test_one_swing_of_cranks_and_levers():
+    batch = MANY.drawn(
+        25, {"swing_from": 130, "swing_to": 40, "ground": 100, "ground_angle": 10}, crank=(20, 90),
+        coupler=(60, 110), follower=(60, 110), branch=["open", "crossed"],
+    )  # fmt: skip
+    found = MANY.same(batch, LINKS + FIGURES, Stage.MOTION)
+    assert np.isfinite(found.values["toggle_low"]).any()
+    assert np.isnan(found.values["toggle_low"][found.forbidden == 0]).any()
+    assert not MANY.alone
 
 
 def test_a_lever_turns_back_at_one_degree():

@@ -114,3 +114,17 @@ def test_what_a_person_designs_first_bears_its_load(law, slots):
     assert {one.code for one in found} == {"geneva.stud", "geneva.stud-slope"}
     assert {one.severity for one in found} == {Severity.NOTE}
     assert math.isfinite(sum(one.value for one in found))
+
+
+@pytest.mark.parametrize("changes", [{}, {"speed": 900.0, "pin_diameter": 4.0}])
+def test_a_judge_finds_what_a_check_finds_without_what_would_bear_more(changes):
+    params = Params(**changes)
+    check, judge = Geneva().check(params), Geneva().judge(params)
+    said = [(one.code, one.severity, one.message) for one in check if one.severity is not Severity.NOTE]
+    assert [
+        (one.code, one.severity, one.message) for one in judge if one.severity is not Severity.NOTE
+    ] == said
+    codes = {"geneva.stud", "geneva.stud-slope", "geneva.key"} & {code for code, _, _ in said}
+    assert bool(codes) == bool(changes)
+    assert all(any(one.proposed for one in check if one.code == code) for code in codes)
+    assert not any(one.proposed for one in judge if one.code in codes)

@@ -22,7 +22,7 @@ class TestNoncircularGears(DayContract):
     )
     night: ClassVar = {
         # One pair is built by day; of the other laws, findings and motion.
-        name: {1, 2, 3, 4}
+        name: {1, 2, 3, 4, 5, 6}
         for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
     }
     max_frames = tried(1, 40)
@@ -35,7 +35,15 @@ class TestNoncircularGears(DayContract):
         {**SMALL, "law": "window", "teeth": 28, "window_ratio": 0.9},
         {**SMALL, "law": "table", "teeth": 20, "nodes": [[0, 0], [90, 100], [180, 180], [270, 260]]},
         {**SMALL, "law": "slider", "teeth": 36},
+        {**SMALL, "law": "ratio", "ratio": "exp(0.15*cos(phi))", "teeth": 24},
+        {**SMALL, "law": "angle", "angle": "phi + 0.1*sin(phi)", "teeth": 24},
     )
+    requirements: ClassVar = {
+        "geneva": ({"harmonics": 4, "teeth": 40}, {"harmonics": 3, "slots": 6, "hollow": False}),
+        "slider": ({"harmonics": 4, "pressure_limit": 45},),
+        "quick-return": ({"harmonics": 3, "time_ratio": 1.3, "teeth": 30},),
+        "approach": ({"harmonics": 3, "least_ratio": 0.4},),
+    }
     refused = (
         ({"sines": [60.0]}, "law"),
         ({"law": "window", "blend": 150.0}, "blend"),
@@ -44,6 +52,8 @@ class TestNoncircularGears(DayContract):
         ({"bore": 70}, "bore"),
         ({"addendum": 1.4, "dedendum": 1.55, "tip_radius": 0.05, "pressure_angle": 25}, "addendum"),
         ({"law": "table"}, "table"),
+        ({"law": "ratio", "ratio": "1 + 1.1*cos(phi)"}, "ratio"),
+        ({"law": "angle", "angle": "0.9*phi"}, "angle"),
         ({"law": "slider", "mate_lobes": 2}, "mate_lobes"),
         ({"eccentricity": 0.1}, "eccentricity"),
         ({"lobes": 2, "teeth": 41, "mate_lobes": 3}, "teeth"),
@@ -58,6 +68,8 @@ class TestNoncircularGears(DayContract):
         "load_torque": [2.0],
         "lobes": [2],
         "mate_lobes": [2, 4],
+        "ratio": ["exp(0.1*sin(phi))"],
+        "angle": ["phi + 0.05*sin(2*phi)"],
         "nodes": [[[0, 0], [90, 98], [180, 180], [270, 262]]],
         "stroke_start": [55.0],
         "stroke_end": [125.0],

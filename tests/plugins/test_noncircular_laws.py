@@ -129,6 +129,13 @@ def test_a_shaper_leaves_the_flanks_of_a_rack():
         assert np.abs(root - one.curve.frame_at(start).offset(-one.rack.dedendum)).max() < 1e-12
 
 
+def test_a_circle_about_its_own_middle_is_a_round_gear():
+    """The bound of the centre distance is then the distance itself."""
+    for lobes in (1, 2, 3):
+        law = law_of(design("D6", eccentricity=0.0, mate_lobes=lobes, teeth=24))
+        assert law.rates(np.linspace(0, 6, 7))[0] == pytest.approx(1 / lobes, rel=1e-12)
+
+
 class Kinked(RatioLaw):
     lobes = (1, 1)
 

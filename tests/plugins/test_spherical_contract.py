@@ -17,9 +17,11 @@ class TestSpherical(DayContract):
     compiles = True
     night: ClassVar = {
         # The first has all bodies of a five-bar, in both phases; the last those of any four-bar.
-        "test_programs_are_proven": {2},
+        "test_programs_are_proven": {2, 3},
+        "test_solids": {1, 2, 3},
         "test_no_interference": {1, 2},
     }
+    nights: ClassVar = ("test_synthesis",)
     max_frames = examples(2, 50)
     examples: ClassVar = (
         PATH,

@@ -173,3 +173,17 @@ def test_the_example_builds_free_at_both_settings(tmp_path):
     assert "warning" not in done.output
     bill = (tmp_path / "out" / "bill-of-materials.csv").read_text(encoding="utf-8")
     assert "ISO 4762 - M3 x 10 - 8.8" in bill
+
+
+def test_every_phase_has_the_same_solids():
+    """They are made once, for all phases; of the phase that is shown they would not be others."""
+    table = tomllib.loads((EXAMPLES / "spherical-four-bar-slots.toml").read_text())["parameters"]
+    shown = [
+        SphericalParams.model_validate({**table, "four_bar": {**table["four_bar"], "phase": phase}})
+        for phase in (1, 2)
+    ]
+    one, two = ({part.name: part for part in FAMILY.parts(params)} for params in shown)
+    assert one["coupler"] == two["coupler"]
+    solids = [links.solid(params, "coupler") for params in shown]
+    assert solids[0].Volume() == pytest.approx(solids[1].Volume(), rel=1e-9)
+    assert solids[0].Center().toTuple() == pytest.approx(solids[1].Center().toTuple(), abs=1e-6)

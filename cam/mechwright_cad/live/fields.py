@@ -8,6 +8,7 @@ from pydantic import BaseModel
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import first_fields
 from mechwright.contracts.table import Table
+from mechwright.designs.change import found_at
 from mechwright.designs.design import Design
 from mechwright.designs.requirement import Requirement
 
@@ -27,7 +28,11 @@ def fields_of(design: Design) -> list[dict[str, Any]]:
     ``first``, whether the file says it (``given``), and, of numbers, ``low``, ``high``, whether these are
     ``open`` and the ``reach`` of a slider.
     """
-    found = list(_of_model(type(design.params), design.params, "parameters", design.content, first=True))
+    found = [
+        field
+        for path, table in design.own_tables.items()
+        for field in _of_model(type(table), table, path, design.content, first=True)
+    ]
     return found + _of_tables(design.readers, design.tables, design.content)
 
 
@@ -120,12 +125,7 @@ def _bounds(facts: Mapping[str, Any], value: object) -> dict[str, Any]:
 
 
 def _given(content: Mapping[str, Any], key: str) -> bool:
-    here: Any = content
-    for name in key.split("."):
-        if not isinstance(here, Mapping) or name not in here:
-            return False
-        here = here[name]
-    return True
+    return found_at(content, key)[0]
 
 
 def plain(value: Any) -> Any:

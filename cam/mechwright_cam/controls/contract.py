@@ -179,6 +179,9 @@ class Control(Plugin):
         """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""
         return ()
 
+    leftover: "ClassVar[str]" = ""
+    """What of an earlier program no program that is read here takes back, and how to; for sheet and proof."""
+
     def table_words(self, table: str) -> str:
         """What to do with the file of the tool table."""
         return f"{table} lists the tools: enter the measured lengths there."

@@ -132,6 +132,9 @@ class Dialect:
     """Whether M6 may stop the coolant, so that it has to be stated anew."""
     feed_mode_stays: bool = False
     """Whether G95, feeds by revolution, may hold from an earlier program, so that G94 has to be stated."""
+    usual: frozenset[str] = frozenset()
+    """Words that hold at the start unless an earlier program has left others (G94, G91.1): that a program
+    does without them is told, and not refused."""
     ends_cycles: bool = False
     """Whether a drilling cycle has to be ended by G80, or a move, before G28 and G30."""
     percent_ends: bool = True
@@ -169,6 +172,11 @@ class Dialect:
     """How far the control leaves the path between two moves."""
     name: str = "the control"
     """Name for messages; a control gives its own title."""
+
+    @property
+    def centres_stay(self) -> bool:
+        """Whether G90.1, absolute centres of arcs, may hold from an earlier program."""
+        return 901 in self.g_codes
 
     @property
     def inert_g(self) -> frozenset[int]:

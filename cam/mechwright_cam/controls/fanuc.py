@@ -22,6 +22,10 @@ class Fanuc(GcodeControl):
 
     name = "fanuc"
     title = "Fanuc"
+    leftover = (
+        "an origin shift (G92, G52), scale (G51), mirror (G51.1) or turn (G68) of an "
+        "earlier program: look that the common offset (EXT) is 0, and G50, G50.1 and G69 in force"
+    )
     dialect = Dialect(
         g_codes=MILLING | {541},
         unsupported=NOT_SIMULATED,

@@ -64,6 +64,7 @@ class Grbl(GcodeControl):
     forbidden = "%$;" + _REALTIME
     highest_tool = 255
     by_hand = "files"
+    leftover = "an origin shift (G92) of an earlier program: type G92.1 before zero is set"
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:

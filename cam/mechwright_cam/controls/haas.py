@@ -20,6 +20,10 @@ class Haas(Fanuc):
 
     name = "haas"
     title = "Haas"
+    leftover = (
+        "an origin shift (G92, G52), scale (G51), mirror (G101) or turn (G68) of an "
+        "earlier program: look that the offset of G52 is 0, and G50, G100 and G69 in force"
+    )
     dialect = replace(
         Fanuc.dialect,
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},

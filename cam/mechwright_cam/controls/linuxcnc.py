@@ -10,6 +10,7 @@ from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
+from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.formats.linuxcnc import Row, table_text
@@ -49,6 +50,8 @@ class LinuxCnc(GcodeControl):
         arc_turns=True,
         both_coolants=False,
         mode_ends_feed=True,
+        feed_mode_stays=True,  # M2 brings G94 back, a program that was broken off does not
+        usual=frozenset({"G94", "G91.1"}),
         one_use_of_axes=True,
         inert=((970, ""),),
         tables=frozenset({1, 2, 10, 11, 20}),
@@ -61,6 +64,8 @@ class LinuxCnc(GcodeControl):
             (950, FEEDS),
         ),
     )
+    modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
+    leftover = "an origin shift (G92, G52) of an earlier program: type G92.1 before zero is set"
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)

@@ -31,6 +31,10 @@ class Mach3(GcodeControl):
     )
     forbidden = "%;"
     highest_tool = 254
+    leftover = (
+        "an origin shift (G92, G52), scale (G51) or turn (G68) of an earlier program: type G92.1, G50 and "
+        "G69 before zero is set"
+    )
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def head(self, out: Writer) -> None:

@@ -16,11 +16,11 @@ from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
 from mechwright_cam.operations.finishing import finish_heights
-from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.plane.leads import half_circles
-from mechwright_cam.plane.path import CIRCLE_BIAS, round_from_right
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, printed, round_from_right, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Rapid
 from mechwright_cam.setup.depths import bores, bottom_of, floor_allowance, through
 from mechwright_cam.setup.job import Job
@@ -31,6 +31,17 @@ TIGHTEST = 0.9
 
 CORELESS = 0.8
 """First helix in cutter radii: below 1, so that no core stays."""
+
+SINKS = 0.05
+"""Air all round a mill that is sunk into a hole, mm: a drill may wander by as much."""
+
+SIDE = 0.2
+"""A cut deeper than ``step_down`` is at most so many diameters wide: the mill cuts with its side then, and
+its middle runs in what is cut already."""
+
+FINE_MILL = 2.0
+"""A hole in which only mills below this diameter, mm, have room for chips is left to a drill of its size: a
+helix of so thin a mill takes minutes, and it bends more than a drill wanders."""
 
 ONE_MORE = 60.0
 """One more mill for bores is worth it if it saves this time, s, and that of changing to it: about what it
@@ -57,6 +68,8 @@ class BoreOperation(Operation):
         if not isinstance(feature, Bore):
             return None
         bottom = bottom_of(every, feature.top, feature.depth)
+        if sizing_drill(every, feature) is not None:
+            return []
         able = [m for m in usable_mills(every, -bottom) if enters(m, feature.diameter, every.settings)]
         largest = max((mill.diameter for mill in chosen), default=math.inf)
         mill = boring_mill([m for m in able if m.diameter <= largest] or able, feature.diameter)
@@ -95,8 +108,26 @@ def _size(bore: Bore) -> tuple[float, float, float]:
     return bore.diameter, bore.top, bore.depth
 
 
+def sizing_drill(job: Job, bore: Bore) -> Tool | None:
+    """The drill of its size that makes a small hole through the plate, of which no fit is said."""
+    if bore.fit is not None or bore.diameter >= FINE_MILL / ROOMY:
+        return None
+    return _drill_of_size(job, bore)
+
+
+def _drill_of_size(job: Job, bore: Bore) -> Tool | None:
+    """The drill of a through hole's own size."""
+    if not through(job, bore.top + bore.depth):
+        return None
+    drills = usable_drills(job, -bottom_of(job, bore.top, bore.depth))
+    return next((drill for drill in drills if abs(drill.diameter - bore.diameter) <= ON_SIZE), None)
+
+
 def cutters_of(job: Job, bore: Bore) -> tuple[Tool | None, Tool | None]:
     """The drill and the mill of a bore, one of them at least; raises ToolError if nothing makes it."""
+    small = sizing_drill(job, bore)
+    if small is not None:
+        return small, None
     depth = -bottom_of(job, bore.top, bore.depth)
     out = through(job, bore.top + bore.depth)
     usable = usable_mills(job, depth)
@@ -107,9 +138,9 @@ def cutters_of(job: Job, bore: Bore) -> tuple[Tool | None, Tool | None]:
     if mill is not None:
         drill = starting_drill(job, bore.diameter, depth) if out else None
         return drill, mill
-    for drill in usable_drills(job, depth):
-        if abs(drill.diameter - bore.diameter) <= ON_SIZE and out:
-            return drill, None
+    drill = _drill_of_size(job, bore)
+    if drill is not None:
+        return drill, None
     if boring_mill(able, bore.diameter) is not None:
         raise ToolError(
             f"cam.compensation: no listed end mill has room in {bore.name} of {bore.diameter:g} mm, part "
@@ -170,9 +201,10 @@ def _open_radius(air: shapely.Geometry, middle: shapely.Point) -> float:
 def rough_bore(
     job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, step_down: float, pen: Pen
 ) -> None:
-    """Write helices out to the finishing allowance, from what a drill or earlier setups have opened.
+    """Write rings out to the finishing allowance, from what a drill or earlier setups have opened.
 
-    No turn is deeper than ``step_down``, mm.
+    A hole too narrow for the mill is opened along a helix, no turn of which is deeper than ``step_down``, mm.
+    Rings are so deep that depth times width is no more than that of a full slot of this depth.
     """
     mill = pen.tool
     data = mill.cutting[job.part.material]
@@ -183,25 +215,78 @@ def rough_bore(
     # Too narrow for an allowance: the finishing circle is the only one.
     widest = widest if widest >= final / 2 else final
     step = min(data.step_over, CORELESS) * mill.diameter
-    first = min(widest, CORELESS * mill.radius)
-    if drill is not None:
-        first = max(first, min(widest, drill.radius + step - mill.radius))
-    edge = _open_radius(air, shapely.Point(bore.centre)) - mill.radius
-    if edge > 0:  # outwards from there in even rings
-        edge = min(edge, widest)
-        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - TOLERANCES.noise), 1)
-    count = math.ceil((widest - first) / step - TOLERANCES.noise) + 1
-    radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
     bottom = _bottom(job, bore, mill)
     leave = floor_allowance(job, -bore.top, bottom)
-    for radius in radii:
-        turn = round_from_right(bore.centre, radius, job.settings.climb)
-        feed = pen.rates.inside(radius, mill.radius)
-        pen.helix(turn, radius, -bore.top, bottom + leave, step_down, feed)
+    hole = max(0.0 if drill is None else drill.radius, _open_radius(air, shapely.Point(bore.centre)))
+    free, radii = hole - mill.radius, []
+    if free < SINKS:  # too narrow to be sunk in: down along a helix, and on from there
+        free = min(widest, CORELESS * mill.radius)
+        if drill is not None:
+            free = max(free, min(widest, drill.radius + step - mill.radius))
+        turn = round_from_right(bore.centre, free, job.settings.climb)
+        feed = pen.rates.inside(free, mill.radius)
+        pen.helix(turn, free, -bore.top, bottom + leave, step_down, feed)
         pen.straight(bore.centre)
+        radii = [free]
+    deepest = job.settings.finish_step * mill.diameter
+    for radius in widening(free, widest, min(step, SIDE * mill.diameter)):
+        wide = cut_width(radius, mill.radius, free + mill.radius)
+        deep = max(step_down, min(deepest, step_down * mill.diameter / wide))
+        _ring(job, bore, pen, (free, radius), levels(-bore.top, bottom + leave, deep))
+        radii.append(free := radius)
     if leave > 0:
         _floor(job, bore, pen, radii, bottom)
     pen.retract()
+
+
+def widening(free: float, widest: float, step: float) -> list[float]:
+    """Radii, mm, of the rings from where the centre may be sunk out to the ``widest``, in even steps.
+
+    None is wider than twice the one before: so a mill that all but fills its hole gets out without a slot.
+
+    >>> widening(1.0, 2.5, 2.0)
+    [1.75, 2.5]
+    >>> widening(0.1, 1.2, 0.5)
+    [0.2, 0.4, 0.8, 1.2]
+    """
+    radii: list[float] = []
+    while widest - free > TOLERANCES.noise:
+        count = math.ceil((widest - free) / min(free, step) - TOLERANCES.noise)
+        free = rounded(free + (widest - free) / count) if count > 1 else widest
+        radii.append(free)
+    return radii
+
+
+def cut_width(radius: float, mill: float, opened: float) -> float:
+    """Width of cut, mm, of a mill whose centre goes round at ``radius`` in a hole of radius ``opened``.
+
+    Its edge leaves the hole's wall at an angle φ from the direction outwards, which the triangle of both
+    centres and that place has: opened² = radius² + mill² + 2 radius mill cos φ. The width is
+    mill (1 - cos φ), more than what is taken off the wall.
+
+    >>> round(cut_width(2.8, 3.0, 5.0), 3)  # 0.8 mm off the wall
+    1.543
+    """
+    inner = (opened**2 - radius**2 - mill**2) / (2 * radius * mill)
+    return mill * (1 - max(inner, -1.0))
+
+
+def _ring(job: Job, bore: Bore, pen: Pen, radii: tuple[float, float], heights: list[float]) -> None:
+    """Once round at every height, in a hole that is open to the first of two radii of the centre.
+
+    The cutter is sunk there in the clear, and goes out to the second on a half circle.
+    """
+    (x, y), (free, radius) = bore.centre, radii
+    turn = round_from_right(bore.centre, radius, job.settings.climb)
+    start = printed((x - free + SINKS / 2, y))
+    middle = ((start[0] + turn.start[0]) / 2, (start[1] + turn.start[1]) / 2)
+    path = Path(start, (arc(start, turn.start, middle, turn.cuts[0].turn),)) + turn
+    feed = pen.rates.inside(radius, pen.tool.radius)
+    pen.go(start, pen.z < -bore.top)
+    for z in heights:
+        pen.straight(start)
+        pen.sink(z)
+        pen.follow(path, feed)
 
 
 def _floor(job: Job, bore: Bore, pen: Pen, radii: list[float], bottom: float) -> None:

@@ -9,7 +9,7 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.over_tabs import lifted_height, over_tabs
-from mechwright_cam.operations.rates import Rates
+from mechwright_cam.operations.rates import RAMP_SHARE, Rates
 from mechwright_cam.plane.path import Path, polyline, printed, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Move, Rapid
 from mechwright_cam.setup.holding import Tab
@@ -21,6 +21,8 @@ AIR = 2.0
 """Feed through cleared ground in feeds of the cut."""
 EASIER = 1e-3
 """Ramps are longer than the steepest by this share, and so many mm: rounding of z must make none steeper."""
+STEEP = math.tan(math.radians(3))
+"""Slope from which on the feed is that of ramps: the usual angle."""
 TINY = 0.5
 """A way shorter than this many diameters is too short to ramp along: the cutter plunges."""
 
@@ -144,9 +146,18 @@ class Pen:
 
     def descend(self, path: Path, z: float, feed: float | None = None) -> None:
         """Run along a path while going evenly down to ``z``, arcs as helices."""
-        feed = self.rates.ramp if feed is None else feed
+        feed = self.ramp_feed(self.level - z, path.length) if feed is None else feed
         if not self._goes_over(path, z, feed):
             self._evenly(path, z, feed)
+
+    def ramp_feed(self, drop: float, length: float) -> float:
+        """Feed down along a way: that of ramps where it is steep, and nearly that of a cut where it is not.
+
+        Of each chip the end of the cutter takes the share that the slope is: once round a wall next to none.
+        """
+        full, steep = self.rates.ramp / RAMP_SHARE, min(self.slope, STEEP)
+        share = min(1.0, max(0.0, drop) / (steep * length)) if length > 0 else 1.0
+        return max(self.rates.ramp, round(full - (full - self.rates.ramp) * share, -1))
 
     def _evenly(self, path: Path, z: float, feed: float, inside: int = 0) -> None:
         """Run along a path while going evenly to ``z``."""
@@ -177,10 +188,10 @@ class Pen:
         """Go down along a circle, no more than ``step`` mm in a turn, and once round at the bottom."""
         self.above(turn.start)
         self.sink(top)
-        ramp = self.rates.ramp if feed is None else min(self.rates.ramp, feed)
         # A little less than the steepest, for rounding.
         for z in levels(top, bottom, min(step, math.tau * radius * self.slope * 0.999)):
-            self.descend(turn, z, ramp)
+            ramp = self.ramp_feed(self.level - z, turn.length)
+            self.descend(turn, z, ramp if feed is None else min(ramp, feed))
         self.follow(turn, feed)
 
     def ramp(self, path: Path, z: float) -> None:

@@ -9,7 +9,7 @@ from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import CuttingData, Tool
 
 RAMP_SHARE = 0.5
-"""Feed on ramps and helices: the cutter works with its end as well as with its side."""
+"""Feed on the steepest ramps and helices: the cutter works with its end as well as with its side."""
 
 MOST_THINNING = 3.0
 """Feed is raised no further for thin chips: with more, the cusps along the path show."""

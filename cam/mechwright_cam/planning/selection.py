@@ -185,6 +185,7 @@ def _floor_mills(every: Job) -> list[Tool]:
 def _drills(every: Job) -> list[Tool]:
     """Spot drill and drills for all holes through the plate, as few as open every hole well."""
     wanted: list[tuple[float, Tool]] = []
+    drills: dict[str, Tool] = {}
     for feature in every.features:
         if not through(every, feature.top + feature.depth):
             continue
@@ -193,7 +194,7 @@ def _drills(every: Job) -> list[Tool]:
             drill, mill = (way.drill, way.mill) if way is not None else cutters_of(every, feature)
             width = feature.diameter
             if drill is not None and mill is None:
-                width = drill.diameter  # no other makes the hole to size
+                drills[drill.name] = drill  # no other makes the hole to size
         elif isinstance(feature, Profile) and feature.side == "inside":
             _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))
             width, drill = 2 * radius, starting_drill(every, 2 * radius, -every.floor)
@@ -201,9 +202,8 @@ def _drills(every: Job) -> list[Tool]:
             continue
         if drill is not None:
             wanted.append((width, drill))
-    drills: dict[str, Tool] = {}
     for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
-        if not any(OPENS * width <= other.diameter for other in drills.values()):
+        if not any(OPENS * width <= other.diameter <= drill.diameter for other in drills.values()):
             drills[drill.name] = drill
     spots = every.tools_of(ToolKind.SPOT_DRILL) if drills else []
     return spots[:1] + sorted(drills.values(), key=lambda tool: -tool.diameter)

@@ -41,7 +41,9 @@ def program_end(scene: Scene) -> Check:
 def modes(scene: Scene) -> Check:
     """Units, distances, plane and compensation are set before the first move in work coordinates.
 
-    So are G94 and G98, where a move hangs on them and the control keeps them from program to program.
+    So are G94, G98 and G91.1, where a move hangs on them and the control keeps them from program to program;
+    where it begins with them their lack is told.
+    Of shifts and turns that a program may leave nothing can be seen in the next one: that is told.
     """
     if scene.run.unsaid is not None:
         line, word = scene.run.unsaid
@@ -55,7 +57,13 @@ def modes(scene: Scene) -> Check:
         missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
-    return Check(True, "units, distance mode, plane and compensation are stated")
+    if scene.run.hoped is not None:
+        line, word = scene.run.hoped
+        message = f"line {line}: moves as {word} says, which an earlier program may have changed; "
+        return Check(True, f"{message}write {word} before it, or see that it is in force", line, told=True)
+    said = "units, distance mode, plane and compensation are stated"
+    left = scene.control.leftover
+    return Check(True, f"{said}; not told by any program is {left}" if left else said)
 
 
 def tools(scene: Scene) -> Check:

@@ -185,17 +185,20 @@ class Paths:
         count = np.maximum(np.ceil(self.length[steps] / spacing), 1).astype(np.int64) + 1
         place, share = _spread(count)
         owner = steps[place]
-        start, end = self.start[owner], self.end[owner]
-        places = start[:, :2] + (end - start)[:, :2] * share[:, None]
-        arc = run.kind[owner] == Kind.ARC
-        if arc.any():
-            centre = run.centre[owner[arc]]
-            spoke = start[arc, :2] - centre
-            angle = np.arctan2(spoke[:, 1], spoke[:, 0]) + run.sweep[owner[arc]] * share[arc]
-            radius = np.hypot(*spoke.T)
-            places[arc] = centre + radius[:, None] * np.column_stack((np.cos(angle), np.sin(angle)))
-        z: Array = start[:, 2] + (end - start)[:, 2] * share
-        return places, z, owner
+        way = self.end[steps] - self.start[steps]
+        points = way[place]
+        points *= share[:, None]
+        points += self.start[owner]
+        bent = np.flatnonzero(run.kind[steps] == Kind.ARC)
+        if bent.size:
+            centre = run.centre[steps[bent]]
+            spoke = self.start[steps[bent], :2] - centre
+            first, radius = np.arctan2(spoke[:, 1], spoke[:, 0]), np.hypot(*spoke.T)
+            on, of = np.flatnonzero(run.kind[owner] == Kind.ARC), np.repeat(np.arange(bent.size), count[bent])
+            angle = run.sweep[owner[on]] * share[on] + first[of]
+            points[on, 0] = centre[of, 0] + radius[of] * np.cos(angle)
+            points[on, 1] = centre[of, 1] + radius[of] * np.sin(angle)
+        return points[:, :2], points[:, 2], owner
 
     def _on_arc(self, step: Ints, owner: Ints, t: Array) -> Array:
         """Points (k, 2) on arcs (m,); a small difference of the two radii is spread along the arc."""

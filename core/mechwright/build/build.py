@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     import cadquery as cq
 
@@ -99,6 +99,14 @@ class Build:
     def motion(self) -> "Motion":
         """The motion, with as many samples as are wanted."""
         return self.design.solve(self.wanted.samples)
+
+    def stretches(self) -> "Iterator[Motion]":
+        """The same, a stretch after the other: nothing is kept of what is long, and short motions are one."""
+        from mechwright.contracts.stretch import TOGETHER
+
+        if self.wanted.samples <= TOGETHER:
+            return iter((self.motion,))
+        return self.design.stretches(self.wanted.samples)
 
     @cached_property
     def parts(self) -> "Named[Part]":

@@ -25,17 +25,31 @@ class MotionTables(Page):
         """The channels over the motion and its figures by name with units; none of what stands still."""
         if not build.design.family.moves:
             return {}
-        scalars = build.motion.scalars.items()
-        figures = {name: {"value": scalar.value, "unit": scalar.unit} for name, scalar in scalars}
-        return {"motion.csv": motion_csv(build.motion), "summary.json": json.dumps(figures, indent=2) + "\n"}
+        stretches = build.stretches()
+        first = next(stretches)
+        figures = {
+            name: {"value": scalar.value, "unit": scalar.unit} for name, scalar in first.scalars.items()
+        }
+        return {
+            "motion.csv": motion_csv(first, stretches),
+            "summary.json": json.dumps(figures, indent=2) + "\n",
+        }
 
 
-def motion_csv(motion: Motion) -> Iterator[bytes]:
+def motion_csv(motion: Motion, more: Iterable[Motion] = ()) -> Iterator[bytes]:
     """The channels as CSV, one row per sample, twelve significant digits, header ``name [unit]``.
 
-    It comes in pieces: the text of a million samples takes more memory than the motion.
+    ``more`` are stretches that follow. The table comes in pieces: the text of a million samples takes more
+    memory than the motion, and the motion more than a stretch.
     """
     yield (",".join(motion.arrays) + "\n").encode()
+    yield from _rows(motion)
+    del motion  # whoever asks for a stretch needs the memory of the one before
+    for stretch in more:
+        yield from _rows(stretch)
+
+
+def _rows(motion: Motion) -> Iterator[bytes]:
     columns = list(motion.arrays.values())
     for first in range(0, motion.samples, ROWS):
         text = io.StringIO()

@@ -1,7 +1,7 @@
 """The contract of a mechanism family."""
 
 from abc import abstractmethod
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.finding import Finding, Stage
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.target import Target
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import ToleranceModel
+    from mechwright.contracts.transmission import Transmission
 
 P = TypeVar("P", bound=Parameters)
 
@@ -86,6 +87,21 @@ class Family(Plugin, Generic[P]):
             ``check`` has an error of the motion.
         """
 
+    def stretches(self, params: P, samples: int) -> "Iterator[Motion]":
+        """The motion of ``solve``, as many samples after the other as memory is to be spent on.
+
+        Tables of millions of samples are written so. What follows each other are motions of the same bodies
+        and channels, each with the figures of the whole; put together they are the motion of ``solve``. The
+        default asks that for all at once: see :func:`~mechwright.contracts.stretch.in_stretches`, by which
+        most families need no more than two lines.
+
+        Raises
+        ------
+        MechwrightError
+            As ``solve``, when the first of them is asked for, or a later one.
+        """
+        yield self.solve(params, samples)
+
     @abstractmethod
     def parts(self, params: P) -> "Sequence[Part]":
         """The parts to make.
@@ -107,6 +123,19 @@ class Family(Plugin, Generic[P]):
         DesignError
             This design has no shafts that a frame could carry: the key, what is wrong, and what to do, as in
             ``"parameters.bore: gears without a bore have no shafts; set bore = 10"``.
+        """
+        return None
+
+    def transmission(self, params: P) -> "Transmission | None":  # noqa: ARG002 - used by some
+        """The mechanism as a stage of a chain, whose input another stage may turn.
+
+        It is asked of a design whose ``check`` finds no error of the motion. None, the default: mechanisms of
+        this family are no stages, and a chain with one is refused.
+
+        Raises
+        ------
+        DesignError
+            This design is no stage: the key, what is wrong, and what to do.
         """
         return None
 

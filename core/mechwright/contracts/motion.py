@@ -11,7 +11,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint, check_bodies
 from mechwright.contracts.load import Load
 from mechwright.contracts.shown import html_table
-from mechwright.errors import DesignError, KinematicsError
+from mechwright.errors import KinematicsError
 from mechwright.extras import optional
 
 if TYPE_CHECKING:
@@ -27,19 +27,6 @@ _KEPT = 100_000
 
 NOTHING = 1e-12
 """A single figure below this is the rounding of sums, in whatever unit: people are told 0."""
-
-
-def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
-    """Input angles (samples,), rad, from ``start`` over ``travel``, both ends included.
-
-    Raises
-    ------
-    DesignError
-        Fewer than two samples.
-    """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
-    return np.linspace(start, start + travel, samples)
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,8 @@ class Standing(Family[P]):
 
     def solve(self, params: P, samples: int) -> "Motion":  # noqa: ARG002 - what stands needs no parameters
         """A second in which every body stands where it is: what assemblies and pictures ask for."""
-        from mechwright.contracts.motion import TIME, Channel, Motion, Poses, travelled
+        from mechwright.contracts.motion import TIME, Channel, Motion, Poses
+        from mechwright.contracts.stretch import travelled
 
         time = travelled(SECONDS, samples)
         poses = {body: Poses.planar(0.0, 0.0, 0.0 * time) for body in self.bodies}

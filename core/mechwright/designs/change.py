@@ -12,7 +12,8 @@ from mechwright.errors import DesignError
 def changed(content: Mapping[str, Any], change: Change) -> dict[str, Any]:
     """The content of a design file with a change; the given one stays as it is.
 
-    Tables that are missing are made. Raises DesignError where a key leads through something that is no table.
+    Tables that are missing are made; a number is the place in a list of tables, from 1. Raises
+    DesignError where a key leads through something that is no table.
 
     >>> changed({"parameters": {"bore": 10, "hub": 3}}, {"parameters.bore": 12, "parameters.hub": None})
     {'parameters': {'bore': 12}}
@@ -52,14 +53,17 @@ def rewritten(text: str, change: Change) -> str:
 def _apply(document: dict[str, Any], change: Change) -> None:
     for path, value in change.items():
         *tables, key = path.split(".")
-        table = document
+        table: Any = document
         for name in tables:
+            if isinstance(table, list):
+                table = entry(table, name, path)
+                continue
             if name not in table:
                 if value is None:
                     break
                 table[name] = {}
             inner = table[name]
-            if not isinstance(inner, dict):
+            if not isinstance(inner, dict | list):
                 raise DesignError(f"{path}: {name} is no table")
             table = inner
         else:
@@ -67,3 +71,31 @@ def _apply(document: dict[str, Any], change: Change) -> None:
                 table.pop(key, None)
             else:
                 table[key] = value
+
+
+def entry(tables: list[Any], place: str, path: str) -> Any:
+    """The table of a list by its place, from 1; raises DesignError where there is none.
+
+    >>> entry([{"start": 3}], "1", "stage.1.start")
+    {'start': 3}
+    """
+    if place.isdecimal() and 1 <= int(place) <= len(tables):
+        return tables[int(place) - 1]
+    raise DesignError(f"{path}: {place!r} is no place in a list of {len(tables)} tables")
+
+
+def found_at(content: Mapping[str, Any], path: str) -> tuple[bool, Any]:
+    """Whether the content of a file says a dotted key, and its value; None where it does not.
+
+    >>> found_at({"stage": [{"start": 3}]}, "stage.1.start"), found_at({}, "cam.tabs")
+    ((True, 3), (False, None))
+    """
+    here: Any = content
+    for name in path.split("."):
+        if isinstance(here, list) and name.isdecimal() and 1 <= int(name) <= len(here):
+            here = here[int(name) - 1]
+        elif isinstance(here, Mapping) and name in here:
+            here = here[name]
+        else:
+            return False, None
+    return True, here

@@ -26,6 +26,7 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
+from mechwright.designs.chains import STAGE, chain_of, chain_params, stage_schema
 from mechwright.designs.change import changed
 from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
@@ -34,6 +35,7 @@ from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, PluginError
+from mechwright.mechanics.chain import Chain, ChainParams
 from mechwright.plugins.host import Host
 
 if TYPE_CHECKING:
@@ -72,6 +74,14 @@ class Design:
     readers: tuple[Table[Any], ...] = ()
     content: Mapping[str, Any] = field(default_factory=dict)
     units: Units = "mm"
+
+    @property
+    def own_tables(self) -> "dict[str, Parameters]":
+        """The tables of its family by the dotted keys that lead to them; a chain has one for each stage."""
+        if isinstance(self.params, ChainParams):
+            stages = enumerate(self.params.stage, start=1)
+            return {f"{STAGE}.{number}.parameters": one.parameters for number, one in stages}
+        return {"parameters": self.params}
 
     def table(self, contract: type[Table[V]]) -> V:
         """The value of a registered table, by the class that reads it."""
@@ -133,6 +143,13 @@ class Design:
             motion = around.around(motion)
         return motion
 
+    def stretches(self, samples: int) -> "Iterator[Motion]":
+        """The same motion, a stretch after the other: see :meth:`Family.stretches`."""
+        for motion in self.family.stretches(self.params, samples):
+            for around in self.surroundings:
+                motion = around.around(motion)
+            yield motion
+
     def settings(self) -> "dict[str, Design]":
         """What the same machine is set to besides: see :meth:`Family.settings`."""
         others = self.family.settings(self.params)
@@ -141,8 +158,7 @@ class Design:
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)
-        own = content.get("parameters", {})
-        params = read_table(self.family.Params, own, str(self.path), "parameters", self.path)
+        params = own_params(self.family, content, self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = table_values(self.readers, content, self.path, self.tables, touched)
         return replace(self, params=params, tables=tables, content=content)
@@ -180,13 +196,31 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
             f"{path}: requirement: this file says what is asked of a design, and is none; find designs by "
             f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
         )
-    name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
+    keys = (*HEAD, "parameters", STAGE, *tables)
+    family: Family[Any]
+    if STAGE in content:
+        name = read_name(content, path, keys)
+        family = chain_of(content, path, host)
+        schema = {STAGE: stage_schema(family.families)}
+    else:
+        name, family = read_head(content, path, host, keys)
+        schema = {"parameters": model_schema(family.Params)}
     readers = tuple(entry.item for entry in tables.values())
-    units, content = in_millimetres(content, path, {"parameters": model_schema(family.Params)}, readers)
+    units, content = in_millimetres(content, path, schema, readers)
     with told_in(units):
-        params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters", path)
+        params = own_params(family, content, path)
         values = table_values(readers, content, path)
     return Design(name, family, params, path, digest, values, readers, content, units)
+
+
+def own_params(family: Family[Any], content: Mapping[str, Any], path: Path) -> Parameters:
+    """The parameters that a file gives to its family, or to the stages of a chain; raises as :func:`load`."""
+    if isinstance(family, Chain):
+        return chain_params(family.families, content, path)
+    params: Parameters = read_table(
+        family.Params, content.get("parameters", {}), str(path), "parameters", path
+    )
+    return params
 
 
 def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:
@@ -227,17 +261,26 @@ def read_head(
     content: Mapping[str, Any], path: Path, host: Host, keys: tuple[str, ...]
 ) -> tuple[str, Family[Any]]:
     """Name and family of a file whose top level may hold ``keys``; raises as :func:`load` does."""
+    name = read_name(content, path, keys)
+    family_name = content.get("family")
+    if not isinstance(family_name, str):
+        fault = "is missing" if family_name is None else f"{family_name!r} is no text"
+        known = ", ".join(sorted(host.of(Family))) or "none is installed"
+        raise DesignError(f"{path}: family: {fault}; name one of: {known}")
+    try:
+        return name, host.family(family_name)
+    except PluginError as error:
+        raise PluginError(f"{path}: family: {error}") from error
+
+
+def read_name(content: Mapping[str, Any], path: Path, keys: tuple[str, ...]) -> str:
+    """Name of a file whose top level may hold ``keys``; raises as :func:`load` does."""
     for key in content:
         if key not in keys:
             raise DesignError(f"{path}: {unknown(key, keys)}")
     layout = content.get("format", FORMAT)
     if type(layout) is not int or layout != FORMAT:  # true and 1.0 equal 1
         raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
-    family_name = content.get("family")
-    if not isinstance(family_name, str):
-        fault = "is missing" if family_name is None else f"{family_name!r} is no text"
-        known = ", ".join(sorted(host.of(Family))) or "none is installed"
-        raise DesignError(f"{path}: family: {fault}; name one of: {known}")
     name = content.get("name", path.stem)
     if not isinstance(name, str):
         raise DesignError(f"{path}: name: {name!r} is no text")
@@ -245,7 +288,4 @@ def read_head(
         check_name(name)
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from error
-    try:
-        return name, host.family(family_name)
-    except PluginError as error:
-        raise PluginError(f"{path}: family: {error}") from error
+    return name

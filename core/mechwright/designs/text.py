@@ -12,6 +12,7 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.schema import FORMAT, schema_line
+from mechwright.mechanics.chain import Chain, ChainParams, StageTable
 
 
 def template(family: Family[Any], name: str, tables: Iterable[Table[Any]], *, short: bool = False) -> str:
@@ -57,7 +58,22 @@ def design_text(
     tables = list(tables)
     head = [line for table, value in tables for line in table.head(value)]
     texts = (table.text(value) for table, value in tables)
+    if isinstance(params, ChainParams):
+        stages = [_stage_lines(stage) for stage in params.stage]
+        return _file(family, name, *stages, *texts, head=head)
     return _file(family, name, table_lines(type(params), "parameters", params), *texts, head=head)
+
+
+def _stage_lines(stage: StageTable) -> list[str]:
+    """A table of a chain, then its parameters; what the file did not say of its place is left out."""
+    own = table_lines(StageTable, "stage", stage, open_=(StageTable,))
+    kept = [line for line in own[1 : own.index("")] if not line.startswith("#")]
+    return [
+        "[[stage]]",
+        *kept,
+        "",
+        *table_lines(type(stage.parameters), "stage.parameters", stage.parameters),
+    ]
 
 
 def _file(family: Family[Any], name: str, *tables: list[str], head: Iterable[str] = ()) -> str:
@@ -65,7 +81,7 @@ def _file(family: Family[Any], name: str, *tables: list[str], head: Iterable[str
         f"# {family.title}: {family.summary}",
         '# Lengths in mm, angles in degrees, speeds in rev/min; a text may carry another unit: "2 in".',
         f"format = {FORMAT}",
-        f"family = {toml(family.name)}",
+        *([] if isinstance(family, Chain) else [f"family = {toml(family.name)}"]),
         f"name = {toml(name)}",
         *head,
     ]

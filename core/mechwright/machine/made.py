@@ -1,6 +1,7 @@
 """Drive and motor of a build; made once, by ``build.made``."""
 
 from mechwright.build.build import Build
+from mechwright.contracts.motion import Motion
 from mechwright.machine.drive import SAMPLES, Drive, drive_of
 from mechwright.machine.motors import Choice, motor_of
 from mechwright.machine.settings import MachineSettings
@@ -18,10 +19,14 @@ def wanted_of(build: Build) -> bool:
     return settings_of(build) != MachineSettings()
 
 
+def motion_for(build: Build) -> Motion:
+    """The motion as finely as a drive is judged, however many samples are wanted in tables."""
+    return build.design.solve(SAMPLES)
+
+
 def drive_for(build: Build) -> Drive:
     """The drive of a build; raises as :func:`drive_of` does, and as parts do."""
-    motion = build.design.solve(SAMPLES)
-    return drive_of(motion, build.parts, settings_of(build))
+    return drive_of(build.made(motion_for), build.parts, settings_of(build))
 
 
 def motor_for(build: Build) -> Choice | None:

@@ -10,7 +10,7 @@ from mechwright.build.build import Build
 from mechwright.build.figures import Figure, Grid, figures_page
 from mechwright.build.page import Page
 from mechwright.machine.drive import Drive
-from mechwright.machine.made import drive_for, motor_for, settings_of, wanted_of
+from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motors import Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
@@ -54,7 +54,7 @@ class DrivePage(Page):
             build.design.name,
             f"{build.design.family.title}: drive",
             _notes(settings, choice),
-            _figures(build.motion.input_name, drive, choice),
+            _figures(build.made(motion_for).input_name, drive, choice),
             [_table(values)],
         )
         return {"drive.html": html, "drive.json": json.dumps({**motor, "figures": numbers}, indent=2) + "\n"}

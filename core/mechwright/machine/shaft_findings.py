@@ -13,6 +13,7 @@ from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
 from mechwright.geometry.keyway import key_of_width
 from mechwright.machine.drive import Drive
+from mechwright.machine.made import motion_for
 from mechwright.machine.motors import Choice
 from mechwright.machine.outputs import fixed_to
 from mechwright.machine.settings import MachineSettings
@@ -32,7 +33,7 @@ def shaft_findings(
     build: Build, drive: Drive, settings: MachineSettings, choice: Choice | None
 ) -> Iterator[Finding]:
     """The driven shaft where it is a turned part, its key where it is a standard one, and the coupling."""
-    motion = build.motion
+    motion = build.made(motion_for)
     joint = next((one for one in motion.joints.values() if one.drives and one.kind == "revolute"), None)
     if joint is None:
         return

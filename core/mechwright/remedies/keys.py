@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
+from mechwright.designs.change import found_at
 from mechwright.designs.design import Design
 from mechwright.units import convert
 
@@ -62,20 +63,13 @@ class Key:
 
     def stands_in(self, content: Mapping[str, Any]) -> bool:
         """Whether the content of a design file says it."""
-        value: Any = content
-        for name in self.path.split("."):
-            if not isinstance(value, Mapping) or name not in value:
-                return False
-            value = value[name]
-        return True
+        return found_at(content, self.path)[0]
 
     def now(self, content: Mapping[str, Any]) -> Any:
         """Its value in the content of a design file: of a number the magnitude in its unit."""
-        if not self.stands_in(content):
+        stands, value = found_at(content, self.path)
+        if not stands:
             return self.default
-        value: Any = content
-        for name in self.path.split("."):
-            value = value[name]
         if self.numeric and isinstance(value, str):
             return convert(value, self.unit)
         return value
@@ -83,8 +77,7 @@ class Key:
 
 def keys_of(design: Design) -> dict[str, Key]:
     """Every key of the tables of a design, by its path, in the order of the tables' fields."""
-    params: type[BaseModel] = design.family.Params
-    found = list(_keys(params, "parameters"))
+    found = [key for path, table in design.own_tables.items() for key in _keys(type(table), path)]
     for reader in design.readers:
         if reader.settings is not None:
             found += _keys(reader.settings, reader.name)

@@ -71,7 +71,8 @@ def _by_steps(bench: Bench) -> Change | None:
 
 def _from_known(bench: Bench) -> Iterator[Change]:
     """From each design that is known to build: what has to stay of it."""
-    mine = [key for key in bench.keys.values() if key.path.startswith("parameters.")]
+    tables = tuple(f"{table}." for table in bench.design.own_tables)
+    mine = [key for key in bench.keys.values() if key.path.startswith(tables)]
     for known in _known(bench, mine):
         if bench.builds(known):
             yield _given_back(bench, known)

@@ -8,6 +8,7 @@ from itertools import zip_longest
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.designs.chains import STAGE
 from mechwright.remedies.bench import KEY, Bench, identity
 from mechwright.remedies.keys import Key, meant, named
 from mechwright.remedies.measured import measured
@@ -68,10 +69,8 @@ def related(bench: Bench, finding: Finding) -> list[Key]:
 
 def path_of(bench: Bench, parameter: str) -> str:
     """The dotted key of the design file that a finding names."""
-    table = parameter.partition(".")[0]
-    return (
-        parameter if table in {reader.name for reader in bench.design.readers} else f"parameters.{parameter}"
-    )
+    tables = {reader.name for reader in bench.design.readers} | {STAGE}
+    return parameter if parameter.partition(".")[0] in tables else f"parameters.{parameter}"
 
 
 def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Finding]) -> Step | None:

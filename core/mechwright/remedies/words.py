@@ -1,9 +1,9 @@
 """What is said of changes: which key is set to what, and what it is now."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from mechwright.contracts.finding import Change
+from mechwright.designs.change import found_at
 from mechwright.designs.text import toml
 from mechwright.remedies.bench import Bench
 
@@ -27,10 +27,8 @@ def _one(bench: Bench, path: str, value: Any) -> str:
 
 def _now(bench: Bench, path: str) -> str:
     """What the file says of a key, in its own words."""
-    value: Any = bench.design.content
-    for name in path.split("."):
-        if not isinstance(value, Mapping) or name not in value:
-            default = bench.keys[path].default if path in bench.keys else None
-            return "now left out" if default is None else f"now {toml(default)}, by default"
-        value = value[name]
-    return f"now {toml(value)}"
+    stands, value = found_at(bench.design.content, path)
+    if stands:
+        return f"now {toml(value)}"
+    default = bench.keys[path].default if path in bench.keys else None
+    return "now left out" if default is None else f"now {toml(default)}, by default"

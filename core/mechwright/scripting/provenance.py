@@ -10,6 +10,7 @@ from mechwright.contracts.inputs import input_files
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
 from mechwright.designs.files import digest_of, read_bytes
+from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
 
 
@@ -25,8 +26,9 @@ def facts(design: Design, found: Host) -> dict[str, Any]:
 
 def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:
     """Facts of a run; ``inputs`` is file name to SHA-256."""
-    origin = found.of(Family)[family.name].distribution
-    packages = {"cadquery", "ezdxf", "mechwright", "numpy", "scipy", "shapely", origin}
+    known, stages = found.of(Family), family.families if isinstance(family, Chain) else (family,)
+    origins = {known[one.name].distribution for one in stages}
+    packages = {"cadquery", "ezdxf", "mechwright", "numpy", "scipy", "shapely"} | origins
     return {
         "design": name,
         "family": family.name,

@@ -42,8 +42,10 @@ from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.limits import limits_broken
 from mechwright.testing.results import Results
+from mechwright.testing.stretches import StretchTests
 from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
+from mechwright.testing.transmissions import TransmissionTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
 
@@ -51,7 +53,9 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests):
+class FamilyContract(
+    ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests, StretchTests, TransmissionTests
+):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
@@ -79,12 +83,9 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
     derivatives: ClassVar[Sequence[tuple[str, str]]] = ()
     """Channel and the channel of its rate over time, for each rate that the motion gives."""
     input_rate: ClassVar[str] = ""
-    """Channel of the input's own rate over time; empty where the input is the time. Rates of a motion whose
-    input goes there and back are compared over its channel ``time``."""
+    """Channel of the input's own rate over time; empty where it is the time or swings."""
     requirements: ClassVar[Mapping[str, Sequence[Mapping[str, Any]]]] = {}
     """Kind of synthesis to tables ``[requirement]`` that can be met; of a kind not named, its defaults."""
-    samples: ClassVar[int] = 361
-    """Samples of the motions under test; more where the motion has sharp turns."""
     max_examples: ClassVar[int] = 30
     """Random designs to try."""
 
@@ -93,11 +94,6 @@ class FamilyContract(ToleranceTests, FixTests, FrameTests, TargetTests, Evaluati
         if "design" in metafunc.fixturenames:
             titles = [json.dumps(dict(table), default=str)[1:-1][:60] for table in self.examples]
             metafunc.parametrize("design", self.examples, ids=[title or "defaults" for title in titles])
-
-    def params(self, table: Mapping[str, Any]) -> Parameters:
-        """The parameters of a table."""
-        params: Parameters = self.family.Params.model_validate(dict(table))
-        return params
 
     def _motion(self, design: Mapping[str, Any], samples: int | None = None) -> Motion:
         return self.family().solve(self.params(design), samples or self.samples)

@@ -8,12 +8,10 @@ import numpy as np
 
 from mechwright import Array, Finding, Rejected, Scalar, Synthesis
 from mechwright_four_bar.burmester.rectify import Way
-from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.burmester.requirements import LinkLimits
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
-
-Wanted = PosesRequirement | FunctionRequirement
 
 WEIGHT = 30.0
 """Weight of a broken limit, over that of an error as large as the body's way or as a radian."""
@@ -71,7 +69,7 @@ class Option:
         return Found(bar, self.error, figures, self.pivot, self.point, sense, swing=swing)
 
 
-def broken(way: Way, wanted: Wanted) -> tuple[str, str]:
+def broken(way: Way, wanted: LinkLimits) -> tuple[str, str]:
     """The key of the first limit that a linkage breaks, and by what; empty where it keeps all."""
     bar = way.bar
     if wanted.drive != "any" and way.full != (wanted.drive == "crank"):
@@ -97,7 +95,7 @@ def _same(one: Option, other: Option) -> bool:
     )
 
 
-def penalties(bar: FourBar, angles: Array, wanted: Wanted) -> list[float]:
+def penalties(bar: FourBar, angles: Array, wanted: LinkLimits) -> list[float]:
     """How far a linkage is beyond its limits at crank angles (n,) from X, weighted, for a fit."""
     short = [math.log(wanted.shortest_link * (1 + MARGIN) / length) for length in bar.lengths]
     long = [math.log(length / (wanted.longest_link * (1 - MARGIN))) for length in bar.lengths]
@@ -117,7 +115,7 @@ def designs(
     name: str,
     options: Iterable[Option],
     defects: dict[str, int],
-    wanted: Wanted,
+    wanted: LinkLimits,
     said: Callable[[], str],
     progress: Callable[[float], None],
 ) -> Synthesis[FourBarParams]:

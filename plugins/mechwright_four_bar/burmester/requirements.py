@@ -15,8 +15,8 @@ MOST_POSES = 200
 """More poses of a body, or pairs of angles, than this say nothing new."""
 
 
-class _Limits(Parameters):
-    """Limits that both kinds share."""
+class LinkLimits(Parameters):
+    """Limits that exact syntheses share."""
 
     drive: Literal["crank", "lever", "any"] = Field(
         "any", description="A crank that turns fully, a lever that swings through the positions, or either."
@@ -35,7 +35,7 @@ class _Limits(Parameters):
         return self
 
 
-class PosesRequirement(_Limits):
+class PosesRequirement(LinkLimits):
     """The table ``[requirement]`` of the kind ``poses``: the coupler carries a body through poses in order.
 
     Examples
@@ -72,7 +72,7 @@ class PosesRequirement(_Limits):
         return self
 
 
-class FunctionRequirement(_Limits):
+class FunctionRequirement(LinkLimits):
     """The table ``[requirement]`` of the kind ``function``: the follower answers angles of the crank.
 
     Examples

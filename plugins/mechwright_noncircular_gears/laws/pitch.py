@@ -101,9 +101,10 @@ class CircleLaw(PitchLaw):
 
             return Primitive.of(ratio, self.period).total - wanted
 
-        # The ratio is at most that of the greatest radius all the way round, which bounds A from above.
+        # The ratio is at most that of the greatest radius all the way round, which bounds A from above; of a
+        # round gear it is just that, so that the bound is put a little farther than rounding.
         least = 1 + self.eccentricity
-        far = near = least * (1 + self.lobes[1])
+        far = near = least * (1 + self.lobes[1]) * (1 + 1e-9)
         while over(near) < 0:
             near = (near + least) / 2
         return float(brentq(over, near, far, xtol=_CLOSED, rtol=_CLOSED))

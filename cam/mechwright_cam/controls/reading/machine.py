@@ -93,7 +93,7 @@ class Machine(Moving):
             self._length_offset(block)
             self._work_offset(block, words)
             self._tables(block, words)
-        self._keep_state()
+        self.keep_state()
         if 280 in block.g or 300 in block.g:
             self._home(block, words)
         self._move(block, words)

@@ -1,15 +1,20 @@
 """The modes of the machine: what a word changes and leaves changed."""
 
 import math
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
-from mechwright_cam.controls.reading.run import Coolant, Kind, Selection, TableWrite
+from mechwright_cam.controls.reading.run import Coolant, Ints, Kind, Selection, TableWrite
 
 INCH = 25.4
 LARGEST_WHOLE = 99_999_999
@@ -27,6 +32,9 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
 }
 _SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0}
 """What M codes make of the spindle; M19 stops it, and turns it to its mark."""
+_SPINDLE_CODES = {1: 3, -1: 4, 0: 5}
+_COOLANT_CODES: dict[Coolant, tuple[int, ...]] = {"off": (9,), "mist": (7,), "flood": (8,), "both": (7, 8)}
+"""M codes that leave spindle and coolant as they are."""
 
 
 class Modal(Compensation):
@@ -80,13 +88,52 @@ class Modal(Compensation):
         if group not in self.state.stated:
             self._set(stated=self.state.stated | {group})
 
-    def _keep_state(self) -> None:
+    def keep_state(self) -> None:
+        """Give the present state its number, ``index``."""
         kept = self.states[self.index]
         if self.state is not kept and self.state != kept:
             if self.state not in self.numbers:
                 self.numbers[self.state] = len(self.states)
                 self.states.append(self.state)
             self.index = self.numbers[self.state]
+
+    def at_speeds(self, rpm: Array) -> Ints:
+        """Go through spindle speeds (n,), rev/min, and give the number (n,) of the state at each."""
+        speeds, first, which = np.unique(rpm, return_index=True, return_inverse=True)
+        numbers = np.zeros(speeds.size, dtype=np.int64)
+        for place in [*np.argsort(first), which[-1]]:
+            self._set(rpm=float(speeds[place]))
+            self.keep_state()
+            numbers[place] = self.index
+        return numbers[which]
+
+    @abstractmethod
+    def _check_codes(self, block: Block) -> None:
+        """Raise ProgramError for codes that the control does not read, or not together."""
+
+    def is_stated(self, block: Block) -> bool:
+        """Whether words of state (:mod:`mechwright_cam.controls.reading.beside`) say what is so anyway."""
+        try:
+            self._check_codes(block)
+        except ProgramError:
+            return False
+        state, offset = self.state, GROUPS["work offset"]
+        now = {_SPINDLE_CODES[state.spindle], *_COOLANT_CODES[state.coolant]}
+        groups = {
+            "units": {200 if self.scale != 1.0 else 210},
+            "distance": {900 if self.absolute else 910},
+            "plane": {self.plane},
+            "feed mode": set() if self.dialect.mode_ends_feed else {940},
+        }
+        said = {code for group, codes in groups.items() if group in state.stated for code in codes}
+        return now.issuperset(block.m) and all(
+            code in said or (code in offset and spell(code) == state.work_offset) for code in block.g
+        )
+
+    def by_centre(self, line: int) -> None:
+        """Tell of an arc by its centre: what an earlier program has made of I and J may still hold."""
+        if self.dialect.centres_stay and "centres" not in self.state.stated:
+            self.lacks(line, "G91.1")
 
     def _units(self, block: Block) -> None:
         for code in block.g:
@@ -122,7 +169,7 @@ class Modal(Compensation):
             self.selected = number
             if self.dialect.tool_by_t and self.selected != self.state.tool:
                 self._set(tool=self.selected, length_offset=None, length=None)
-                self._keep_state()
+                self.keep_state()
                 self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
         if 6 in block.m:
             self._without_compensation(block, "M6")
@@ -133,7 +180,7 @@ class Modal(Compensation):
                 self._set(spindle=0)
             if self.dialect.change_stops_coolant:
                 self._set(coolant="off")
-            self._keep_state()
+            self.keep_state()
             self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
 
     def _spindle_and_coolant(self, block: Block) -> None:
@@ -155,6 +202,7 @@ class Modal(Compensation):
                 self._state("distance")
             elif code in {901, 911}:
                 self.absolute_centres = code == 901
+                self._state("centres")
             elif code in {980, 990}:
                 self._without_compensation(block, spell(code))
                 self.to_initial = code == 980

@@ -176,6 +176,7 @@ class Moving(Modal):
         elif words.keys() & {first, second}:
             if self.absolute_centres and not {first, second} <= words.keys():
                 raise fail(block.line, f"with G90.1 an arc needs both {first} and {second}")
+            self.by_centre(block.line)
             i, j = words.pop(first, 0.0) * self.scale, words.pop(second, 0.0) * self.scale
             centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
         else:
@@ -221,7 +222,7 @@ class Moving(Modal):
     def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
         line, name = block.line, spell(code)
         if "return" not in self.state.stated:
-            self.unsaid.append((line, "G98"))
+            self.lacks(line, "G98")
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
         asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else "")

@@ -7,7 +7,8 @@ is read word by word (:mod:`mechwright_cam.controls.reading.blocks`).
 Glossary
 --------
 plain line
-    Words of N, G0 to G3, X, Y, Z, I, J, R and F, each at most once and N before all others; or an empty line.
+    Words of N, G0 to G3, X, Y, Z, I, J, R, F and S, each at most once and N before all others; or an empty
+    line. What may stand beside them is taken out before (:mod:`mechwright_cam.controls.reading.beside`).
 motion line
     A plain line that needs nothing but the motion in force to be run: a straight move with an axis and no
     centre, or an arc with a centre or a radius.
@@ -23,14 +24,15 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.blocks import LARGEST_NUMBER
+from mechwright_cam.controls.reading.beside import Beside
+from mechwright_cam.controls.reading.blocks import LARGEST_NUMBER, Block
 from mechwright_cam.controls.reading.run import Ints
 
 Bools = NDArray[np.bool_]
 
-LETTERS = "NGXYZIJRF"
+LETTERS = "NGXYZIJRFS"
 """Letters of a plain line; words stand in columns of this order."""
-N, G, X, Y, Z, I, J, R, F = range(len(LETTERS))
+N, G, X, Y, Z, I, J, R, F, S = range(len(LETTERS))
 DECIMALS = 10
 """So many decimals of a value that a program works out count."""
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
@@ -106,22 +108,31 @@ class Rows:
     plain
         (n,) whether each line is plain.
     words
-        (9, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
+        (10, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
         is not plain.
     number
         (n,) number of each line in the text, from 1.
+    comments
+        Index and text of the comments of plain lines, in order.
+    kind
+        (n,) which words of state stand beside those of each line, an index into ``states``; 0 for none.
+    states
+        What those words say, by kind.
     """
 
     plain: Bools
     words: Array
     number: Ints
+    comments: Sequence[tuple[int, str]]
+    kind: Ints
+    states: Sequence[Block]
 
     def __len__(self) -> int:
         return int(self.plain.size)
 
     @cached_property
     def said(self) -> Bools:
-        """(9, n) whether each line has the word."""
+        """(10, n) whether each line has the word."""
         return ~np.isnan(self.words)
 
     @cached_property
@@ -129,7 +140,7 @@ class Rows:
         """(n,) the next line that is no motion line, where the motion is straight and where it is an arc."""
         said = self.said
         axis, centre = said[X : Z + 1].any(axis=0), said[I : J + 1].any(axis=0)
-        empty = ~said[G:].any(axis=0)
+        empty = ~said[G : F + 1].any(axis=0)
         straight, bent = empty | (axis & ~centre & ~said[R]), empty | (centre ^ said[R])
         # The motion is known from the last G of the same stretch of plain lines.
         number = np.arange(len(self))
@@ -141,6 +152,12 @@ class Rows:
             for unknown in (straight, bent)
         )
         return _next(first), _next(second)
+
+    @cached_property
+    def stated(self) -> list[tuple[int, int]]:
+        """Index and kind of the lines with words of state."""
+        lines = np.flatnonzero(self.kind)
+        return list(zip(lines.tolist(), self.kind[lines].tolist(), strict=True))
 
     def until(self, line: int, arc: bool) -> int:
         """Index of the first line from ``line`` on that is no motion line; ``arc`` is the motion in force."""
@@ -157,6 +174,18 @@ class WorkedOut(Rows):
         column = np.array([column for row in rows for column in row.columns or ()], dtype=np.int64)
         value = np.array([value for row in rows for value in row.values], dtype=np.float64)
         wrong = ~(np.abs(value) <= LARGEST_NUMBER) | _meaningless(column, value)
+        self.states = text.states
+        self.kind = np.where([row.columns is None for row in rows], text.kind[self.number - 1], 0)
+        told = dict(text.comments)
+        self.comments = (
+            [
+                (place, told[row.index])
+                for place, row in enumerate(rows)
+                if row.columns is None and row.index in told
+            ]
+            if told
+            else []
+        )
         self.plain = np.ones(len(rows), dtype=np.bool_)
         self.plain[at[wrong]] = False
         self.words[column, at] = value
@@ -166,23 +195,16 @@ class WorkedOut(Rows):
 class PlainLines(Rows):
     r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
 
-    Attributes
-    ----------
-    plain
-        (n,) whether each line is plain.
-    words
-        (9, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
-        is not plain.
-
     Examples
     --------
-    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", Dialect(frozenset({10})))
+    >>> lines = PlainLines("G1 X1.5 F200\nM30\nX-.5Y2", Dialect(frozenset({10})))
     >>> lines.plain.tolist(), lines.words[X].tolist()
     ([True, False, True], [1.5, nan, -0.5])
     """
 
     def __init__(self, text: str, dialect: Dialect) -> None:
-        data = b"\n" + text.encode("utf-8", "surrogatepass") + b"\n"
+        beside = Beside(text.split("\n"), dialect)
+        data = b"\n" + beside.text.encode("utf-8", "surrogatepass") + b"\n"
         kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
         length = np.diff(ends)
@@ -195,6 +217,15 @@ class PlainLines(Rows):
         self.words = np.full((len(LETTERS), length.size), np.nan)
         self.number = np.arange(1, length.size + 1)
         self._fill(clean, dialect)
+        self.kind, self.states = np.where(self.plain, beside.kind, 0), beside.states
+        self.comments = [told for told in beside.comments.items() if self.plain[told[0]]]
+
+    def strike(self, index: int) -> None:
+        """Have a line read word by word, though it looks plain; one behind the last may be named."""
+        self.plain[index : index + 1] = False
+        self.words[:, index : index + 1] = np.nan
+        self.kind[index : index + 1] = 0
+        self.comments = [told for told in self.comments if told[0] != index]
 
     def _fill(self, clean: bytes, dialect: Dialect) -> None:
         """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
@@ -219,8 +250,9 @@ class PlainLines(Rows):
 
 
 def _meaningless(column: Ints, value: Array) -> Bools:
-    """Which words (k,) no plain line has: of G what is none of its motions, of F what is below 0."""
-    wrong: Bools = ((column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))) | ((column == F) & (value < 0))
+    """Which words (k,) no plain line has: other G than its motions, F below 0, S that is not above 0."""
+    wrong: Bools = (column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))
+    wrong |= ((column == F) & (value < 0)) | ((column == S) & ~(value > 0))
     return wrong
 
 

@@ -55,6 +55,7 @@ def interpret(
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
     percents = 0
     faults, blocks = Faults(text, lines, dialect), Blocks(dialect)
+    plain.strike(faults.at)
     source.read(plain, faults.at)
     for index, raw in source.run():
         if not isinstance(raw, str):

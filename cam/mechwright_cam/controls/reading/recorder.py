@@ -49,6 +49,8 @@ class Recorder:
         """Steps since the last table."""
         self.unsaid: list[tuple[int, str]] = []
         """Lines that go as an earlier program may have said, and the word that says it anew."""
+        self.hoped: list[tuple[int, str]] = []
+        """The same where the control begins with the word, unless an earlier program has left another."""
         self.before = 0
         """Number of steps in all tables."""
         self.pieces: list[int] = []
@@ -72,6 +74,10 @@ class Recorder:
     ) -> None:
         self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
         self.x, self.y, self.z = x, y, z
+
+    def lacks(self, line: int, word: str) -> None:
+        """Tell that a line hangs on a word that the program has not said."""
+        (self.hoped if word in self.dialect.usual else self.unsaid).append((line, word))
 
     @property
     def steps(self) -> int:
@@ -171,7 +177,8 @@ class Recorder:
         if self.dialect.feed_mode_stays:
             said = np.array(["feed mode" in state.stated for state in self.states])[columns["state"]]
             fed = np.isin(columns["kind"], (Kind.FEED, Kind.ARC)) & ~said
-            self.unsaid += [(int(line), "G94") for line in columns["line"][fed][:1]]
+            for line in columns["line"][fed][:1].tolist():
+                self.lacks(line, "G94")
         return Run(
             **columns,
             states=tuple(self.states),
@@ -179,6 +186,7 @@ class Recorder:
             ended=self.ended,
             lines=lines,
             unsaid=min(self.unsaid, default=None),
+            hoped=min(self.hoped, default=None),
             piece=np.isin(np.arange(len(table)), self.pieces),
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),

@@ -62,7 +62,7 @@ class State:
     """D number of that; None without compensation, or if the program gives the diameter itself."""
     stated: frozenset[str] = frozenset()
     """The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``,
-    ``"feed mode"``, ``"return"``) that the program has set itself.
+    ``"feed mode"``, ``"return"``, ``"centres"``) that the program has set itself.
     """
     off_path: float = 0.0
     """How far the control may leave the programmed path between two moves, mm; inf without a bound."""
@@ -176,6 +176,8 @@ class Run:
     """Number of the first line of a program that stands behind its end, and is not run; 0 if none does."""
     unsaid: tuple[int, str] | None = None
     """Line of the first move that goes as an earlier program may have said, and the word to say it anew."""
+    hoped: tuple[int, str] | None = None
+    """The same of a move that goes as programs begin, unless an earlier one has left something else."""
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     """(n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one."""
     machine_xy: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
@@ -275,6 +277,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),
         unsaid=next((run.unsaid for run in runs if run.unsaid), None),
+        hoped=next((run.hoped for run in runs if run.hoped), None),
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
     )

@@ -1,14 +1,15 @@
 """Running a stretch of motion lines at once: what a machine does line by line, worked out for all of them."""
 
 import math
+from bisect import bisect_left
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.arcs import centres_of
 from mechwright_cam.controls.reading.modes import Modal
-from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, R, Rows, X, Z
-from mechwright_cam.controls.reading.run import WIDTH, Kind
+from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, R, Rows, S, X, Z
+from mechwright_cam.controls.reading.run import WIDTH, Ints, Kind, Remark
 
 FEWEST_LINES = 8
 """A stretch of fewer lines is not worth it: so many run as quickly one by one."""
@@ -27,11 +28,12 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     known = motion in {0, 10, 20, 30}
     if not (known or lines.said[G, at]) or not machine.moves_plainly:
         return at
-    end = lines.until(at, known and motion in {20, 30})
+    end = _as_stated(machine, lines, at, lines.until(at, known and motion in {20, 30}))
     if end - at < FEWEST_LINES:
         return at
-    index = at + np.flatnonzero(lines.said[G:, at:end].any(axis=0))  # without empty lines
+    index = at + np.flatnonzero(lines.said[G : F + 1, at:end].any(axis=0))  # without empty lines
     if index.size == 0:
+        _along(machine, lines, at, end, index)
         return end
     words = lines.words[:, index]
     words[X : F + 1] *= machine.scale
@@ -48,17 +50,56 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     table[:, 2:5], table[:, 5:8] = start, place
     table[:, 8:10] = math.nan
     table[:, 12] = np.where(g > 0, feed, 0.0)
-    table[:, 14] = machine.index
     wrong = lost | ((g > 0) & ~(feed > 0))
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
     faults = np.flatnonzero(wrong)
     count = int(faults[0]) if faults.size else index.size
+    after = int(index[count]) if faults.size else end
+    state = _along(machine, lines, at, after, index)
     if count:
         table = table[:count]
+        table[:, 14] = state[index[:count] - at]
         machine.append(table)
         machine.motion, machine.feed = 10 * int(g[count - 1]), float(feed[count - 1])
-    return int(index[count]) if faults.size else end
+    return after
+
+
+def _as_stated(machine: Modal, lines: Rows, at: int, end: int) -> int:
+    """The first line from ``at`` on whose words of state change anything, at most ``end``.
+
+    So does an S that makes the spindle turn.
+    """
+    asked: dict[int, bool] = {}
+    place = bisect_left(lines.stated, (at, 0))
+    while place < len(lines.stated) and lines.stated[place][0] < end:
+        line, kind = lines.stated[place]
+        if kind not in asked:
+            asked[kind] = machine.is_stated(lines.states[kind])
+        if not asked[kind]:
+            end = line
+        place += 1
+    if machine.state.spindle and not machine.state.turning:
+        end = at + next(iter(np.flatnonzero(lines.said[S, at:end]).tolist()), end - at)
+    return end
+
+
+def _along(machine: Modal, lines: Rows, at: int, after: int, moving: Ints) -> Ints:
+    """Record the comments of the lines up to ``after``, and give the state of each line; it holds then.
+
+    ``moving`` are the lines that make a step.
+    """
+    first, last = (bisect_left(lines.comments, (line,)) for line in (at, after))
+    for line, comment in lines.comments[first:last]:
+        step = machine.steps + int(np.searchsorted(moving, line))
+        machine.remarks.append(Remark(int(lines.number[line]), comment, step))
+    rpm = lines.words[S, at:after].copy()
+    if np.isnan(rpm).all():
+        if moving.size:
+            machine.keep_state()
+        return np.full(after - at, machine.index)
+    _hold(rpm, machine.state.rpm)
+    return machine.at_speeds(rpm)
 
 
 def _hold(row: Array, before: float) -> None:
@@ -106,5 +147,7 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
     if machine.absolute_centres:
         known &= ~missing.any(axis=1)
+    for line in table[arc, 1][~np.isnan(given).all(axis=1)][:1].tolist():
+        machine.by_centre(int(line))
     refused: Bools = ~known | machine.dialect.refuses(first, last, machine.scale != 1.0)
     return refused

@@ -65,6 +65,8 @@ def steps(
     by_hand = not control.offsets.lengths
     touched = by_hand and not _in_program(job, control, tools)
     needs = tuple(control.needs(job.settings))
+    if control.leftover:
+        needs += (f"The program does not take back {control.leftover}.",)
     return [
         *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),

@@ -7,6 +7,7 @@ at every instant.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -71,8 +72,54 @@ class Spindle:
     head: float = 0.0
 
 
+@dataclass
+class _Course:
+    """Where a plate is over a turn; each is worked out when it is first asked for."""
+
+    plate: Plate
+    poses: Poses
+
+    @cached_property
+    def points(self) -> Array:
+        """Its flattened outline (k, 2) in its body, mm."""
+        return self.plate.outline.outer.flatten(PLAN_CHORD)
+
+    @cached_property
+    def placed(self) -> Array:
+        """The same in every pose, (n, k, 2)."""
+        return _placed(self.points, self.poses)
+
+    @cached_property
+    def steps(self) -> Array:
+        """The farthest that any of them moves to a neighbouring sample, (n,), mm."""
+        return _step(self.placed)
+
+    @cached_property
+    def shape(self) -> "shapely.Polygon":
+        """The outline in the body, prepared."""
+        import shapely
+
+        shape = shapely.Polygon(self.points)
+        shapely.prepare(shape)
+        return shape
+
+    @cached_property
+    def middle(self) -> Array:
+        """Middle (n, 2) of a circle around it in every pose."""
+        return _placed(self._centre[None], self.poses)[:, 0]
+
+    @cached_property
+    def size(self) -> float:
+        """That circle's radius, mm."""
+        return float(np.hypot(*(self.points - self._centre).T).max()) + TOLERANCES.closure
+
+    @property
+    def _centre(self) -> Array:
+        return np.asarray((self.points.min(axis=0) + self.points.max(axis=0)) / 2)
+
+
 class Closeness:
-    """Distances of plates and spindles over a turn; each plate is flattened once."""
+    """Distances of plates and spindles over a turn; each plate is flattened and placed once, or never."""
 
     def __init__(
         self,
@@ -85,14 +132,10 @@ class Closeness:
         if missing:
             raise GeometryError(f"the motion has no poses of {', '.join(sorted(missing))}")
         self.limit = clearance + 2 * PLAN_CHORD
-        self.outlines = {plate.name: plate.outline.outer.flatten(PLAN_CHORD) for plate in plates}
-        self.placed = {plate.name: _placed(self.outlines[plate.name], poses[plate.body]) for plate in plates}
         self.poses = poses
-        self.steps = {name: _step(points) for name, points in self.placed.items()}
-        self.circles = {plate.name: _circle(self.outlines[plate.name], poses[plate.body]) for plate in plates}
+        self.courses = {plate.name: _Course(plate, poses[plate.body]) for plate in plates}
         self.areas: dict[str, NDArray[np.object_]] = {}
         self.axes: dict[str, tuple[Array, Array]] = {}
-        self.shapes: dict[str, shapely.Polygon] = {}
         self.found: dict[tuple[str, str, float], bool] = {}
 
     def plates(self, one: Plate, two: Plate) -> bool:
@@ -116,11 +159,12 @@ class Closeness:
             start = np.zeros(1, dtype=np.intp)
             distance = shapely.distance(self._area(one.name, start), self._area(two.name, start))
             return bool(distance.min() < self.limit)
-        moved = self.steps[one.name] + self.steps[two.name]
+        here, there = self.courses[one.name], self.courses[two.name]
+        moved = here.steps + there.steps
         # Whether they are so near is known long before the distance is; below it, not at it.
         near = np.nextafter(self.limit + moved / 2, 0.0)
-        (here, size), (there, other) = self.circles[one.name], self.circles[two.name]
-        asked = np.flatnonzero(np.hypot(*(here - there).T) - size - other <= near)
+        apart = np.hypot(*(here.middle - there.middle).T) - here.size - there.size
+        asked = np.flatnonzero(apart <= near)
         # What meets mostly does so for long: some samples tell it.
         return any(
             shapely.dwithin(self._area(one.name, some), self._area(two.name, some), near[some]).any()
@@ -130,29 +174,37 @@ class Closeness:
     def _pass(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
         import shapely
 
+        (axis, slack), course = self._axis(spindle, plate), self.courses[plate.name]
+        near = np.nextafter(self.limit + radius + slack, 0.0)
+        apart = np.hypot(*(axis - course.middle[: len(axis)]).T) - course.size
+        asked = np.flatnonzero(apart <= near)
+        # Seen from the plate, which then is one shape.
+        return any(
+            shapely.dwithin(
+                course.shape,
+                shapely.points(_seen(axis[some], self.poses[plate.body], some)),
+                near[some],
+            ).any()
+            for some in (asked[::_SOME], asked)
+        )
+
+    def _axis(self, spindle: Spindle, plate: Plate) -> tuple[Array, Array]:
+        """Places (n, 2) of a spindle, and half of its step and a plate's (n,), mm; one place in one body."""
         if spindle.name not in self.axes:
             centre = np.array([[spindle.centre.real, spindle.centre.imag]])
             axis = _placed(centre, self.poses[spindle.body])
             self.axes[spindle.name] = axis[:, 0], _step(axis)
         axis, step = self.axes[spindle.name]
         if spindle.body == plate.body:
-            axis, slack = axis[:1], np.zeros(1)
-        else:
-            slack = (self.steps[plate.name] + step) / 2
-        if plate.name not in self.shapes:
-            self.shapes[plate.name] = shapely.Polygon(self.outlines[plate.name])
-            shapely.prepare(self.shapes[plate.name])
-        # Seen from the plate, which then is one shape.
-        points = shapely.points(_seen(axis, self.poses[plate.body]))
-        near = np.nextafter(self.limit + radius + slack, 0.0)
-        return bool(shapely.dwithin(self.shapes[plate.name], points, near).any())
+            return axis[:1], np.zeros(1)
+        return axis, (self.courses[plate.name].steps + step) / 2
 
     def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
         """Bounds x0, y0, x1, y1, mm, of what these plates pass over; nothing outside comes too close."""
         found = []
         for name in names:
-            room = self.limit + self.steps[name][:, None] / 2
-            points = self.placed[name]
+            room = self.limit + self.courses[name].steps[:, None] / 2
+            points = self.courses[name].placed
             found.append((points - room[..., None]).min(axis=(0, 1)))
             found.append((points + room[..., None]).max(axis=(0, 1)))
         (x0, y0), (x1, y1) = np.min(found, axis=0).tolist(), np.max(found, axis=0).tolist()
@@ -162,9 +214,10 @@ class Closeness:
         """A plate at these samples; each is made when it is first asked for."""
         import shapely
 
-        areas = self.areas.setdefault(name, np.full(len(self.placed[name]), None, dtype=np.object_))
+        placed = self.courses[name].placed
+        areas = self.areas.setdefault(name, np.full(len(placed), None, dtype=np.object_))
         missing = samples[~shapely.is_geometry(areas[samples])]
-        areas[missing] = shapely.polygons(self.placed[name][missing])
+        areas[missing] = shapely.polygons(placed[missing])
         shapely.prepare(areas[missing])
         return areas[samples]
 
@@ -175,24 +228,17 @@ def _placed(points: Array, poses: Poses) -> Array:
     return np.asarray(turned + poses.position[:, None, :2], dtype=np.float64)
 
 
-def _seen(points: Array, poses: Poses) -> Array:
-    """A point at each of the first poses, (m, 2), in the coordinates of the body, (m, 2)."""
-    count = len(points)
-    turned = np.einsum("nba,nb->na", poses.rotation[:count, :2, :2], points - poses.position[:count, :2])
+def _seen(points: Array, poses: Poses, some: "NDArray[np.intp]") -> Array:
+    """A point at each of some poses, (m, 2), in the coordinates of the body, (m, 2)."""
+    turned = np.einsum("nba,nb->na", poses.rotation[some, :2, :2], points - poses.position[some, :2])
     return np.asarray(turned, dtype=np.float64)
-
-
-def _circle(points: Array, poses: Poses) -> tuple[Array, float]:
-    """Middle (n, 2) and radius, mm, of a circle around points (k, 2) of a body in every pose."""
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    size = float(np.hypot(*(points - middle).T).max())
-    return _placed(middle[None], poses)[:, 0], size + TOLERANCES.closure
 
 
 def _step(placed: Array) -> Array:
     """The farthest that any of the points (n, k, 2) moves to a neighbouring sample, (n,), mm."""
     if len(placed) < 2:
         return np.zeros(len(placed))
-    moved = _BEND * np.hypot(*np.moveaxis(np.diff(placed, axis=0), 2, 0)).max(axis=1)
+    ways = np.diff(placed, axis=0)
+    moved = _BEND * np.sqrt(np.einsum("nki,nki->nk", ways, ways).max(axis=1))
     step: Array = np.maximum(np.append(moved, 0.0), np.append(0.0, moved))
     return step

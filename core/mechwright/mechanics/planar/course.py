@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.motion import travelled
+from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar.rigid import Turning
 
 MOST_RATIO = 2.0
@@ -45,11 +45,11 @@ class Course:
     rocks: bool = False
     acceleration_ratio: float = 0.0
 
-    def way(self, samples: int) -> Array:
+    def way(self, samples: Samples) -> Array:
         """Input angles (samples,), rad, once along, both ends included; raises as :func:`travelled` does."""
         return travelled(self.travel, samples, self.start)
 
-    def period(self, samples: int, speed: float) -> tuple[Array, Turning]:
+    def period(self, samples: Samples, speed: float) -> tuple[Array, Turning]:
         """Times (samples,), s, and the input over one period, both ends included.
 
         ``speed`` is above 0, rad/s: of a crank at its start, or of the crank that makes a lever swing once a

@@ -31,6 +31,9 @@ from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion
 GROUND = "ground"
 """Name of the body that does not move."""
 
+BLOCK = 2048
+"""Systems that are solved together."""
+
 
 @dataclass(frozen=True)
 class Link:
@@ -169,12 +172,7 @@ def forces(
     if missing or GROUND in driving:
         raise KinematicsError(f"no moving link is called {', '.join(sorted(missing)) or GROUND}")
     centres = {link.name: link.centre_motion for link in links}
-    matrix = _matrix(joints, centres, row, driving)
-    try:
-        solved = np.linalg.solve(matrix, _right(links, loads, centres, row)[:, :, None])
-    except np.linalg.LinAlgError as error:
-        raise KinematicsError("the linkage is in a dead centre, where no finite moment drives it") from error
-    solution = solved[:, :, 0].astype(np.float64)
+    solution = _solved(joints, centres, row, driving, _right(links, loads, centres, row))
     found: dict[str, Plane] = {}
     moments: dict[str, Array] = {}
     for number, joint in enumerate(joints):
@@ -190,6 +188,25 @@ def forces(
         name: solution[:, 2 * len(joints) + number] for number, name in enumerate(driving)
     }
     return Forces(found, moments, drives, shaking)
+
+
+def _solved(
+    joints: Sequence[Pin | Slide],
+    centres: Mapping[str, PointMotion],
+    row: Mapping[str, int],
+    driven: Sequence[str],
+    right: Array,
+) -> Array:
+    """The unknowns (n, k) for right sides (n, k), in blocks: all matrices at once fill the memory."""
+    found = np.empty_like(right)
+    try:
+        for first in range(0, len(right), BLOCK):
+            some = slice(first, first + BLOCK)
+            matrix = _matrix(joints, centres, row, driven, some)
+            found[some] = np.linalg.solve(matrix, right[some, :, None])[:, :, 0]
+    except np.linalg.LinAlgError as error:
+        raise KinematicsError("the linkage is in a dead centre, where no finite moment drives it") from error
+    return found
 
 
 def _right(
@@ -218,16 +235,18 @@ def _matrix(
     centres: Mapping[str, PointMotion],
     row: Mapping[str, int],
     driven: Sequence[str],
+    some: slice,
 ) -> Array:
-    """What the unknowns of joints and drive do to each link, (n, 3 per link, unknowns)."""
-    samples, count = next(iter(centres.values())).position.size, 3 * len(row)
+    """What the unknowns of joints and drive do to each link at some samples, (m, 3 per link, unknowns)."""
+    at = {name: centre.position[some] for name, centre in centres.items()}
+    samples, count = next(iter(at.values())).size, 3 * len(row)
     matrix = np.zeros((samples, count, count))
     for number, joint in enumerate(joints):
         for body, sign in ((joint.one, -1.0), (joint.two, 1.0)):
             if body == GROUND:
                 continue
-            first, lever = row[body], joint.place - centres[body].position
-            for column, vector in enumerate(_directions(joint, samples), start=2 * number):
+            first, lever = row[body], joint.place[some] - at[body]
+            for column, vector in enumerate(_directions(joint, samples, some), start=2 * number):
                 matrix[:, first, column] = sign * vector.real
                 matrix[:, first + 1, column] = sign * vector.imag
                 matrix[:, first + 2, column] = sign * _cross(lever, vector)
@@ -238,11 +257,12 @@ def _matrix(
     return matrix
 
 
-def _directions(joint: Pin | Slide, samples: int) -> tuple[Plane, ...]:
-    """Unit vectors of the forces that a joint can carry."""
+def _directions(joint: Pin | Slide, samples: int, some: slice = slice(None)) -> tuple[Plane, ...]:
+    """Unit vectors of the forces that a joint can carry, at so many samples, which are some of its own."""
     if isinstance(joint, Pin):
         return np.ones(samples, complex), np.full(samples, 1j)
-    return (np.broadcast_to(1j * np.asarray(joint.direction, dtype=complex), (samples,)),)
+    direction = np.asarray(joint.direction, dtype=complex)
+    return (np.broadcast_to(1j * (direction[some] if direction.ndim else direction), (samples,)),)
 
 
 def _cross(lever: ArrayLike, force: ArrayLike) -> Array:

@@ -8,13 +8,21 @@ way
 
 import math
 from collections.abc import Sequence
+from typing import Any, TypeVar
 
+import numpy as np
+
+from mechwright.arrays import Array
 from mechwright.contracts.finding import Change
 
 SLACK = 1e-9
 """rad. A lever that shall go this much beyond its way goes to the end of it: rounding of degrees."""
 
 Way = tuple[float, float]
+Ways = tuple[Array, Array]
+"""A way of each of many levers: lower and upper angles (n,)."""
+
+N = TypeVar("N", float, Array)
 
 LEAST = 1.0
 """Degrees. A swing that is shorter is not proposed."""
@@ -35,25 +43,54 @@ def within(ways: Sequence[Way], one: float, two: float) -> Way | None:
     (3.5, 2.5)
     >>> within([(-1.0, 1.0)], 0.5, 1.5)
     """
-    for low, high in ways:
-        if high - low >= math.tau - SLACK:
-            return one, two
-        low, high = beside((low, high), (one + two) / 2, math.tau)
-        if low - SLACK <= min(one, two) and max(one, two) <= high + SLACK:
-            return min(max(one, low), high), min(max(two, low), high)
-    return None
+    begin, end = within_many([_each(way) for way in ways], np.asarray(one), np.asarray(two))
+    return None if np.isnan(begin) else (float(begin), float(end))
 
 
-def beside(way: Way, angle: float, turn: float) -> Way:
-    """The same way, by whole turns as near to an angle as it can be."""
+def within_many(ways: Sequence[Ways], one: Array, two: Array) -> Ways:
+    """The same of many levers: first and last angles (n,), rad; NaN where no way has room.
+
+    Of ``ways`` the first is taken that has room; a lever that has fewer has NaN for those it has not.
+    """
+    begin, end = np.full(np.shape(one), math.nan), np.full(np.shape(one), math.nan)
+    for way in ways:
+        whole = way[1] - way[0] >= math.tau - SLACK
+        low, high = beside(way, (one + two) / 2, math.tau)
+        fits = (low - SLACK <= np.minimum(one, two)) & (np.maximum(one, two) <= high + SLACK)
+        free = np.isnan(begin) & (whole | fits)
+        begin = np.where(free, np.where(whole, one, np.clip(one, low, high)), begin)
+        end = np.where(free, np.where(whole, two, np.clip(two, low, high)), end)
+    return begin, end
+
+
+def beside(way: tuple[N, N], angle: N, turn: float) -> tuple[N, N]:
+    """The same way, or ways (n,), by whole turns as near to an angle as it can be."""
     low, high = way
-    off = turn * round((angle - (low + high) / 2) / turn)
+    off: Any = turn * np.round((angle - (low + high) / 2) / turn)
     return low + off, high + off
 
 
 def nearest(ways: Sequence[Way], angle: float, turn: float) -> Way:
     """Of some ways the one whose middle is nearest to an angle, with the turns of that."""
-    return min((beside(way, angle, turn) for way in ways), key=lambda way: abs((way[0] + way[1]) / 2 - angle))
+    low, high = nearest_many([_each(way) for way in ways], np.asarray(angle), turn)
+    return float(low), float(high)
+
+
+def nearest_many(ways: Sequence[Ways], angle: Array, turn: float) -> Ways:
+    """The same of many levers, (n,); NaN where a lever has no way."""
+    found = np.full(np.shape(angle), math.nan), np.full(np.shape(angle), math.nan)
+    least = np.full(np.shape(angle), math.inf)
+    for way in ways:
+        here = beside(way, angle, turn)
+        away = abs((here[0] + here[1]) / 2 - angle)
+        nearer = away < least
+        found = np.where(nearer, here[0], found[0]), np.where(nearer, here[1], found[1])
+        least = np.where(nearer, away, least)
+    return found
+
+
+def _each(way: Way) -> Ways:
+    return np.asarray(way[0]), np.asarray(way[1])
 
 
 def past(ways: Sequence[Way], one: float, two: float) -> tuple[str, float, float]:

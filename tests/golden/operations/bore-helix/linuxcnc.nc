@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore: bore)
@@ -55,22 +55,20 @@ X3.2 Y0 Z-2 I3.2 J0
 X-3.2 Y0 I-3.2 J0
 X3.2 Y0 I3.2 J0
 G1 X0 F1960
-G0 Z5
-X5.8
-Z1
-G1 Z0
-G3 X-5.8 Y0 Z-0.5 I-5.8 J0 F980
-X5.8 Y0 Z-1 I5.8 J0
-X-5.8 Y0 Z-1.5 I-5.8 J0
-X5.8 Y0 Z-2 I5.8 J0
-X-5.8 Y0 I-5.8 J0 F1160
+X-3.175
+G3 X4.5 Y0 I3.8375 J0 F1038
+X-4.5 Y0 I-4.5 J0
+X4.5 Y0 I4.5 J0
+G1 X-4.475 F1960
+G3 X5.8 Y0 I5.1375 J0 F1160
+X-5.8 Y0 I-5.8 J0
 X5.8 Y0 I5.8 J0
-G1 X0 F1960
 G0 Z5
 (operation: seat: finish)
 G64 P0.002 Q0
+X0
 Z1
-G1 Z-2
+G1 Z-2 F1960
 G3 X5.9994 Y0 I2.9997 J0 F1176
 X-5.9994 Y0 I-5.9994 J0
 X5.9994 Y0 I5.9994 J0

@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T48 H48 D 6 mm: bull-6-r1, bull nose)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: dish: rough)
@@ -16,7 +16,7 @@ G43 H48 Z5
 M8
 Z1
 G1 Z0 F1470
-X5.742 Z-0.3836 F735
+X5.742 Z-0.3836 F1000
 X5.7403 Y1.7421 Z-0.5
 X-5.7421 Z-0.8836
 Y-1.7421 Z-1

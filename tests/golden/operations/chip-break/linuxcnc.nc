@@ -5,7 +5,7 @@
 (drills go 1.80 mm below the stock: leave room under the holes)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T7 H7 D 5 mm: drill-5, drill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: drill 5)

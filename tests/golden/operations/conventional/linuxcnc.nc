@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
@@ -16,7 +16,7 @@ G43 H23 Z5
 M8
 Z1
 G1 Z0 F1960
-G2 X-7.0137 Y3.4981 Z-0.0331 I0.5005 J-0.0593 F980
+G2 X-7.0137 Y3.4981 Z-0.0331 I0.5005 J-0.0593 F1090
 G1 X6.9372 Y3.5 Z-0.6801
 G2 X7.5 Y2.9053 Z-0.7237 I0.0418 J-0.5241
 G1 Y-2.9053 Z-0.9932

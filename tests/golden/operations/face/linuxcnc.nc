@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T20 H20 D 16 mm: mill-16, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: face: face)

@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: groove: slot)
@@ -15,7 +15,7 @@ G43 H24 Z5
 M8
 Z1
 G1 Z0 F1470
-X-10.8993 Z-1 F735
+X-10.8993 Z-1 F740
 X-30 Z-2
 X0 F1470
 G3 X9.3204 Y1.3764 I-0.0008 J10.0012

@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
@@ -16,7 +16,7 @@ G43 H23 Z5
 M8
 Z1
 G1 Z0 F1960
-X-6.5985 Y-2.6 Z-0.1413 F980
+X-6.5985 Y-2.6 Z-0.1413 F1450
 X6.6 Z-0.5
 Y2.5997 Z-0.6413
 X-6.5995 Y2.5983 Z-1

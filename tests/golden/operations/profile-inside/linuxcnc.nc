@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: window: rough)
@@ -16,7 +16,7 @@ G43 H23 Z5
 M8
 Z1
 G1 Z0 F1960
-G3 X-6.9414 Y-3.8 Z-0.0178 I0.3377 J0.865 F980
+G3 X-6.9414 Y-3.8 Z-0.0178 I0.3377 J0.865 F1070
 G1 X6.9926 Y-3.7981 Z-0.6834
 G3 X7.8 Y-2.9116 Z-0.7477 I-0.0103 J0.8203
 G1 Y2.9116 Z-1.0258

@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T25 H25 D 5 mm: mill-5, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: keyway: rough)
@@ -16,7 +16,7 @@ G43 H25 Z5
 M8
 Z1
 G1 Z0 F1260
-G3 X-8.9277 Y-0.3 Z-0.0109 I0.3156 J0.0005 F630
+G3 X-8.9277 Y-0.3 Z-0.0109 I0.3156 J0.0005 F900
 G1 X8.9277 Z-0.3646
 G3 X9.2371 Y0.1775 Z-0.379 I0.0579 J0.3015
 X8.9277 Y0.3 Z-0.3859 I-0.2637 J-0.2141

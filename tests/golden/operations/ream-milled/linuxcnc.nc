@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T26 H26 D 4 mm: mill-4, end mill)
 (T91 H91 D 6 mm: reamer-6, reamer)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: pin: bore)

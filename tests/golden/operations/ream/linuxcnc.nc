@@ -10,7 +10,7 @@
 (T1 H1 D 6 mm: spot-6, spot drill)
 (T92 H92 D 5.8 mm: drill-5.8, drill)
 (T91 H91 D 6 mm: reamer-6, reamer)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: spot drill)

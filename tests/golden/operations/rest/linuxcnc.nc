@@ -5,7 +5,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T21 H21 D 12 mm: mill-12, end mill)
 (T26 H26 D 4 mm: mill-4, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
@@ -17,7 +17,7 @@ G43 H21 Z5
 M8
 Z1
 G1 Z0 F1960
-Y-2.7984 Z-0.2916 F980
+Y-2.7984 Z-0.2916 F990
 X6.8 Y-2.7997 Z-1
 Y2.7981 Z-1.2916
 X-6.7981 Z-2

@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: slot: rough)
@@ -16,7 +16,7 @@ G43 H24 Z5
 M8
 Z1
 G1 Z0 F1470
-G3 X11.5974 Y0.5267 Z-0.0774 I0.0612 J0.8029 F735
+G3 X11.5974 Y0.5267 Z-0.0774 I0.0612 J0.8029 F900
 X10.9246 Y0.8 Z-0.108 I-0.6248 J-0.5733
 G1 X-11.0501 Y0.7968 Z-1.005
 G3 X-11.6137 Y-0.5077 Z-1.0765 I0.0539 J-0.7973

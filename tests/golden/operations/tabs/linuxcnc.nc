@@ -4,7 +4,7 @@
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: outside: rough)
@@ -15,7 +15,7 @@ G43 H23 Z5
 M8
 Z1
 G1 Z0 F1960
-X-15.1546 Y-19.1975 Z-0.3844 F980
+X-15.1546 Y-19.1975 Z-0.3844 F1720
 G2 X-24.198 Y-10.1406 Z-0.5638 I0.1598 J9.2029
 G1 X-24.2 Y9.9996 Z-0.8191
 G2 X-15.1402 Y19.198 Z-1.0004 I9.2056 J-0.006

@@ -5,7 +5,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T27 H27 D 3 mm: mill-3, end mill)
 (T45 H45 D 4.5 mm: thread-m6, thread mill)
-G17 G21 G40 G49 G80 G90 G94
+G17 G21 G40 G49 G80 G90 G91.1 G94
 G64 P0.002 Q0
 G53 G0 Z0
 (operation: core: bore)

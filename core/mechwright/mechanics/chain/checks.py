@@ -1,0 +1,196 @@
+"""What there is to say of a chain: of each stage under the loads of those behind it, then of all together."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.parameters import Parameters, kept
+from mechwright.errors import MechwrightError
+from mechwright.mechanics.chain.assembly import assembly_of
+from mechwright.mechanics.chain.indexing import moves_of
+from mechwright.mechanics.chain.links import Families, joining, links_of, staged
+from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.placing import Placed, in_plan
+from mechwright.mechanics.chain.running import Run, finely
+from mechwright.mechanics.chain.shafts import shaft_findings
+
+NEAREST = 1.0
+"""mm. Shafts whose axes stand nearer to each other are meant to be one, and are none."""
+
+RPM = 60 / math.tau
+
+_STANDS = 1e-9
+"""Share of its greatest speed below which an input as good as stands: power says nothing of its torque."""
+
+Judge = Callable[[Family[Any], Parameters], Sequence[Finding]]
+
+
+@kept
+def findings(params: ChainParams, families: Families) -> tuple[Finding, ...]:
+    """All of it."""
+    return _findings(params, families, lambda family, own: family.check(own))
+
+
+@kept
+def judged(params: ChainParams, families: Families) -> tuple[Finding, ...]:
+    """The same by what the families find fast."""
+    return _findings(params, families, lambda family, own: family.judge(own))
+
+
+def _findings(params: ChainParams, families: Families, judge: Judge) -> tuple[Finding, ...]:
+    faults = joining(params, families)
+    if faults:
+        return faults
+    links, found = links_of(params, families), []
+    for link, own in zip(links, loaded(params, families), strict=True):
+        found += [staged(link.number, link.family, one) for one in judge(link.family, own)]
+    found += centre_findings(in_plan(links))
+    if not errors(found, Stage.PARTS):
+        found += _joined(params, families)
+    return (*found, *_notes(params, families))
+
+
+def _joined(params: ChainParams, families: Families) -> Iterator[Finding]:
+    try:
+        whole = assembly_of(params, families)
+    except MechwrightError as error:
+        key, _, rest = str(error).partition(": ")
+        said, _, cure = rest.partition("; ")
+        yield Finding.error("chain.assembly", key, said, remedy=cure, stage=Stage.PARTS)
+        return
+    yield from shaft_findings(whole.places, whole.planes)
+
+
+def centre_findings(places: tuple[Placed, ...]) -> Iterator[Finding]:
+    """Shafts of different stages that would stand in one place."""
+    shafts = [(1, places[0].at(places[0].link.transmission.input.point))]
+    shafts += [
+        (place.link.number, place.at(place.link.transmission.output.point))
+        for place in places
+        if place.link.transmission.output is not None
+    ]
+    for (one, here), (_, there) in combinations(enumerate(shafts), 2):
+        apart = math.dist(here[1], there[1])
+        if apart < NEAREST:
+            number = there[0]
+            which = "the input" if one == 0 else f"the output of stage {here[0]}"
+            yield Finding.error(
+                "chain.centres",
+                f"stage.{number}.turned",
+                f"stage {number}: the shaft of its output stands {apart:.3g} mm from that of {which}",
+                apart,
+                NEAREST,
+                "mm",
+                f"turn the stage away: stage.{number}.turned = 90",
+                Stage.PARTS,
+                ({f"stage.{number}.turned": 90.0},),
+            )
+
+
+@kept
+def torques_of(params: ChainParams, families: Families) -> tuple[Array, ...]:
+    """Torque (n,), N·m, at the input of each stage, of its own loads and of all stages behind it.
+
+    By balance of power: what the input of a stage gives is what its loads and the next stage take. Where an
+    input stands, nothing is taken.
+    """
+    run = finely(params, families)
+    taken = np.zeros_like(run.time)
+    found: list[Array] = []
+    for link, drive in reversed(list(zip(run.links, run.inputs, strict=True))):
+        taken = taken + link.transmission.power(drive, link.transmission.motion(drive, run.time))
+        found.append(_over_speed(taken, drive.omega))
+    return tuple(reversed(found))
+
+
+def _over_speed(power: Array, omega: Array) -> Array:
+    moving = np.abs(omega) > _STANDS * np.abs(omega).max()
+    return np.where(moving, power / np.where(moving, omega, 1.0), 0.0)
+
+
+@kept
+def loaded(params: ChainParams, families: Families) -> tuple[Parameters, ...]:
+    """The tables of all stages as they run in the chain, for the checks of their families.
+
+    A stage that is driven has the greatest speed of its input, and the torque against its output is that of
+    its own table and the greatest of the next stage.
+    """
+    run, torques = finely(params, families), torques_of(params, families)
+    found = []
+    for place, (link, drive) in enumerate(zip(run.links, run.inputs, strict=True)):
+        own, changed = link.transmission, {}
+        if place > 0 and own.own_drive:
+            changed[own.own_drive[0]] = float(np.abs(drive.omega).max()) * RPM
+        if own.load_field and place + 1 < len(run.links):
+            behind = float(np.abs(torques[place + 1]).max())
+            changed[own.load_field] = getattr(link.params, own.load_field) + behind
+        found.append(link.params.model_copy(update=changed))
+    return tuple(found)
+
+
+def _notes(params: ChainParams, families: Families) -> Iterator[Finding]:
+    run, torques = finely(params, families), torques_of(params, families)
+    for link, torque in zip(run.links, torques, strict=True):
+        most = float(np.abs(torque).max())
+        if most > 0:
+            yield Finding.note(
+                "chain.torque",
+                f"stage {link.number}, {link.family.name}: its input takes up to {most:.4g} N·m, with all "
+                "that stands behind it",
+                most,
+                "N*m",
+            )
+    yield from _unhanded(run, torques)
+    for place in range(1, len(run.links)):
+        yield _key_note(run, place)
+    seen: set[int] = set()
+    for move in moves_of(params, families):
+        if move.number not in seen:
+            seen.add(move.number)
+            yield Finding.note(
+                "chain.index",
+                f"stage {move.number}: a move from rest to rest takes {move.time:.4g} s, Ca = "
+                f"{move.acceleration:.4f}, of 4 that any law has at least",
+                move.acceleration,
+            )
+
+
+def _unhanded(run: Run, torques: tuple[Array, ...]) -> Iterator[Finding]:
+    for place, link in enumerate(run.links[:-1]):
+        behind = float(np.abs(torques[place + 1]).max())
+        if behind > 0 and not link.transmission.load_field:
+            yield Finding.warning(
+                "chain.load",
+                f"stage.{link.number}",
+                f"stage {link.number}, {link.family.name}: its strength is judged without the "
+                f"{behind:.4g} N·m that stage {link.number + 1} takes",
+                behind,
+                unit="N*m",
+                remedy="judge it with that torque against its output",
+                stage=Stage.PARTS,
+            )
+
+
+def _key_note(run: Run, place: int) -> Finding:
+    """The angle by which two bodies stand on their shaft to each other, the same all along."""
+    before, link = run.links[place - 1], run.links[place]
+    port = before.transmission.output
+    assert port is not None  # noqa: S101 - the stages are joined
+    out = before.transmission.move(run.inputs[place - 1]).theta[0] * port.sense
+    own = run.inputs[place].theta[0] * link.transmission.input.sense
+    turned = math.radians(link.table.turned - before.table.turned)
+    angle = math.degrees(own - out + turned) % 360
+    return Finding.note(
+        "chain.key",
+        f"stage {link.number}, {link.family.name}: its {link.transmission.input.body} stands {angle:.4f} "
+        f"degrees ahead of the {port.body} of stage {before.number} on their shaft, by the angles that their "
+        "channels count",
+        angle,
+        "deg",
+    )

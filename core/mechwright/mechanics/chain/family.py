@@ -1,0 +1,52 @@
+"""A chain as a family: whatever is asked of a mechanism is asked of its stages and put together."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding
+from mechwright.mechanics.chain.params import ChainParams
+
+if TYPE_CHECKING:
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+
+
+class Chain(Family[ChainParams]):
+    """Mechanisms of which each turns the next.
+
+    It is made for the families of its stages, in their order, and is registered nowhere: a design file with
+    tables ``[[stage]]`` is one.
+    """
+
+    name = "chain"
+    title = "Chain of mechanisms"
+    summary = "Mechanisms of which each turns the next, the output shaft of one the input shaft of the other."
+    Params = ChainParams
+
+    def __init__(self, families: tuple[Family[Any], ...]) -> None:
+        self.families = families
+
+    def check(self, params: ChainParams) -> Sequence[Finding]:
+        """What each stage's family finds under the loads of the chain, and how the stages go together."""
+        from mechwright.mechanics.chain.checks import findings
+
+        return findings(params, self.families)
+
+    def judge(self, params: ChainParams) -> Sequence[Finding]:
+        """The same as far as the families find it fast."""
+        from mechwright.mechanics.chain.checks import judged
+
+        return judged(params, self.families)
+
+    def solve(self, params: ChainParams, samples: int) -> "Motion":
+        """As many turns of the input as bring all stages back."""
+        from mechwright.mechanics.chain.assembly import assembled
+
+        return assembled(params, self.families, samples)
+
+    def parts(self, params: ChainParams) -> "Sequence[Part]":
+        """Those of all stages, and the shafts between them."""
+        from mechwright.mechanics.chain.assembly import parts_of
+
+        return parts_of(params, self.families)

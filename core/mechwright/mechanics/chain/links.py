@@ -1,0 +1,199 @@
+"""The stages of a chain with their families, and what stands against joining them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.parameters import Parameters, kept
+from mechwright.contracts.transmission import Transmission
+from mechwright.errors import KinematicsError, MechwrightError
+from mechwright.mechanics.chain.params import ChainParams, StageTable
+
+MOST_TURNS = 60
+"""Turns of the chain's input over which its stages come back: what a motion with 721 samples can show."""
+
+Families = tuple[Family[Any], ...]
+"""Of the stages, in their order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """A stage that can be joined."""
+
+    number: int
+    family: Family[Any]
+    table: StageTable
+    transmission: Transmission
+
+    @property
+    def params(self) -> Parameters:
+        """Of its family."""
+        return self.table.parameters
+
+    def named(self, name: str) -> str:
+        """A part or body of the stage, as the chain has it."""
+        return f"{self.number}-{name}"
+
+
+def key_of(number: int, key: str) -> str:
+    """The design-file key of a stage's key, which findings of families write without ``parameters``.
+
+    >>> key_of(2, "bore"), key_of(1, "parameters.bore"), key_of(1, "")
+    ('stage.2.parameters.bore', 'stage.1.parameters.bore', '')
+    """
+    return f"stage.{number}.parameters.{key.removeprefix('parameters.')}" if key else ""
+
+
+def staged(number: int, family: Family[Any], finding: Finding) -> Finding:
+    """A finding of a stage as one of the chain: its key, its changes and its words say which stage."""
+    changes = tuple(
+        {
+            key_of(number, key) if key.startswith("parameters.") else key: value
+            for key, value in change.items()
+        }
+        for change in finding.proposed
+    )
+    return replace(
+        finding,
+        parameter=key_of(number, finding.parameter),
+        message=f"stage {number}, {family.name}: {finding.message}",
+        proposed=changes,
+    )
+
+
+def pairs(params: ChainParams, families: Families) -> Iterator[tuple[int, Family[Any], StageTable]]:
+    """Number, family and table of each stage."""
+    for number, (family, table) in enumerate(zip(families, params.stage, strict=True), start=1):
+        yield number, family, table
+
+
+@kept
+def links_of(params: ChainParams, families: Families) -> tuple[Link, ...]:
+    """The stages of a chain that moves; raises KinematicsError with the first reason why it does not."""
+    found, faults = _joined(params, families)
+    for fault in faults:
+        raise KinematicsError(f"{fault.parameter}: {fault.message}; {fault.remedy}")
+    return found
+
+
+@kept
+def joining(params: ChainParams, families: Families) -> tuple[Finding, ...]:
+    """What stands against joining the stages: errors of the motion."""
+    return _joined(params, families)[1]
+
+
+@kept
+def _joined(params: ChainParams, families: Families) -> tuple[tuple[Link, ...], tuple[Finding, ...]]:
+    found: list[Link] = []
+    faults: list[Finding] = []
+    for number, family, table in pairs(params, families):
+        own = table.parameters
+        stopping = errors(family.judge(own), Stage.MOTION)
+        if stopping:
+            faults += [staged(number, family, one) for one in stopping]
+            continue
+        try:
+            transmission = family.transmission(own)
+            if number == 1 and transmission is not None:
+                transmission.at(np.zeros(1))  # whether its own drive goes on turn by turn
+        except MechwrightError as error:
+            faults.append(_no_stage(number, family, error))
+            continue
+        if transmission is None:
+            faults.append(_no_family(number, family))
+            continue
+        last = number == len(params.stage)
+        faults += _given(number, family, own, transmission) if number > 1 else ()
+        faults += _no_output(number, family, transmission, last=last)
+        found.append(Link(number, family, table, transmission))
+    if not faults:
+        faults += _never_back(found)
+    return tuple(found), tuple(faults)
+
+
+def _no_stage(number: int, family: Family[Any], error: MechwrightError) -> Finding:
+    key, _, rest = str(error).partition(": ")
+    said, _, cure = (rest or key).partition("; ")
+    return Finding.error(
+        "chain.stage",
+        key_of(number, key) if rest else f"stage.{number}",
+        f"stage {number}, {family.name}: {said}",
+        remedy=cure or "take another mechanism there",
+    )
+
+
+def _no_family(number: int, family: Family[Any]) -> Finding:
+    return Finding.error(
+        "chain.family",
+        f"stage.{number}.family",
+        f"stage {number}: mechanisms of the family {family.name} cannot follow another one",
+        remedy="take gears, a Geneva mechanism or a four-bar there, or a slider-crank as the last stage",
+    )
+
+
+def _given(
+    number: int, family: Family[Any], own: Parameters, transmission: Transmission
+) -> Iterator[Finding]:
+    """Fields of the drive of a stage that another one drives."""
+    for name in transmission.own_drive:
+        field = type(own).model_fields[name]
+        if name in own.model_fields_set and getattr(own, name) != field.get_default():
+            yield Finding.error(
+                "chain.driven",
+                key_of(number, name),
+                f"stage {number}, {family.name}: its input is turned by stage {number - 1}",
+                remedy=f"leave {name} out; stage 1 has the speed of the chain",
+                proposed=({key_of(number, name): None},),
+            )
+
+
+def _no_output(
+    number: int, family: Family[Any], transmission: Transmission, *, last: bool
+) -> Iterator[Finding]:
+    if transmission.output is None and not last:
+        yield Finding.error(
+            "chain.output",
+            f"stage.{number}.family",
+            f"stage {number}, {family.name}: no shaft comes out of it that could turn stage {number + 1}",
+            remedy="make it the last stage",
+        )
+
+
+def turns_of(links: Sequence[Link]) -> Fraction:
+    """Turns of the chain's input after which all stages stand as before.
+
+    Over N periods of the stages before, the input of a stage goes on by N times their advance, which has to
+    be a whole number of its periods.
+    """
+    turns, advance = Fraction(0), Fraction(0)
+    for number, link in enumerate(links):
+        own = link.transmission
+        if number == 0:
+            turns, advance = own.period, own.advance
+            continue
+        periods = advance / own.period
+        turns *= periods.denominator
+        advance = periods.numerator * own.advance
+    return turns
+
+
+def _never_back(links: Sequence[Link]) -> Iterator[Finding]:
+    for count in range(2, len(links) + 1):
+        turns = turns_of(links[:count])
+        if turns > MOST_TURNS:
+            number = links[count - 1].number
+            yield Finding.error(
+                "chain.period",
+                f"stage.{number}",
+                f"stage {number}, {links[count - 1].family.name}: it comes back only after "
+                f"{float(turns):g} turns of the chain's input",
+                float(turns),
+                MOST_TURNS,
+                remedy="take numbers of lobes, teeth and slots with common factors",
+            )
+            return

@@ -1,0 +1,163 @@
+"""The shafts of a chain: into the first stage, between two stages, and out of the last one.
+
+A shaft fills the bores of the hubs that it carries. Between the planes of two stages it has a spacer where
+both bores are alike, else a collar of its own. The first shaft stands out below, the last one above; those
+between stand out below the first stage alone, where nothing else turns.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.mounting import GroundPlate, Hub
+from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.turned import Step, Turned, tube
+from mechwright.mechanics.chain.links import key_of
+from mechwright.mechanics.chain.placing import Placed
+from mechwright.mechanics.chain.planes import Plane
+
+OUT = 2.0
+"""How far a shaft stands out, in its diameters: a bearing, and room for a coupling."""
+
+COLLAR = 1.5
+"""Outside of a spacer or collar over the shaft: a wall of a quarter of it."""
+
+MATERIAL, SPACER_MATERIAL = "steel", "steel"
+
+_SAME = 1e-6
+"""mm. Bores and heights that differ by less are the same."""
+
+
+@dataclass(frozen=True)
+class Seat:
+    """What sits on a shaft: a hub between two heights of the chain, mm, and the key that sets its bore."""
+
+    hub: Hub
+    key: str
+
+    @property
+    def low(self) -> float:
+        """Its lower end, mm."""
+        return self.hub.low
+
+    @property
+    def high(self) -> float:
+        """Its upper end, mm."""
+        return self.hub.high
+
+
+def seat_of(place: Placed, plane: Plane, body: str) -> Seat | None:
+    """The seat of a stage's body, at the heights of the chain; None without a hub."""
+    hub = plane.hub(body)
+    if hub is None:
+        return None
+    raised = replace(hub, low=hub.low + place.level, high=hub.high + place.level)
+    keys = {one.body: one.bore_key for one in plane.mounting.spindles} if plane.mounting else {}  # type: ignore[union-attr]
+    return Seat(raised, key_of(place.link.number, keys.get(body, "")))
+
+
+def shafts_of(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> tuple[Part, ...]:
+    """All shafts and spacers; of a stage with a shaft of its own there is none to make."""
+    parts: list[Part] = []
+    first, last = places[0], places[-1]
+    begin = seat_of(first, planes[0], first.link.transmission.input.body)
+    if begin is not None:
+        body = first.link.named(first.link.transmission.input.body)
+        size = begin.hub.bore
+        parts.append(
+            _shaft("shaft-in", body, begin.low - OUT * size, (Step(size, OUT * size + begin.hub.length),))
+        )
+    for place, plane, after, above in zip(places, planes, places[1:], planes[1:], strict=False):
+        parts += _between(place, plane, after, above)
+    out = last.link.transmission.output
+    end = None if out is None else seat_of(last, planes[-1], out.body)
+    if end is not None and out is not None:
+        size = end.hub.bore
+        parts.append(
+            _shaft(
+                "shaft-out", last.link.named(out.body), end.low, (Step(size, end.hub.length + OUT * size),)
+            )
+        )
+    return tuple(parts)
+
+
+def _shaft(name: str, body: str, low: float, steps: tuple[Step, ...]) -> Part:
+    return Part(name, None, 0.0, MATERIAL, (Instance(body, low),), turned=Turned(steps))
+
+
+def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterator[Part]:
+    out = place.link.transmission.output
+    if out is None:
+        return
+    lower = seat_of(place, plane, out.body)
+    upper = seat_of(after, above, after.link.transmission.input.body)
+    if lower is None or upper is None:
+        return  # the shaft is that of the stage's own ground plate
+    number, body = place.link.number, place.link.named(out.body)
+    one, two, room = lower.hub.bore, upper.hub.bore, upper.low - lower.high
+    tail = OUT * one if number == 1 else 0.0
+    outside = COLLAR * max(one, two)
+    if abs(one - two) <= _SAME:
+        yield _shaft(f"shaft-{number}", body, lower.low - tail, (Step(one, tail + upper.high - lower.low),))
+        yield Part(
+            f"spacer-{number}",
+            None,
+            0.0,
+            SPACER_MATERIAL,
+            (Instance(body, lower.high),),
+            turned=tube(one, outside, room),
+        )
+        return
+    steps = (Step(one, tail + lower.hub.length), Step(outside, room), Step(two, upper.hub.length))
+    yield _shaft(f"shaft-{number}", body, lower.low - tail, steps)
+
+
+def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Iterator[Finding]:
+    """Hubs that no shaft joins, and shafts of ground plates that fit no hub."""
+    for place, plane, after, above in zip(places, planes, places[1:], planes[1:], strict=False):
+        out = place.link.transmission.output
+        if out is None:
+            continue
+        number = after.link.number
+        lower = seat_of(place, plane, out.body)
+        if lower is None:
+            yield Finding.error(
+                "chain.shaft",
+                f"stage.{place.link.number}",
+                f"stage {place.link.number}, {place.link.family.name}: its output turns on a plate of its "
+                f"own, so that no shaft goes on to stage {number}",
+                remedy="make it the last stage",
+                stage=Stage.PARTS,
+            )
+        elif isinstance(above.mounting, GroundPlate):
+            yield from _on_stub(lower, after, above.mounting)
+
+
+def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
+    """The hub on the shaft's end below a ground plate."""
+    number, end = after.link.number, plate.end + after.level
+    if abs(lower.hub.bore - plate.diameter) > _SAME:
+        yield Finding.error(
+            "chain.bore",
+            lower.key,
+            f"the shaft of stage {number} has {plate.diameter:g} mm at its end, and the hub that turns it a "
+            f"bore of {lower.hub.bore:g} mm",
+            lower.hub.bore,
+            plate.diameter,
+            "mm",
+            f"make both alike: {lower.key} = {plate.diameter:g}",
+            Stage.PARTS,
+            ({lower.key: plate.diameter},),
+        )
+    if end > lower.low + _SAME:
+        yield Finding.error(
+            "chain.stub",
+            f"stage.{number}.gap",
+            f"the shaft of stage {number} ends {end - lower.low:.4g} mm above the lower end of the hub that "
+            "turns it",
+            end - lower.low,
+            0.0,
+            "mm",
+            "make the hub thinner, or the shaft thicker: its end stands out two diameters",
+            Stage.PARTS,
+        )

@@ -1,0 +1,1 @@
+"""All four-bars whose coupler point passes through nine points."""

@@ -1,0 +1,1 @@
+"""Laws fitted to what a person wants of the driven shaft."""

@@ -1,0 +1,142 @@
+"""From a wish to pairs of gears: the best law with hollow pitch curves, and the best with convex ones."""
+
+import math
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright_noncircular_gears.checks import findings
+from mechwright_noncircular_gears.fit.goals import Goal, goal_of
+from mechwright_noncircular_gears.fit.requirements import FitRequirement
+from mechwright_noncircular_gears.fit.search import DENSE, STARTS, Fitted, fitted
+from mechwright_noncircular_gears.fit.waves import Asked, Waves
+from mechwright_noncircular_gears.law import extremes_of
+from mechwright_noncircular_gears.params import NoncircularParams
+
+DIGITS = 5
+"""Decimals of amplitudes, degrees: 0.2 µrad."""
+
+ALIKE = 1e-3
+"""Share by which two laws of one wish differ at least."""
+
+HALVINGS = 8
+"""Of the way from what is asked to what a constant ratio meets, where no law is found."""
+
+
+def from_wish(wanted: FitRequirement, progress: Progress) -> Synthesis[NoncircularParams]:
+    """The laws that were found, the one that follows the wish best first."""
+    goal, rejected = goal_of(wanted), Rejected()
+    found: list[Candidate[NoncircularParams]] = []
+    kinds = (True, False) if wanted.hollow else (False,)
+    for number, hollow in enumerate(kinds):
+        progress(number / len(kinds), "hollow pitch curves" if hollow else "convex pitch curves")
+        law = fitted(goal, wanted, hollow)
+        if not law.holds:
+            continue
+        params = _params(wanted, law)
+        if rejected.by(findings(params)):
+            continue
+        candidate = Candidate(params, goal.residual(reached(goal, params, law)), _figures(goal, params, law))
+        if not any(_alike(candidate, one) for one in found):
+            found.append(candidate)
+    progress(1.0, "done")
+    if found:
+        found.sort(key=lambda one: one.residual.value)
+        return Synthesis(tuple(found), (), rejected.reasons)
+    return Synthesis((), (_none(wanted, goal, rejected),), rejected.reasons)
+
+
+def _params(wanted: FitRequirement, law: Fitted) -> NoncircularParams:
+    """A pair with all that the wish says of it."""
+    same = {"teeth", "module", "pressure_angle", "thickness", "bore", "material", "speed"}
+    amplitudes: dict[str, Any] = {
+        name: tuple(round(math.degrees(one), DIGITS) for one in getattr(law, name))
+        for name in ("sines", "cosines")
+        if getattr(law, name)
+    }
+    return NoncircularParams.model_validate(
+        {**wanted.model_dump(include=same), "law": "fourier", **amplitudes}
+    )
+
+
+def reached(goal: Goal, params: NoncircularParams, law: Fitted) -> float:
+    """The bound that the design, with its rounded amplitudes, keeps at many places."""
+    sines, cosines = (np.radians(params.value(name)) for name in ("sines", "cosines"))
+    z = np.concatenate((sines, cosines, law.unknowns))
+    half = goal.window / 2
+    waves = Waves(np.linspace(-half, half, DENSE), np.arange(1.0, sines.size + 1), goal.even)
+    # A function y - f at least 0 says that f is at most y: the greatest f is y less the least of it.
+    bound = len(z) - len(law.unknowns)
+    return max(float(z[bound] - Asked(waves, one).values(z).min()) for one in goal.bounded())
+
+
+def _figures(goal: Goal, params: NoncircularParams, law: Fitted) -> dict[str, Scalar]:
+    found = extremes_of(params)
+    return {
+        "pressure_angle_max": Scalar(found.steepest.value + math.radians(params.pressure_angle), "rad"),
+        "ratio_min": Scalar(found.slowest.value, ""),
+        "ratio_max": Scalar(found.fastest.value, ""),
+        "curvature_min": Scalar(min(one.value for one in found.curvatures), ""),
+        **{name: Scalar(one, "rad") for name, one in zip(goal.told, law.unknowns[1:], strict=True)},
+    }
+
+
+def _alike(one: Candidate[NoncircularParams], two: Candidate[NoncircularParams]) -> bool:
+    return abs(one.residual.value - two.residual.value) <= ALIKE * abs(two.residual.value)
+
+
+def _none(wanted: FitRequirement, goal: Goal, rejected: Rejected) -> Finding:
+    """Which law comes nearest, from what is asked to what a constant ratio meets."""
+    if rejected.reasons:
+        first = rejected.reasons[0]
+        return Finding.error(
+            "gear.requirement",
+            "teeth",
+            f"laws were found, but no pair that can be built with them: {first.message}",
+            remedy="give more teeth, a lower pressure_limit, a smaller bore, or hollow = false",
+        )
+    starts = len(STARTS) * (2 if wanted.hollow else 1)
+    end = goal.neutral()
+    if end is None:
+        return Finding.error(
+            "gear.requirement",
+            "harmonics",
+            f"no law within the limits was found from {starts} starts",
+            remedy="give more harmonics, or a higher pressure_limit",
+        )
+    key, easy = end
+    asked = getattr(wanted, key)
+    hard, good = asked, None
+    for _ in range(HALVINGS):
+        middle = round((hard + easy) / 2, 3)
+        if _holds(goal_table(wanted, key, middle)):
+            easy = good = middle
+        else:
+            hard = middle
+    nearest = (
+        f"the nearest {key} with a law is {good:g}" if good is not None else "none was found nearer to it"
+    )
+    return Finding.error(
+        "gear.requirement",
+        key,
+        f"no law for {key} = {asked:g} within the limits was found from {starts} starts",
+        asked,
+        good,
+        "" if key == "time_ratio" else "deg",
+        f"{nearest}; a higher pressure_limit, a lower least_ratio, more teeth or harmonics reach farther",
+        proposed=({f"requirement.{key}": good},) if good is not None else (),
+    )
+
+
+def goal_table(wanted: FitRequirement, key: str, value: float) -> FitRequirement | None:
+    """The same wish with another value; None where the table refuses it."""
+    try:
+        return type(wanted).model_validate({**wanted.model_dump(), key: value})
+    except ValidationError:
+        return None
+
+
+def _holds(wanted: FitRequirement | None) -> bool:
+    return wanted is not None and fitted(goal_of(wanted), wanted, wanted.hollow).holds

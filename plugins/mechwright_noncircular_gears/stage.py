@@ -1,0 +1,38 @@
+"""The pair as a stage of a chain."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from mechwright import Array, Motion, Port, Transmission, Turning
+from mechwright_noncircular_gears.gear import NAMES, pair_of
+from mechwright_noncircular_gears.motion import driven, driven_by, turns_of
+from mechwright_noncircular_gears.params import NoncircularParams
+
+
+class PairStage(Transmission):
+    """Driver in, driven gear out, the other way round."""
+
+    own_drive = ("speed",)
+    load_field = "load_torque"
+
+    def __init__(self, params: NoncircularParams) -> None:
+        self.params = params
+        driver, mate = NAMES
+        self.input = Port(driver, (0.0, 0.0))
+        self.output = Port(mate, (pair_of(params).distance, 0.0))
+        self.period = Fraction(turns_of(params))
+        self.advance = -self.period * params.lobes / params.mate_lobes
+        self.speed = params.omega
+
+    def move(self, drive: Turning) -> Turning:
+        """By the law and its derivatives."""
+        return driven(self.params, drive)
+
+    def motion(self, drive: Turning, time: Array) -> Motion:
+        """Both gears."""
+        return driven_by(self.params, drive, time)
+
+    def power(self, drive: Turning, motion: Motion) -> Array:  # noqa: ARG002 - the law has it
+        """Of the torque against the driven gear."""
+        return self.params.load_torque * np.abs(self.move(drive).omega)

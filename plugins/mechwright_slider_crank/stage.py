@@ -1,0 +1,51 @@
+"""The slider-crank as the last stage of a chain."""
+
+import numpy as np
+
+from mechwright import Array, DesignError, KinematicsError, Motion, Port, Transmission, Turning
+from mechwright_slider_crank.course import is_lever
+from mechwright_slider_crank.motion import check_moves, driven_by
+from mechwright_slider_crank.params import SliderCrankParams
+
+
+class SliderStage(Transmission):
+    """Crank in; what moves last is a slider, so that no stage stands behind it.
+
+    Raises DesignError for a crank that cannot turn fully, or goes through both assemblies.
+    """
+
+    own_drive = ("speed", "acceleration_ratio", "clockwise")
+
+    def __init__(self, params: SliderCrankParams) -> None:
+        check_moves(params)
+        if is_lever(params) or params.linkage.at_limit:
+            raise DesignError(
+                "crank: it swings, or only just turns, and a stage of a chain follows a shaft that turns all "
+                "the way; make the rod longer than crank and offset, and leave swing_from and swing_to out"
+            )
+        self.params = params
+        self.input = Port("crank", (0.0, 0.0))
+        self.speed = params.omega
+
+    def move(self, drive: Turning) -> Turning:  # noqa: ARG002 - there is none
+        """There is none; raises KinematicsError."""
+        raise KinematicsError("a slider is no shaft; nothing can stand behind it")
+
+    def motion(self, drive: Turning, time: Array) -> Motion:
+        """All bodies, and forces with the masses of the real parts."""
+        return driven_by(self.params, drive, time)
+
+    def power(self, drive: Turning, motion: Motion) -> Array:
+        """Of the load and of all masses, where the parts can be made."""
+        if "drive_torque" not in motion.channels:
+            return np.zeros_like(drive.theta)
+        return np.asarray(motion["drive_torque"] * drive.omega)
+
+    def at(self, angle: Array) -> tuple[Array, Turning]:
+        """At constant speed; raises DesignError for a crank that speeds up all along."""
+        if self.params.acceleration_ratio:
+            raise DesignError(
+                "acceleration_ratio: a crank that speeds up all along repeats no turn, and a chain runs on; "
+                "leave acceleration_ratio out"
+            )
+        return super().at(angle)
