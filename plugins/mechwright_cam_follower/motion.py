@@ -11,6 +11,7 @@ from mechwright import (
     Curve,
     Joint,
     KinematicsError,
+    Load,
     Motion,
     Poses,
     Scalar,
@@ -27,7 +28,7 @@ from mechwright_cam_follower.closure import closure_findings
 from mechwright_cam_follower.cycle import cycle_of
 from mechwright_cam_follower.extremes import Extreme, cams_of, extremes_of, greatest, weakest_of
 from mechwright_cam_follower.geometry import Contact, geometry_of
-from mechwright_cam_follower.loads import loads_at
+from mechwright_cam_follower.loads import loads_at, spring_of
 from mechwright_cam_follower.params import CamParams
 from mechwright_cam_follower.sizes import rails_of, studs_of
 
@@ -65,6 +66,7 @@ def motion_of(params: CamParams, samples: Samples) -> Motion:
         {},
         _joints(params),
         _curves(params),
+        _loads(params, rates),
     )
 
 
@@ -108,6 +110,16 @@ def _joints(params: CamParams) -> dict[str, Joint]:
     if params.translating:
         found |= {body: Joint("fixed", GROUND, body) for body in RAILS}
     return found
+
+
+def _loads(params: CamParams, rates: Rates) -> dict[str, Load]:
+    """Spring and load on the follower, which press it to the cam, and what moves with it."""
+    preload, rate, load = spring_of(params)
+    pressed = preload + rate * rates.s + load
+    if params.translating:
+        return {"pressed": Load(FOLLOWER, force=(0.0, -1.0, 0.0), mass=params.value("mass"), share=pressed)}
+    # A lever rises clockwise.
+    return {"pressed": Load(FOLLOWER, torque=(0.0, 0.0, 1.0), inertia=params.value("inertia"), share=pressed)}
 
 
 def _guide(params: CamParams) -> Joint:

@@ -220,7 +220,7 @@ def test_what_is_asked_of_what_is_not_there_is_refused():
         crank_motion(loads={"load": Load("ghost")})
     with pytest.raises(KinematicsError, match="not finite"):
         Load("crank", resisting=math.nan)
-    with pytest.raises(KinematicsError, match="limit of both is 0"):
+    with pytest.raises(KinematicsError, match="limit of each is 0"):
         Load("crank", resisting=-1.0)
 
 

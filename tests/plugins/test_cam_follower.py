@@ -181,6 +181,23 @@ def test_flat_face_radius():
     assert_allclose(contact.radius[5:-5], found[5:-5], rtol=1e-4)
 
 
+@pytest.mark.parametrize(
+    "table", [{"offset": 9.0}, {"follower": "oscillating"}, {"follower": "oscillating", "turning": "cw"}]
+)
+@pytest.mark.parametrize("second", [False, True])
+def test_radius_of_curvature_by_differences(table, second):
+    """ρ of the pitch curve and of the cam, both of a pair, from their points alone."""
+    params = cam(**table, conjugate=True, laws=["4-5-6-7"])
+    fine = np.linspace(0.2, 1.9, 40001)
+    contact = contacts_at(params, rates_at(params, fine))[second]
+    turned = np.exp(-1j * params.sense * fine)
+    for points, radius in ((contact.centre, contact.pitch_radius), (contact.point, contact.radius)):
+        rate = np.gradient(points * turned, fine)
+        bend = np.gradient(rate, fine)
+        curvature = -params.sense * (np.conj(rate) * bend).imag / np.abs(rate) ** 3
+        assert_allclose(1 / radius[5:-5], curvature[5:-5], rtol=0, atol=1e-6)
+
+
 @settings(deadline=None)
 @given(st.floats(0.1, 3), st.floats(0, 400), st.floats(0, 20), st.floats(10, 1200), st.floats(-20, 50))
 def test_force_of_harmonic_motion(mass, preload, rate, speed, load):

@@ -254,6 +254,10 @@ class Motion:
         for name, load in self.loads.items():
             if load.body not in self.poses:
                 raise KinematicsError(f"the load {name!r} is on body {load.body!r}, which has no poses")
+            if load.share is not None and load.share.shape != (n,):
+                raise KinematicsError(
+                    f"the share of load {name!r} has the shape {load.share.shape}; the input has {n} samples"
+                )
         check_bodies(self.joints, self.poses.keys())
 
     def __repr__(self) -> str:

@@ -55,6 +55,10 @@ class Stretch:
                 for name, channel in motion.channels.items()
             },
             poses={body: _after(lead, poses) for body, poses in motion.poses.items()},
+            loads={
+                name: load if load.share is None else replace(load, share=load.share[lead:])
+                for name, load in motion.loads.items()
+            },
         )
 
 

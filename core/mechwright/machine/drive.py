@@ -235,11 +235,11 @@ def _replaced(motion: Motion, masses: Mapping[str, Array]) -> dict[str, Array]:
     """The moments with those of loads that bring their inertia along."""
     found = dict(masses)
     for load in motion.loads.values():
-        if load.inertia is not None:
+        if load.inertia is not None or load.mass is not None:
             for body in fixed_to(load.body, motion.joints) & found.keys():
                 found[body] = np.zeros((4, 4))
-            half = load.inertia / MICRO / 2
-            found[load.body] = np.diag([half, half, 0.0, 0.0])
+            half = (load.inertia or 0.0) / MICRO / 2
+            found[load.body] = np.diag([half, half, 0.0, load.mass or 0.0])
     return found
 
 
@@ -263,10 +263,12 @@ def _of_loads(course: Course, loads: Mapping[str, Load]) -> tuple[Array, Array]:
     """Torque of given forces and torques, and of what resists in the sense of the running, (n,)."""
     given, resisting = np.zeros(course.angle.size), np.zeros(course.angle.size)
     for load in loads.values():
+        share = 1.0 if load.share is None else load.share
         if any(load.force):
-            given -= course.along(load.body) @ np.array([*load.point, 1.0]) @ np.array(load.force) * MILLI
+            way = course.along(load.body) @ np.array([*load.point, 1.0])
+            given -= share * (way @ np.array(load.force)) * MILLI
         if any(load.torque) or load.resisting:
             turning = course.turning(load.body)
-            given -= turning @ np.array(load.torque)
+            given -= share * (turning @ np.array(load.torque))
             resisting += load.resisting * np.linalg.norm(turning, axis=1)
     return given, resisting * (np.where(course.rests, 0.0, np.sign(course.speed)) if course.rocks else 1.0)
