@@ -14,7 +14,6 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.posting import Measured, Posting
 
-CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 RETRACT = -2.0
 PLACE = {"x": -312.5, "y": -201.25, "z": -388.012}
 LENGTHS = {1: 81.2, 2: 104.055, 3: 77.0}

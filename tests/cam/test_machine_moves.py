@@ -3,12 +3,11 @@
 import math
 
 import pytest
-from by_control import BY_NAME, interpret
+from by_control import BY_NAME, CONTROLS, interpret
 from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import (
-    CONTROLS,
     RETRACT,
     at_the_end,
     before_the_last_retract,
