@@ -30,6 +30,8 @@ FIRST = 2000
 """So many rapids are asked about first; if those meet enough, no others are."""
 UNEVEN = 0.2
 """Plates are uneven and are set up to tenths, mm: a rapid keeps so far off a side or a face not yet cut."""
+ENDS = (0.25, 0.5, 0.75, 0.95)
+"""A round or pointed end is asked about at the heights where it has these shares of its radius."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 LAST = 250
@@ -121,7 +123,17 @@ class Stock:
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
         low = low[~self.in_own_hole(low, paths.low[low])]
         lots = (self.suspects(lot) for lot in (low[:FIRST], low[FIRST:]))
-        return list(islice((step for lot in lots for step in lot.tolist() if self.meets(step)), MOST_TOLD))
+        met = (step for lot in lots for step in lot.tolist() if self.meets(step) or self._end_meets(step))
+        return list(islice(met, MOST_TOLD))
+
+    def _end_meets(self, step: int) -> bool:
+        """Whether a round or pointed end meets what its tool has left beside where it was as deep before."""
+        tool = self.paths.tools[int(self.paths.run.tool[step])]
+        for share in ENDS:
+            lift = float(cutter(tool).height_at(np.array(share * tool.radius)))
+            if lift > TOUCH and self.meets(step, lift=lift, radius=share * tool.radius, own=False):
+                return True
+        return False
 
     def in_own_hole(self, rapids: Ints, z: Array) -> NDArray[np.bool_]:
         """(n,) whether a rapid is straight down, where the same tool was fed to ``z`` (n,), as pecks do."""
@@ -176,19 +188,26 @@ class Stock:
         return np.array(shapely.bounds(self.rough)).reshape(2, 2)
 
     def meets(
-        self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False
+        self,
+        step: int,
+        *,
+        lift: float = 0.0,
+        radius: float | None = None,
+        rough: bool = False,
+        own: bool = True,
     ) -> bool:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
         which begins so far above the cutter's tip: shank, holder or middle. One without a radius meets
-        nothing. A ``rough`` plate has its margin.
+        nothing. A ``rough`` plate has its margin. With ``own`` the whole width of the same tool counts as cut
+        wherever its tip has been as deep.
         """
         paths = self.paths
         z = float(paths.low[step]) + lift
         if z >= -NEAR or (radius is not None and radius <= 0):
             return False
-        key = (int(self._way[step]), lift, radius, rough)
+        key = (int(self._way[step]), lift, radius, rough, own)
         if self._free.get(key, step) < step:
             return False
         self._asked += 1
@@ -197,7 +216,7 @@ class Stock:
         plate = self.rough if rough else self.plate
         room = self._where.get((step, lift, reach)) or paths.room(pieces)[0]
         body = shapely.intersection(grow(room, reach, ACCURACY), plate)
-        if self._meets(step, z, body):
+        if self._meets(step, z, body, own=own):
             return True
         self._free[key] = step
         return False
@@ -224,9 +243,9 @@ class Stock:
         self._free[key] = step
         return False
 
-    def _meets(self, step: int, z: float, body: Shape) -> bool:
+    def _meets(self, step: int, z: float, body: Shape, *, own: bool = True) -> bool:
         """Whether material is left in some of the plate, above a height, when a step begins."""
-        key = int(self.paths.run.tool[step]), z
+        key = int(self.paths.run.tool[step]) if own else 0, z
         since, cleared = self._cleared.get(key, (step, shapely.Point()))
         if since > step:
             cleared = shapely.Point()
@@ -234,17 +253,17 @@ class Stock:
         body = overlay(shapely.difference, body, cleared)
         if body.is_empty:
             return False
-        rest = self._left(step, z, body)
+        rest = self._left(step, z, body, own=own)
         for air in self.air:  # over a recess of the other side it is enough to have cut down to that
             if air.top > z + NEAR and shapely.intersects(rest, air.shape):
-                over = self._left(step, air.top, overlay(shapely.intersection, rest, air.shape))
+                over = self._left(step, air.top, overlay(shapely.intersection, rest, air.shape), own=own)
                 rest = overlay(shapely.union, overlay(shapely.difference, rest, air.shape), over)
         cleared = overlay(shapely.union, cleared, overlay(shapely.difference, body, rest))
         if shapely.get_num_coordinates(cleared) < MOST_CORNERS:
             self._cleared[key] = step, cleared
         return not _is_nothing(rest)
 
-    def _left(self, step: int, z: float, body: Shape) -> Shape:
+    def _left(self, step: int, z: float, body: Shape, *, own: bool = True) -> Shape:
         """What earlier steps have left of a shape, not having cut it down to z; the last cuts come first."""
         paths, last = self.paths, step
         reach = float(np.nanmax(paths.radius)) if self.cuts.size else 0.0
@@ -253,15 +272,15 @@ class Stock:
             first, count = max(first - count, 0), 4 * count
             since = int(self.cuts[first])
             pieces = paths.below(z + NEAR, steps=self._cuts_near(body, reach, last, since)[::-1])
-            body = self._without(body, pieces, step, z)
+            body = self._without(body, pieces, step if own else None, z)
             last = since
         return body
 
-    def _without(self, body: Shape, pieces: Pieces, step: int, z: float) -> Shape:
-        """What some pieces leave of a shape at a height."""
+    def _without(self, body: Shape, pieces: Pieces, step: int | None, z: float) -> Shape:
+        """What some pieces leave of a shape at a height; the tool of a step counts as wide as it is."""
         paths = self.paths
         # A drill that stops at z exactly is pointed there, but its own hole is no material for it again.
-        own = paths.run.tool[pieces.step] == paths.run.tool[step]
+        own = (paths.run.tool[pieces.step] == paths.run.tool[step]) if step is not None else False
         radius = np.where(own, paths.radius[pieces.step], paths.radius_at(pieces, z))
         pieces, radius = pieces.only(radius > 0), radius[radius > 0]
         lines, count = paths.lines(pieces, ACCURACY), FEW
@@ -271,7 +290,10 @@ class Stock:
             now = np.zeros(lines.size, dtype=np.bool_)
             now[np.argsort(away, kind="stable")[:count]] = True
             now[:: -(-lines.size // count)] = True
-            self._count(step, int(GROWN * now.sum() + shapely.get_num_coordinates(lines[now]).sum()))
+            self._count(
+                0 if step is None else step,
+                int(GROWN * now.sum() + shapely.get_num_coordinates(lines[now]).sum()),
+            )
             gone = shapely.union_all(_discs(lines[now], radius[now]))
             body = overlay(shapely.difference, body, gone)
             lines, radius, count = lines[~now], radius[~now], 2 * count
