@@ -27,7 +27,7 @@ LEAST = 1e-6
 """s or MB: shares below it are noise."""
 SOLVED = (
     "elliptic-pair", "figure-eight-best", "noncircular-lobes", "geneva-motor", "four-bar-slots",
-    "slider-crank-quick-return", "five-bar-slots", "spherical-five-bar-refined",
+    "slider-crank-quick-return", "five-bar-slots", "spherical-five-bar-refined", "cam-conjugate",
 )  # fmt: skip
 """Examples that are solved."""
 SEMI_MAJOR = 1.6
