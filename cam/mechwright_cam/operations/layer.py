@@ -15,6 +15,7 @@ from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
 from mechwright_cam.operations.finishing import Finishing, finish_depth
+from mechwright_cam.operations.ladder import change_time, rest_time
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
@@ -89,6 +90,12 @@ class Layer:
         if not begun:
             waste = self.zone.waste(cut.tool, self.settings.stock_to_leave)
             self.stock = replace(self.stock, waste=waste, begun=True)
+
+    def saves(self, cut: Roughing) -> bool:
+        """Whether a cut takes so much off the finest mill that this pays for a change of tool."""
+        job, deep, places = self.steps.job, self.zone.height, len(polygons(cut.core))
+        times = (rest_time(job, mill, deep, cut.taken, places) for mill in (self.zone.finisher, cut.tool))
+        return next(times) > next(times) + change_time(job)
 
     def floored(self, mill: Tool, above: Roughing | None) -> None:
         """The floor as far as a mill has roughed ``above`` it, in one even pass."""
@@ -172,7 +179,8 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
         first.rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
         cuts = together(methodcaller("roughing", mill), layers)
         # The layers share their cutters: the tallest one decides.
-        if max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)[1].share >= WORTH_A_TOOL:
+        tallest, cut = max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)
+        if not tallest.stock.begun or cut.share >= WORTH_A_TOOL or tallest.saves(cut):
             together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
             found += [cut for layer in layers for cut in layer.taken()]
     # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
