@@ -78,9 +78,12 @@ def channel_time(job: Job, part: shapely.Polygon, mill: Tool, deep: float) -> fl
     speed, data = rates(mill, job.part.material, job.settings.machine), mill.cutting[job.part.material]
     reach = mill.radius + job.settings.stock_to_leave
     length = float(_grown(part, reach).length)
-    around = filled(_grown(part, reach + mill.radius)).area - part.area - left_by(part, reach)[0]
+    around = (
+        float(filled(_grown(part, reach + mill.radius)).area) - float(part.area) - left_by(part, reach)[0]
+    )
     more = max(0.0, around - mill.diameter * length) / (data.step_over * mill.diameter)
-    return 60 * passes(job, mill, deep) * (length + more) / speed.feed
+    seconds: float = 60 * passes(job, mill, deep) * (length + more) / speed.feed
+    return seconds
 
 
 @lru_cache(maxsize=64)

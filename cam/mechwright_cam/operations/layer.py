@@ -14,7 +14,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
-from mechwright_cam.operations.finishing import Finishing, finish_depth
+from mechwright_cam.operations.finishing import Finishing, finish_depth, finish_engagement
 from mechwright_cam.operations.ladder import change_time, rest_time
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Cut, Steps
@@ -150,7 +150,7 @@ class Layer:
             write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill)).write
         else:
             write = CompensatedFinishing(zone, self.stock, job, mill).write
-        self.add("finish", mill, write, depth=deep)
+        self.add("finish", mill, write, finish_engagement(settings, mill.radius), deep)
         if not self.cuts[-1].moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "
