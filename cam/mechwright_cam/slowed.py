@@ -1,4 +1,4 @@
-"""Feeds within the power of the spindle and the ends of mills: what is asked for is measured, and lowered.
+"""Feeds within the power of the spindle, the ends of mills and their chips: what they ask for is measured.
 
 Only the moves that ask for too much are slowed, and by no more than they need: how much of a cutter is in
 material, the simulation of the posted program knows better than any plan.
@@ -12,6 +12,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Move, Program
+from mechwright_cam.proof.cutting_rules import cutting_data
 from mechwright_cam.proof.edge_rules import too_steep
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.scene import Scene
@@ -20,6 +21,8 @@ from mechwright_cam.shop.power import available, slower
 
 TOLD = "feed lowered to the power of the spindle"
 """Begins the note on what was slowed for want of power."""
+THICK = 1.25
+"""Chips of mills may be so many times as thick as planned: less than the proof lets pass."""
 SPARE = 0.99
 """Feeds are lowered to this share of what would just do: windows begin elsewhere once the feeds differ."""
 
@@ -29,7 +32,7 @@ def slowed(program: Program, scene: Scene) -> Program | None:
 
     Where that is for want of power the program says so in a note: a larger machine would be faster.
     """
-    weak, steep = _most(scene), _down(scene)
+    weak, steep = _most(scene), np.minimum(_down(scene), _thin(scene))
     if not np.isfinite(np.minimum(weak, steep)).any():
         return None
     parts = iter(stretches(scene.run))
@@ -58,6 +61,22 @@ def _down(scene: Scene) -> Array:
     most = np.full(len(scene.run), np.inf)
     for step, _, found, limit in too_steep(scene):
         most[step] = max(1.0, math.floor(float(scene.run.feed[step]) * limit / found))
+    return most
+
+
+def _thin(scene: Scene) -> Array:
+    """Greatest feed (n,) of each step, mm/min, at which chips are hardly thicker than the chip load.
+
+    Finishing is fed for what roughing leaves; in inside corners, and where little was roughed, it takes more.
+    """
+    loads, most = scene.simulation.loads, np.full(len(scene.run), np.inf)
+    for tool, data in cutting_data(scene):
+        limit = THICK * data.chip_load
+        thick = (loads.tool == tool.number) & ~loads.down & (loads.chip > limit)
+        for index in np.flatnonzero(thick).tolist():
+            feed = max(1.0, math.floor(float(loads.feed[index]) * limit / float(loads.chip[index])))
+            mine = slice(int(loads.first[index]), int(loads.last[index]) + 1)
+            most[mine] = np.minimum(most[mine], feed)
     return most
 
 

@@ -161,7 +161,7 @@ def spoilt_rapid(text: str) -> str:
 
 
 def spoilt_arc(text: str) -> str:
-    return re.sub(r"I-(\S+) J0 F", lambda word: f"I-{float(word[1]) - 0.01:.4f} J0 F", text, count=1)
+    return re.sub(r"I-(\S+) J0\b", lambda word: f"I-{float(word[1]) - 0.01:.4f} J0", text, count=1)
 
 
 DEFECTS: dict[str, tuple[Callable[[str], str], str]] = {

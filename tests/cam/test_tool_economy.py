@@ -13,7 +13,8 @@ from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.operations.bore import cut_width, widening
+from mechwright_cam.operations.bore import widening
+from mechwright_cam.operations.finishing import cut_width
 from mechwright_cam.operations.pen import STEEP, Pen
 from mechwright_cam.operations.rates import Rates
 from mechwright_cam.planning import choose_tools, plan

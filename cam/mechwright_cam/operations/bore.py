@@ -15,7 +15,7 @@ from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
-from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.finishing import cut_width, finish_engagement, finish_heights
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
@@ -96,7 +96,8 @@ class BoreOperation(Operation):
             )
             plain = job.settings.compensation == "computer"
             finish = finish_bore if plain else finish_bore_compensated
-            steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
+            engagement = finish_engagement(job.settings, mill.radius, bore.diameter / 2)
+            steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore), engagement)
         return Stock(gone=stock.gone)
 
 
@@ -255,20 +256,6 @@ def widening(free: float, widest: float, step: float) -> list[float]:
         free = rounded(free + (widest - free) / count) if count > 1 else widest
         radii.append(free)
     return radii
-
-
-def cut_width(radius: float, mill: float, opened: float) -> float:
-    """Width of cut, mm, of a mill whose centre goes round at ``radius`` in a hole of radius ``opened``.
-
-    Its edge leaves the hole's wall at an angle φ from the direction outwards, which the triangle of both
-    centres and that place has: opened² = radius² + mill² + 2 radius mill cos φ. The width is
-    mill (1 - cos φ), more than what is taken off the wall.
-
-    >>> round(cut_width(2.8, 3.0, 5.0), 3)  # 0.8 mm off the wall
-    1.543
-    """
-    inner = (opened**2 - radius**2 - mill**2) / (2 * radius * mill)
-    return mill * (1 - max(inner, -1.0))
 
 
 def _ring(job: Job, bore: Bore, pen: Pen, radii: tuple[float, float], heights: list[float]) -> None:

@@ -1,10 +1,8 @@
 """The outside of a part: roughed in a channel, or out to the edges of the stock, and finished."""
 
 import math
-from bisect import bisect_left
 from collections.abc import Sequence
 from functools import partial
-from itertools import islice
 
 import shapely
 
@@ -17,12 +15,13 @@ from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, u
 from mechwright_cam.operations.compensation import entering
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
+from mechwright_cam.operations.ladder import ladder
 from mechwright_cam.operations.layer import Layer, cut_layers
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import NOISE, Zone
 from mechwright_cam.plane.path import DECIMALS
-from mechwright_cam.plane.reach import closing, roughly_closed_area
+from mechwright_cam.plane.reach import closing
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
@@ -31,10 +30,6 @@ from mechwright_cam.shop.tool import Tool
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
-PAYS = 1.5
-"""An intermediate roughing mill is at least this many times as wide as the finishing one."""
-HALF = 0.5
-"""It takes at least this share of what the finishing mill would have to rough."""
 
 
 class Contour(Operation):
@@ -51,7 +46,7 @@ class Contour(Operation):
         return Task(feature, self, tools, -feature.top, job.floor, region, data=zones)
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
-        """The mills that rough and finish it; none is as wide as a slot of it, if there is a choice."""
+        """The mills that make it in the least time; none is as wide as a slot of it, if there is a choice."""
         if not is_outside(feature):
             return None
         shape, settings = shapely.Polygon(feature.loop.flatten()), every.settings
@@ -67,11 +62,8 @@ class Contour(Operation):
             slot = fills_a_slot(mill.radius, shape, settings.stock_to_leave, settings.path.bias)
             return mill is mills[-1] or not slot
 
-        first = next(filter(fits, mills))
         finest = finest_needed(mills, shape, settings, fits=fits)
-        middle = [mill for mill in mills if PAYS * finest.diameter <= mill.diameter < first.diameter]
-        between = filter(fits, _between(every, first, middle, finest, shape))
-        return [first, *islice(between, 1), finest]
+        return ladder(every, shape, list(filter(fits, mills)), finest)
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Layer by layer, from the top down."""
@@ -92,22 +84,6 @@ class Contour(Operation):
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """Corners that its mills do not reach."""
         return corner_remarks(task.data[0], job) if task.data else []
-
-
-def _between(every: Job, first: Tool, middle: list[Tool], finest: Tool, part: shapely.Polygon) -> list[Tool]:
-    """Mills that take much of what the largest leaves to the finest, largest first."""
-
-    def left(mill: Tool) -> float:
-        reach = mill.radius + every.settings.stock_to_leave
-        return roughly_closed_area(part, reach) - float(part.area)
-
-    if not middle:
-        return []
-    most, least = left(first), left(finest)
-    if most <= least:
-        return []
-    # The smaller a mill, the more it takes.
-    return middle[bisect_left(middle, True, key=lambda mill: most - left(mill) >= HALF * (most - least)) :]
 
 
 def _zones(job: Job, feature: Profile) -> list[Zone]:

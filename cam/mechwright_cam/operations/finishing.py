@@ -23,6 +23,10 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
+LEAST_ENGAGEMENT = math.pi / 6
+"""A wall is finished with twice the feed of a full cut at most, however little is left: with more, the cusps
+along the path show."""
+
 
 def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
     """Depth of a finishing pass, mm: ``finish_step`` diameters, or less where much is left for a fine mill.
@@ -33,6 +37,34 @@ def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
     return min(
         settings.finish_step * tool.diameter, _slot(tool, material) / (settings.stock_to_leave + HEAVY)
     )
+
+
+def finish_engagement(settings: CamSettings, radius: float, inside: float = math.inf) -> float:
+    """Engagement, rad, for which a finishing pass is fed, of a mill of this radius, mm.
+
+    Its width of cut is what :func:`finish_depth` allows for; on a circle ``inside`` a bore of that radius,
+    mm, more of the mill is in it. Where chips get thicker all the same the feed is lowered move by move.
+    """
+    wide = settings.stock_to_leave + HEAVY
+    if math.isfinite(inside):
+        wide = cut_width(inside - radius, radius, inside - wide)
+    if not settings.chip_thinning or wide >= radius:
+        return math.pi / 2
+    return max(math.acos(1 - wide / radius), LEAST_ENGAGEMENT)
+
+
+def cut_width(radius: float, mill: float, opened: float) -> float:
+    """Width of cut, mm, of a mill whose centre goes round at ``radius`` in a hole of radius ``opened``.
+
+    Its edge leaves the hole's wall at an angle φ from the direction outwards, which the triangle of both
+    centres and that place has: opened² = radius² + mill² + 2 radius mill cos φ. The width is
+    mill (1 - cos φ), more than what is taken off the wall.
+
+    >>> round(cut_width(2.8, 3.0, 5.0), 3)  # 0.8 mm off the wall
+    1.543
+    """
+    inner = (opened**2 - radius**2 - mill**2) / (2 * radius * mill)
+    return mill * (1 - max(inner, -1.0))
 
 
 def _slot(tool: Tool, material: str) -> float:

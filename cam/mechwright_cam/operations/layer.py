@@ -14,7 +14,8 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
-from mechwright_cam.operations.finishing import Finishing, finish_depth
+from mechwright_cam.operations.finishing import Finishing, finish_depth, finish_engagement
+from mechwright_cam.operations.ladder import change_time, rest_time
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
@@ -90,6 +91,12 @@ class Layer:
             waste = self.zone.waste(cut.tool, self.settings.stock_to_leave)
             self.stock = replace(self.stock, waste=waste, begun=True)
 
+    def saves(self, cut: Roughing) -> bool:
+        """Whether a cut takes so much off the finest mill that this pays for a change of tool."""
+        job, deep, places = self.steps.job, self.zone.height, len(polygons(cut.core))
+        times = (rest_time(job, mill, deep, cut.taken, places) for mill in (self.zone.finisher, cut.tool))
+        return next(times) > next(times) + change_time(job)
+
     def floored(self, mill: Tool, above: Roughing | None) -> None:
         """The floor as far as a mill has roughed ``above`` it, in one even pass."""
         what = "finish the rest of the floor" if self.stock.begun else "finish the floor"
@@ -143,7 +150,7 @@ class Layer:
             write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill)).write
         else:
             write = CompensatedFinishing(zone, self.stock, job, mill).write
-        self.add("finish", mill, write, depth=deep)
+        self.add("finish", mill, write, finish_engagement(settings, mill.radius), deep)
         if not self.cuts[-1].moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "
@@ -172,7 +179,8 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
         first.rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
         cuts = together(methodcaller("roughing", mill), layers)
         # The layers share their cutters: the tallest one decides.
-        if max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)[1].share >= WORTH_A_TOOL:
+        tallest, cut = max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)
+        if not tallest.stock.begun or cut.share >= WORTH_A_TOOL or tallest.saves(cut):
             together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
             found += [cut for layer in layers for cut in layer.taken()]
     # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.

@@ -27,7 +27,7 @@ G0 Z5
 (operation: groove: finish)
 X-23.002 Y-5.043
 Z1
-G1 Z-2
+G1 Z-2 F2941
 G2 X-20 Y-1.998 I3.003 J0.042
 G1 X20
 G2 X23.002 Y-5.043 I-0.001 J-3.003
