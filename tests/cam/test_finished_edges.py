@@ -245,7 +245,7 @@ def test_jaws_beside_the_part_do_not_hold_it():
 
 def test_the_sheet_says_where_the_jaws_are():
     of = laid(link(), "mill-6")
-    first = steps(of, [24], file_names=["plate.nc"], deepest=-6.3, reach=(-60, -20, 60, 20))[0]
+    _, first, *_ = steps(of, [24], file_names=["plate.nc"], deepest=-6.3, reach=(-60, -20, 60, 20))
     assert first.title == "Clamp the bar in a vice"
     words = " ".join(first.lines)
     assert "The jaws may reach from X −30.7 to +30.7" in words

@@ -26,7 +26,7 @@ def test_a_plate_held_from_below_needs_no_tabs(bed: str) -> None:
     made = machine(of, LinuxCnc())  # type: ignore[arg-type]
     assert made.proof.ok
     assert not made.job.tabs
-    (stock, *_) = steps(made.job, LinuxCnc(), [1], file_names=["a.ngc"], deepest=-4.3)
+    (_, stock, *_) = steps(made.job, LinuxCnc(), [1], file_names=["a.ngc"], deepest=-4.3)
     assert ("vacuum table" if bed == "vacuum" else "double-sided tape") in " ".join(stock.lines)
     tabs = job(plate(bore(12.0)), *TOOLS)
     assert "tabs" in {check.name for check in prove(made.text, tabs).failures}
@@ -49,7 +49,7 @@ def test_toe_clamps_hold_what_is_under_them_and_stand_in_the_way() -> None:
     beside = held(bed="tape", toe_clamps=[[x0 - 30, y0 - 20, x0 - 20, y0 - 10, 3.0]])
     made = machine(beside, LinuxCnc())  # type: ignore[arg-type]
     assert made.program.clearance == 8.0  # over the clamp
-    said = " ".join(steps(beside, LinuxCnc(), [1], file_names=["a"], deepest=-4.3)[0].lines)  # type: ignore[arg-type]
+    said = " ".join(steps(beside, LinuxCnc(), [1], file_names=["a"], deepest=-4.3)[1].lines)  # type: ignore[arg-type]
     assert "Toe clamp 1: from X" in said
     assert "no higher than Z +3.0" in said
 
