@@ -49,10 +49,9 @@ class Odd(Family[Parameters]):
 
 @pytest.fixture
 def odd(monkeypatch: pytest.MonkeyPatch) -> type[Odd]:
-    found = hosting.load()
-    found.registered.setdefault(Family, {})["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
-    monkeypatch.setattr(hosting, "host", lambda: found)
-    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
+    # In the host itself: what is imported meanwhile would keep another one.
+    families = hosting.host().registered[Family]
+    monkeypatch.setitem(families, "odd", Registered(Odd(), "odd-mechanisms", "odd"))
     return Odd
 
 

@@ -27,10 +27,9 @@ Run = Callable[..., tuple[int, str, str]]
 
 @pytest.fixture(autouse=True)
 def disc(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = hosting.load()
-    found.registered.setdefault(Family, {})["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
-    monkeypatch.setattr(hosting, "host", lambda: found)
-    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
+    # In the host itself: what is imported meanwhile would keep another one.
+    families = hosting.host().registered[Family]
+    monkeypatch.setitem(families, "disc", Registered(Disc(), "disc-mechanisms", "disc"))
 
 
 def requirement(folder: Path, text: str) -> Path:
