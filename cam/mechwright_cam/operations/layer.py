@@ -150,7 +150,9 @@ class Layer:
             write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill)).write
         else:
             write = CompensatedFinishing(zone, self.stock, job, mill).write
-        self.add("finish", mill, write, finish_engagement(settings, mill.radius), deep)
+        # Up and down the slopes of tabs the mill takes more than the allowance.
+        engagement = math.pi / 2 if zone.slopes else finish_engagement(settings, mill.radius)
+        self.add("finish", mill, write, engagement, deep)
         if not self.cuts[-1].moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "
