@@ -101,7 +101,7 @@ def test_the_sweep_of_the_page_takes_less_than_two_seconds(pair):
     ("wrong", "said"),
     [
         (lambda: mw.load("nowhere.toml"), "nowhere.toml: cannot be read"),
-        (lambda: mw.design("eliptic-gears"), "family 'eliptic-gears' is not installed; known: elliptic-gears"),
+        (lambda: mw.design("eliptic-gears"), "family 'eliptic-gears' is not installed; known: cam-follower, elliptic-gears"),
         (lambda: mw.design("elliptic-gears", eccentricity=1.5), "parameters.eccentricity: 1.5 should be"),
         (lambda: mw.design("elliptic-gears", name="a/b"), "'a/b' cannot be a file name"),
         (lambda: mw.design("elliptic-gears").with_(cam={"contrl": 1}), "unknown key 'contrl'; did you mean 'control'"),

@@ -149,8 +149,9 @@ def test_the_underside_does_not_cut_air():
     knowing, not_knowing = (simulated(text, second.job) for text in (second.text, plain))
     assert knowing.feed_mm < 0.9 * not_knowing.feed_mm
     assert knowing.air_mm < 0.6 * not_knowing.air_mm
-    # Without what the first side has left, the program leaves floors standing.
-    assert not asked("leftover", second.text, blind).passed
+    # Without what the first side has left, mills go down into full material and finish what was not roughed.
+    assert not asked("plunges", second.text, blind).passed
+    assert not asked("chips", second.text, blind).passed
 
 
 def rapid_into(text, x, y, z, *, first):

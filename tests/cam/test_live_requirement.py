@@ -15,8 +15,8 @@ from mechwright_cad.live.seeking import Seeking
 from mechwright_cad.live.wishing import Wishing
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-ANGLES_ALONE = ("four-bar-function",)
-"""Requirements that ask for no place, so that nothing is dragged."""
+ANGLES_ALONE = ("cam-size", "four-bar-function", "noncircular-geneva", "spherical-poses")
+"""Requirements that ask for no place, but for angles, sizes or turns of a body, so that nothing is dragged."""
 REQUIREMENTS = sorted(
     path for path in EXAMPLES.glob("*requirement.toml") if not path.stem.startswith(ANGLES_ALONE)
 )

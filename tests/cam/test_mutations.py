@@ -110,7 +110,7 @@ def test_a_cycle_stops_short_of_the_stock() -> None:
         ("drill", "F267", "F2670"),
         ("drill", "S4456", "S445.6"),
         ("pocket-contour", "S8754", "S1754"),
-        ("slot", "F735", "F4700"),
+        ("slot", "F1470\nX10.9246", "F14700\nX10.9246"),
         ("chamfer", "S7003", "S700.3"),
         ("thread", "S12000 M3", "S1200 M3"),
         ("ball", "S11671", "S1167.1"),

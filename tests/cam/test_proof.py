@@ -129,7 +129,7 @@ DEFECTS = {
     "no retract": (swap("G53 G0 Z0\n(operation: bore)\n", "G0 Z1\n"), "tool-change", "without a retract", 1),
     "no height": (swap("G53 G0 Z0\n", ""), "positions", "unknown height", 3),
     "no units": (swap("G17 G21 G40", "G17 G40"), "modes", "moves before G21", None),
-    "no distance mode": (swap("G80 G90 G94", "G80 G94"), "modes", "moves before G90", None),
+    "no distance mode": (swap("G80 G90 G91.1", "G80 G91.1"), "modes", "moves before G90", None),
     "milliseconds": (swap("M8\n", "M8\nG4 P2000\n"), "dwells", "2000 s", 1),
     "unknown tool": (
         swap("T2 M6", "T7 M6"),

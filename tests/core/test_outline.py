@@ -132,7 +132,7 @@ def test_loops_that_run_the_wrong_way_are_refused():
         Outline(box.reversed())
     with pytest.raises(GeometryError, match=r"inner loop 2 has a signed area of 12\.5664 mm²; it must run"):
         Outline(box, (hole, hole.reversed()))
-    with pytest.raises(GeometryError, match="signed area of 0 mm²"):
+    with pytest.raises(GeometryError, match="encloses no area"):
         Outline(Loop((Line((0, 0), (1, 0)), Line((1, 0), (0, 0)))))
 
 

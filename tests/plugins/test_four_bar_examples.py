@@ -69,4 +69,4 @@ def test_requirement_files_give_designs(name, tmp_path):
 
 
 def test_there_are_requirement_files():
-    assert len(REQUIREMENTS) == 5
+    assert len(REQUIREMENTS) == 6

@@ -44,6 +44,10 @@ def _straight(segments: Sequence[Segment]) -> list[tuple[list[int], Array]]:
     return [(places, np.array(ends, dtype=float))] if places else []
 
 
+_ROUNDING = 1e-14
+"""Share of the square about a loop that rounding makes of no area."""
+
+
 @dataclass(frozen=True)
 class Loop:
     """A closed chain of segments.
@@ -195,6 +199,9 @@ class Outline:
     )
 
     def __post_init__(self) -> None:
+        x0, y0, x1, y1 = self.outer.bounds
+        if abs(self.outer.area) <= _ROUNDING * ((x1 - x0) ** 2 + (y1 - y0) ** 2):
+            raise GeometryError("the outer loop encloses no area: it cuts itself, or goes back where it came")
         if not self.outer.area > 0:
             raise GeometryError(
                 f"the outer loop has a signed area of {self.outer.area:.6g} mm²; it must run "
