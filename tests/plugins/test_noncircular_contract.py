@@ -77,6 +77,11 @@ class TestNoncircularGears(DayContract):
     }
     max_examples = tried(4, 30)
 
+    def test_every_parameter_counts(self):
+        """Those of the law for Geneva wheels too, at whose jumps of i'' difference quotients would fail."""
+        self.examples = (*self.examples, {**SMALL, "law": "geneva", "teeth": 60})
+        super().test_every_parameter_counts()
+
     def strategy(self):
         """Random laws near designs that can be built."""
         common = {
