@@ -100,14 +100,19 @@ def test_load_of_every_mill(cut):
         data = tool.cutting[job.part.material]
         angle, depth, down = rows[:, 7], rows[:, 8], rows[:, 9] == 1
         # Straight down only in the clear, but for crumbs of the grid; else at the slow feed of a plunge.
-        feed = np.array([moves[int(index)].feed for index in rows[:, 0]])
+        met = [moves[int(index)] for index in rows[:, 0]]
+        load = np.array([m.feed / m.rpm / tool.flutes for m in met]) / data.chip_load
         share = rows[:, 6] / (np.pi * tool.radius**2)
-        assert (feed[down & (depth > 0.05) & (share > 0.05)] <= 0.31 * feed.max()).all()
+        assert (load[down & (depth > 0.05) & (share > 0.05)] <= 0.31).all()
         # With its whole width no deeper than a roughing pass; crumbs that stand high have next to no area.
         wide = ~down & (angle > 120) & (rows[:, 6] > 0.3 * tool.radius * depth)
         step_down = data.step_down * tool.diameter
         assert (depth[wide] <= step_down + 0.02).all()
-        # The feed: no more per tooth than the data say, twice that in finishing's thin cuts, and not idling.
+        # The feed: no more per tooth than the data say, but where little of the mill is engaged, as in finishing,
+        # twice that; beside a tab it is more for a moment. And not idling.
+        fast = angle[~down & (depth > 0.05) & (load > 1.001)]
+        assert (fast <= 90).all()
+        assert np.count_nonzero(fast > 48) <= 0.01 * fast.size
         every = [m for m in moves if m.tool == tool.number and m.kind == "feed"]
         load = np.array([m.feed / m.rpm / tool.flutes for m in every])
         assert (load <= 2 * data.chip_load * 1.001).all()
