@@ -46,7 +46,7 @@ def base_for(params: CamParams, *, steep: bool = False) -> Cure | None:
         low, high = high, high * 1.5
         if high > _LARGEST:
             return None
-    return "base_radius", math.ceil(_bisected(good, low, high) * _ROUND) / _ROUND
+    return "base_radius", math.ceil(bisected(good, low, high) * _ROUND) / _ROUND
 
 
 @kept
@@ -58,7 +58,7 @@ def roller_for(params: CamParams) -> Cure | None:
 
     if not good(1.0):
         return None
-    return "roller_radius", math.floor(_bisected(good, params.value("roller_radius"), 1.0) * _ROUND) / _ROUND
+    return "roller_radius", math.floor(bisected(good, params.value("roller_radius"), 1.0) * _ROUND) / _ROUND
 
 
 @kept
@@ -76,9 +76,9 @@ def offset_for(params: CamParams, *, steep: bool = False) -> Cure | None:
     return None if best is None else ("offset", best[1])
 
 
-def _bisected(good: Callable[[float], bool], bad: float, fine: float) -> float:
-    """The value nearest to ``bad`` that is good."""
-    for _ in range(_HALVINGS):
+def bisected(good: Callable[[float], bool], bad: float, fine: float, halvings: int = _HALVINGS) -> float:
+    """The value nearest to ``bad`` that is good, from ``fine``, which is."""
+    for _ in range(halvings):
         middle = (bad + fine) / 2
         if good(middle):
             fine = middle

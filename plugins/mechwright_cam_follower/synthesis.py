@@ -5,7 +5,6 @@ on the limits are kept; the place is searched for whose cam reaches out least. A
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright_cam_follower.checks import findings
 from mechwright_cam_follower.closure import closure_findings
+from mechwright_cam_follower.cures import bisected
 from mechwright_cam_follower.cycle import cycle_of
 from mechwright_cam_follower.extremes import cams_of, extremes_of, regular_limit
 from mechwright_cam_follower.params import CamParams
@@ -110,7 +110,7 @@ def _least_base(wanted: SizeRequirement, sizes: dict[str, float]) -> float | Non
         low, high = high, high * _STEPS
         if high > LARGEST:
             return None
-    return math.ceil(_bisected(good, low, high) * _ROUND) / _ROUND
+    return math.ceil(bisected(good, low, high, _HALVINGS) * _ROUND) / _ROUND
 
 
 def _pressed(design: CamParams, wanted: SizeRequirement) -> float:
@@ -126,16 +126,6 @@ def _pressed(design: CamParams, wanted: SizeRequirement) -> float:
     height = float((np.abs(rates.v - offset) / slope - rates.s).max())
     base = math.hypot(max(height, 0.0), offset) - design.value("roller_radius")
     return math.ceil(base * _ROUND) / _ROUND
-
-
-def _bisected(good: Callable[[float], bool], low: float, high: float) -> float:
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        if good(middle):
-            high = middle
-        else:
-            low = middle
-    return high
 
 
 def keeps(params: CamParams, wanted: SizeRequirement) -> bool:

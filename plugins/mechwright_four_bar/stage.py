@@ -5,7 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from mechwright import Array, DesignError, Motion, Port, Transmission, Turning
+from mechwright import Array, DesignError, Motion, Port, Turning
+from mechwright.mechanics.planar.crank_stage import CrankStage
 from mechwright_four_bar.motion import check_moves, motion_over
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import driven_by
@@ -14,7 +15,7 @@ from mechwright_four_bar.plates import pivot_of
 from mechwright_four_bar.reach import bar_of, is_lever
 
 
-class FollowerStage(Transmission):
+class FollowerStage(CrankStage):
     """Crank in, follower out: it turns along or swings.
 
     Raises DesignError for an input that is a lever, and for links that line up.
@@ -53,17 +54,7 @@ class FollowerStage(Transmission):
         """All bodies, and forces with the masses of the real parts."""
         return motion_over(self.params, driven_by(self.params, drive, time))
 
-    def power(self, drive: Turning, motion: Motion) -> Array:
-        """Of the load and of all masses, where the parts can be made."""
-        if "drive_torque" not in motion.channels:
-            return np.zeros_like(drive.theta)
-        return np.asarray(motion["drive_torque"] * drive.omega)
-
-    def at(self, angle: Array) -> tuple[Array, Turning]:
-        """At constant speed; raises DesignError for a crank that speeds up all along."""
-        if self.params.acceleration_ratio:
-            raise DesignError(
-                "acceleration_ratio: a crank that speeds up all along repeats no turn, and a chain runs on; "
-                "leave acceleration_ratio out"
-            )
-        return super().at(angle)
+    @property
+    def acceleration_ratio(self) -> float:
+        """As the design says it."""
+        return self.params.acceleration_ratio

@@ -46,8 +46,7 @@ class Made:
     @cached_property
     def material(self) -> shapely.Geometry:
         """What stands beside the rollers, about the middle of the wheel's bore as made."""
-        bore = self.wheel.hole_at(0.0, 0.0, self.m.params.bore) if self.m.params.bore else None
-        x, y = (0.0, 0.0) if bore is None else (bore.x, bore.y)
+        x, y = self.wheel.bore_middle(self.m.params.bore)
         return shapely.affinity.translate(self._beside(planned=False), -x, -y)
 
     def _beside(self, *, planned: bool) -> shapely.Geometry:
@@ -72,8 +71,7 @@ class Made:
         pin = crank[0].hole_at(self.m.crank, 0.0, params.pin_diameter) if crank else None
         if pin is None:
             return np.zeros(SAMPLES, dtype=complex)
-        bore = crank[0].hole_at(0.0, 0.0, params.driver_bore) if params.driver_bore else None
-        x, y = (0.0, 0.0) if bore is None else (bore.x, bore.y)
+        x, y = crank[0].bore_middle(params.driver_bore)
         off = complex(pin.x - x - self.m.crank, pin.y - y)
         moved: Points = -off * np.exp(1j * self.stroke.phi)
         return moved

@@ -81,8 +81,7 @@ def _cosine(a: float, l: float, radius: float) -> float:
 def _about_bore(part: MadePart, diameter: float) -> Array:
     """Points (n, 2) of all through walls, mm, about the middle of the bore as made."""
     points: Array = np.concatenate([ring.points for ring in part.outline.rings])
-    bore = part.hole_at(0.0, 0.0, diameter) if diameter else None
-    return points if bore is None else points - (bore.x, bore.y)
+    return points - part.bore_middle(diameter)
 
 
 def _on(points: Array, centre: Array, radius: float) -> Array:

@@ -5,10 +5,8 @@ import math
 import numpy as np
 
 from mechwright import Array, Finding, GeometryError
-from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
-
-LEAST_RATIO = 1e-3
-"""Share of the mean ratio below which the driven gear as good as stands."""
+from mechwright_noncircular_gears.law import LEAST_RATIO
+from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula, WrittenLaw
 
 CLOSED = 1e-9
 """Share of the mean ratio by which both ends of a lobe may differ: rounding of a formula that closes."""
@@ -95,7 +93,7 @@ def _bounded(key: str, law: RatioFormula) -> Finding | None:
     return None
 
 
-def _corner(key: str, law: RatioFormula | AngleFormula, phi: Array) -> Finding | None:
+def _corner(key: str, law: WrittenLaw, phi: Array) -> Finding | None:
     size = np.abs(law.shape(phi)[0]).max()
     ends = law.shape(np.array([0.0, law.period]))
     wave = "cos(phi)" if law.lobes[0] == 1 else f"cos({law.lobes[0]}*phi)"
@@ -116,7 +114,7 @@ def _corner(key: str, law: RatioFormula | AngleFormula, phi: Array) -> Finding |
     return None
 
 
-def _widest_step(law: RatioFormula | AngleFormula, phi: Array, order: int) -> tuple[float, float, float]:
+def _widest_step(law: WrittenLaw, phi: Array, order: int) -> tuple[float, float, float]:
     """Where ratio or slope changes most within rounding of a place, and from what to what."""
     low, high = phi[:-1], phi[1:]
     before, after = law.shape(low)[order], law.shape(high)[order]

@@ -9,7 +9,7 @@ import numpy as np
 from mechwright import Array, kept
 from mechwright.mechanics.gearing import RatioLaw, Rolling
 from mechwright.mechanics.peak import peak
-from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
+from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula, WrittenLaw
 from mechwright_noncircular_gears.laws.fourier import FourierLaw
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
 from mechwright_noncircular_gears.laws.pitch import CircleLaw, EllipseLaw, LimaconLaw
@@ -17,6 +17,9 @@ from mechwright_noncircular_gears.laws.slider import SliderLaw
 from mechwright_noncircular_gears.laws.table import TableLaw
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams
+
+LEAST_RATIO = 1e-3
+"""Share of the mean ratio below which the driven gear as good as stands."""
 
 GRID = 1440
 """Samples of a lobe at which extremes are sought: sixteen harmonics have ninety of them each."""
@@ -28,7 +31,7 @@ PITCH_LAWS: dict[str, Callable[[tuple[int, int], float], RatioLaw]] = {
 }
 
 
-FORMULAS: dict[str, Callable[[tuple[int, int], str], RatioFormula | AngleFormula]] = {
+FORMULAS: dict[str, Callable[[tuple[int, int], str], WrittenLaw]] = {
     "ratio": RatioFormula,
     "angle": AngleFormula,
 }

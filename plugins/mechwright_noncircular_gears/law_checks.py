@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding
-from mechwright_noncircular_gears.formula_checks import LEAST_RATIO, formula_finding
-from mechwright_noncircular_gears.law import law_of, slowest_of
+from mechwright_noncircular_gears.formula_checks import formula_finding
+from mechwright_noncircular_gears.law import LEAST_RATIO, law_of, slowest_of
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams

@@ -1,14 +1,13 @@
 """The slider-crank as the last stage of a chain."""
 
-import numpy as np
-
-from mechwright import Array, DesignError, KinematicsError, Motion, Port, Transmission, Turning
+from mechwright import Array, DesignError, KinematicsError, Motion, Port, Turning
+from mechwright.mechanics.planar.crank_stage import CrankStage
 from mechwright_slider_crank.course import is_lever
 from mechwright_slider_crank.motion import check_moves, driven_by
 from mechwright_slider_crank.params import SliderCrankParams
 
 
-class SliderStage(Transmission):
+class SliderStage(CrankStage):
     """Crank in; what moves last is a slider, so that no stage stands behind it.
 
     Raises DesignError for a crank that cannot turn fully, or goes through both assemblies.
@@ -35,17 +34,7 @@ class SliderStage(Transmission):
         """All bodies, and forces with the masses of the real parts."""
         return driven_by(self.params, drive, time)
 
-    def power(self, drive: Turning, motion: Motion) -> Array:
-        """Of the load and of all masses, where the parts can be made."""
-        if "drive_torque" not in motion.channels:
-            return np.zeros_like(drive.theta)
-        return np.asarray(motion["drive_torque"] * drive.omega)
-
-    def at(self, angle: Array) -> tuple[Array, Turning]:
-        """At constant speed; raises DesignError for a crank that speeds up all along."""
-        if self.params.acceleration_ratio:
-            raise DesignError(
-                "acceleration_ratio: a crank that speeds up all along repeats no turn, and a chain runs on; "
-                "leave acceleration_ratio out"
-            )
-        return super().at(angle)
+    @property
+    def acceleration_ratio(self) -> float:
+        """As the design says it."""
+        return self.params.acceleration_ratio

@@ -225,6 +225,11 @@ class MadePart:
         """The through hole at a point, see :meth:`MadeSection.hole_at`."""
         return self.outline.hole_at(x, y, diameter)
 
+    def bore_middle(self, diameter: float) -> Point:
+        """The middle, mm, of the shaft's bore of that diameter as made; the origin where there is none."""
+        bore = self.hole_at(0.0, 0.0, diameter) if diameter else None
+        return (0.0, 0.0) if bore is None else (bore.x, bore.y)
+
     @cached_property
     def off(self) -> Array:
         """How far off all walls are (n,), mm, corners apart."""

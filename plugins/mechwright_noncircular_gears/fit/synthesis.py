@@ -111,7 +111,7 @@ def _none(wanted: FitRequirement, goal: Goal, rejected: Rejected) -> Finding:
     hard, good = asked, None
     for _ in range(HALVINGS):
         middle = round((hard + easy) / 2, 3)
-        if _holds(goal_table(wanted, key, middle)):
+        if _holds(_asking(wanted, key, middle)):
             easy = good = middle
         else:
             hard = middle
@@ -130,7 +130,7 @@ def _none(wanted: FitRequirement, goal: Goal, rejected: Rejected) -> Finding:
     )
 
 
-def goal_table(wanted: FitRequirement, key: str, value: float) -> FitRequirement | None:
+def _asking(wanted: FitRequirement, key: str, value: float) -> FitRequirement | None:
     """The same wish with another value; None where the table refuses it."""
     try:
         return type(wanted).model_validate({**wanted.model_dump(), key: value})

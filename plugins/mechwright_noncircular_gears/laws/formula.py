@@ -1,5 +1,6 @@
 """A law in closed form: the ratio or the angle of the driven gear as a formula of φ."""
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,8 +13,8 @@ from mechwright.mechanics.gearing.primitive import Primitive
 
 
 @dataclass(frozen=True)
-class RatioFormula(RatioLaw):
-    """I = c f(φ): only the shape of ``text`` counts, since c closes the turn, ∫ i dφ = 2π/N2 over a lobe."""
+class WrittenLaw(RatioLaw):
+    """A law of which a formula of phi, ``text``, says something."""
 
     lobes: tuple[int, int]
     text: str
@@ -21,6 +22,14 @@ class RatioFormula(RatioLaw):
     @cached_property
     def _formula(self) -> Formula:
         return Formula(self.text, "phi")
+
+    @abstractmethod
+    def shape(self, phi: Array) -> tuple[Array, Array, Array]:
+        """The ratio and its first two derivatives as written, at φ (...) of the first lobe."""
+
+
+class RatioFormula(WrittenLaw):
+    """I = c f(φ): only the shape of ``text`` counts, since c closes the turn, ∫ i dφ = 2π/N2 over a lobe."""
 
     @cached_property
     def factor(self) -> float:
@@ -38,16 +47,8 @@ class RatioFormula(RatioLaw):
         return self._formula(phi)[:3]
 
 
-@dataclass(frozen=True)
-class AngleFormula(RatioLaw):
+class AngleFormula(WrittenLaw):
     """Ψ = f(φ) - f(0); over a lobe it has to grow by 2π/N2."""
-
-    lobes: tuple[int, int]
-    text: str
-
-    @cached_property
-    def _formula(self) -> Formula:
-        return Formula(self.text, "phi")
 
     @cached_property
     def _begin(self) -> float:

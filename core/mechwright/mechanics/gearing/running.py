@@ -123,9 +123,7 @@ def about_bore(part: MadePart, diameter: float) -> Array:
 
     outside = part.outline.polygon().exterior
     points = shapely.get_coordinates(outside)[:-1]
-    bore = part.hole_at(0.0, 0.0, diameter) if diameter else None
-    middle = (0.0, 0.0) if bore is None else (bore.x, bore.y)
-    about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - middle
+    about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - part.bore_middle(diameter)
     return about
 
 
