@@ -43,7 +43,11 @@ def test_files_are_small():
 
 
 def test_files_beside_the_sources_are_small():
-    beside = [path for folder in ("docs", "examples", "tests") for path in (ROOT / folder).rglob("*.py")]
+    beside = [
+        path
+        for folder in ("benchmarks", "docs", "examples", "tests")
+        for path in (ROOT / folder).rglob("*.py")
+    ]
     assert len(beside) > 300
     lines = {str(path): len(path.read_text(encoding="utf-8").splitlines()) for path in beside}
     assert {name: count for name, count in lines.items() if count > LONGEST} == {}

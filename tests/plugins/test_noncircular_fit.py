@@ -20,6 +20,7 @@ from mechwright_noncircular_gears.fit.search import fitted
 from mechwright_noncircular_gears.fit.waves import Asked, Waves
 from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.profile import profile_of
 
 STEP = 1e-4
 
@@ -39,11 +40,11 @@ def wheel(slots: int, crank: np.ndarray) -> np.ndarray:
     return -np.angle(at)
 
 
-@pytest.mark.parametrize("slots", [4, 6])
-def test_a_geneva_wheel_accelerates_hardly_more_than_any_wheel_has_to(slots: int) -> None:
+@pytest.mark.parametrize(("slots", "harmonics"), [(4, 12), (6, 8)])
+def test_a_geneva_wheel_accelerates_hardly_more_than_any_wheel_has_to(slots: int, harmonics: int) -> None:
     """8.49 and 5.65 at constant speed of the crank; 4 is the least between rest and rest."""
     beta = math.pi
-    params, told = best("geneva", slots=slots, index_angle=180, harmonics=8, hollow=False)
+    params, told = best("geneva", slots=slots, index_angle=180, harmonics=harmonics, hollow=False)
     law, half = law_of(params), math.pi / 2 - math.pi / slots
     assert law.angle(np.array([-beta / 2, beta / 2])) == pytest.approx([-half, half], abs=2e-6)
     phi = np.linspace(-beta / 2 + STEP, beta / 2 - STEP, 2001)
@@ -51,7 +52,8 @@ def test_a_geneva_wheel_accelerates_hardly_more_than_any_wheel_has_to(slots: int
     peak = np.abs(w[0] - 2 * w[1] + w[2]).max() / STEP**2 * beta**2 / (math.tau / slots)
     assert peak == pytest.approx(told["residual"], rel=2e-3)
     assert 4 < peak < 4.2
-    assert min(one.value for one in extremes_of(params).curvatures) > 0
+    # Convex as rounded, too: a rack's teeth, without being told.
+    assert not profile_of(params).round
 
 
 def test_a_slider_keeps_its_speed() -> None:

@@ -25,6 +25,10 @@ ROUNDS = 4
 DENSE = 4001
 """Places of a turn at which limits are judged."""
 
+_CONVEX = FLATTEST + 2e-3
+"""Least curvature of convex pitch curves, for a centre distance of 1: with amplitudes rounded for a design
+file it is less by up to a thousandth."""
+
 STARTS = (1.0, 0.5, 0.0)
 """Shares of the smooth law where the search begins, until one leads to a law; 0 is the constant ratio."""
 
@@ -142,7 +146,7 @@ def _from(
 def _limits(wanted: FitRequirement, hollow: bool) -> list[Pointwise]:
     """Functions that are at least 0 where the pitch curves keep their limits."""
     steepest = math.tan(math.radians(wanted.pressure_limit - wanted.pressure_angle))
-    flattest = -_SPARE * wanted.teeth / SHAPER_RADIUS if hollow else FLATTEST / _SPARE
+    flattest = -_SPARE * wanted.teeth / SHAPER_RADIUS if hollow else _CONVEX
     # Undercut: the teeth's depth of about a module times the curvature stays below sin² α.
     sharpest = _SPARE * wanted.teeth * math.sin(math.radians(wanted.pressure_angle)) ** 2
     return [
