@@ -23,14 +23,12 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.designs.schema import placed_schema
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, PluginError
-from mechwright.mechanics.chain import Chain, ChainParams, StageTable
+from mechwright.mechanics.chain import Chain, ChainParams, Families, StageTable
 from mechwright.mechanics.chain.params import MOST_STAGES
 from mechwright.plugins.host import Host
 
 STAGE = "stage"
 """The key of the tables."""
-
-Families = tuple[Family[Any], ...]
 
 
 def chain_of(content: Mapping[str, Any], path: Path, host: Host) -> Chain:

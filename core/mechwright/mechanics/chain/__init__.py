@@ -9,6 +9,6 @@ name of a stage's thing
 """
 
 from mechwright.mechanics.chain.family import Chain
-from mechwright.mechanics.chain.params import ChainParams, StageTable
+from mechwright.mechanics.chain.params import ChainParams, Families, StageTable
 
-__all__ = ["Chain", "ChainParams", "StageTable"]
+__all__ = ["Chain", "ChainParams", "Families", "StageTable"]

@@ -4,9 +4,8 @@ from collections.abc import Iterator
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.mechanics.chain.indexing import index_figures
-from mechwright.mechanics.chain.links import Families
 from mechwright.mechanics.chain.motion import rate_figures
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.params import ChainParams, Families
 
 LIMITS = {
     "most_ca": (

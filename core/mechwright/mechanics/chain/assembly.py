@@ -7,9 +7,9 @@ from mechwright.contracts.mounting import GroundPlate, Mounting
 from mechwright.contracts.parameters import kept
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, MechwrightError
-from mechwright.mechanics.chain.links import Families, Link, links_of
+from mechwright.mechanics.chain.links import Link, links_of
 from mechwright.mechanics.chain.motion import motion_of
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed, in_plan
 from mechwright.mechanics.chain.planes import Plane, levels_of, plane_of
 from mechwright.mechanics.chain.shafts import shafts_of

@@ -15,8 +15,8 @@ from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain.asked import asked_findings
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import moves_of
-from mechwright.mechanics.chain.links import Families, joining, links_of, staged
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.links import joining, links_of, staged
+from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed, in_plan
 from mechwright.mechanics.chain.running import Run, finely
 from mechwright.mechanics.chain.shafts import shaft_findings

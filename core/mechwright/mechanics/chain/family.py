@@ -1,11 +1,11 @@
 """A chain as a family: whatever is asked of a mechanism is asked of its stages and put together."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.params import ChainParams, Families
 
 if TYPE_CHECKING:
     import shapely
@@ -28,7 +28,7 @@ class Chain(Family[ChainParams]):
     summary = "Mechanisms of which each turns the next, the output shaft of one the input shaft of the other."
     Params = ChainParams
 
-    def __init__(self, families: tuple[Family[Any], ...]) -> None:
+    def __init__(self, families: Families) -> None:
         self.families = families
 
     def check(self, params: ChainParams) -> Sequence[Finding]:

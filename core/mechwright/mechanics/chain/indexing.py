@@ -14,8 +14,8 @@ from mechwright.arrays import Array
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.parameters import kept
 from mechwright.contracts.transmission import Index
-from mechwright.mechanics.chain.links import Families, Link, links_of
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.links import Link, links_of
+from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.running import finely, over
 
 _SAMPLES = 4001

@@ -12,13 +12,10 @@ from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.transmission import Transmission
 from mechwright.errors import KinematicsError, MechwrightError
-from mechwright.mechanics.chain.params import ChainParams, StageTable
+from mechwright.mechanics.chain.params import ChainParams, Families, StageTable
 
 MOST_TURNS = 60
 """Turns of the chain's input over which its stages come back: what a motion with 721 samples can show."""
-
-Families = tuple[Family[Any], ...]
-"""Of the stages, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +129,7 @@ def _no_family(number: int, family: Family[Any]) -> Finding:
         "chain.family",
         f"stage.{number}.family",
         f"stage {number}: mechanisms of the family {family.name} cannot follow another one",
-        remedy="take gears, a Geneva mechanism or a four-bar there, or a slider-crank as the last stage",
+        remedy="take a family of which one shaft turns another: docs/chains.md has those that are built in",
     )
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, TypeVar
 from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.finding import Finding
 from mechwright.mechanics.chain.checks import loaded
-from mechwright.mechanics.chain.links import Families, Link, links_of, staged
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.links import Link, links_of, staged
+from mechwright.mechanics.chain.params import ChainParams, Families
 
 if TYPE_CHECKING:
     import shapely

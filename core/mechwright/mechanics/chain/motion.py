@@ -9,8 +9,8 @@ from mechwright.contracts.joint import Joint
 from mechwright.contracts.load import Load
 from mechwright.contracts.motion import TIME, Channel, Curve, Motion, Poses, Scalar, Trace
 from mechwright.mechanics.chain.indexing import index_figures
-from mechwright.mechanics.chain.links import Families, Link, links_of
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.links import Link, links_of
+from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed
 from mechwright.mechanics.chain.running import finely, run_of
 

@@ -1,11 +1,15 @@
 """The tables ``[[stage]]`` of a chain."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field, InstanceOf, SerializeAsAny
 
+from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, Unit
+
+Families = tuple[Family[Any], ...]
+"""Of the stages of a chain, in their order."""
 
 MOST_STAGES = 8
 """More shafts in a row lose all that they carry to play."""

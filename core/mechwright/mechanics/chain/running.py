@@ -14,8 +14,8 @@ from mechwright.arrays import Array
 from mechwright.contracts.parameters import kept
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.contracts.turning import Turning
-from mechwright.mechanics.chain.links import Families, Link, links_of, turns_of
-from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.links import Link, links_of, turns_of
+from mechwright.mechanics.chain.params import ChainParams, Families
 
 PEAK_SAMPLES = 2881
 """Of a turn of the chain's input, for greatest speeds and loads: an eighth of a degree."""
