@@ -12,7 +12,8 @@ ROOT = Path(__file__).parents[2]
 GALLERY, NOTEBOOKS = "gallery", "notebooks"
 """Folders of the site whose pages are made of ``examples``."""
 
-TOP = {"CONTRIBUTING.md": "CONTRIBUTING.md", "CHANGELOG.md": "CHANGELOG.md", "LICENSE": "LICENSE.txt"}
+PAGES = ("CHANGELOG.md", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "SECURITY.md")
+TOP = {name: name for name in PAGES} | {"LICENSE": "LICENSE.txt"}
 """Files beside ``docs`` to their places on the site."""
 
 FENCED = re.compile(r"^```.*?^```$", re.M | re.S)

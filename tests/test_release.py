@@ -1,0 +1,105 @@
+"""What a release is made of: dependencies, locks, licences, changelog, workflows."""
+
+import re
+import runpy
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+from packaging.version import Version
+
+import mechwright
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+DEPENDENCIES = [Requirement(text) for text in PROJECT["dependencies"]]
+LOCK = (ROOT / "requirements.lock").read_text("utf-8")
+LOCKED = {
+    (match[1].lower().replace("_", "-"), match[3] or ""): Version(match[2])
+    for match in re.finditer(r"^([A-Za-z0-9_.-]+)==(\S+?)(?: ; (.+?))? \\$", LOCK, re.MULTILINE)
+}
+WORKFLOWS = sorted((ROOT / ".github").rglob("*.yml"))
+components = runpy.run_path(str(ROOT / ".ci" / "components.py"))
+
+
+@pytest.mark.parametrize("wanted", DEPENDENCIES, ids=lambda wanted: wanted.name)
+def test_the_lock_has_what_the_project_asks_for(wanted):
+    versions = [version for (name, _), version in LOCKED.items() if name == wanted.name]
+    assert versions
+    assert all(version in wanted.specifier for version in versions)
+
+
+def test_every_locked_package_has_hashes_and_no_address():
+    assert "://" not in LOCK
+    for block in re.split(r"\n(?=\S)", LOCK.strip()):
+        assert re.search(r"--hash=sha256:[0-9a-f]{64}", block), block.splitlines()[0]
+
+
+@pytest.mark.parametrize("wanted", DEPENDENCIES, ids=lambda wanted: wanted.name)
+def test_every_dependency_has_one_lowest_version_and_no_highest(wanted):
+    assert [each.operator for each in wanted.specifier] == [">="]
+
+
+def test_the_page_of_components_names_every_locked_package():
+    page = (ROOT / "docs" / "components.md").read_text("utf-8")
+    named = {name.lower().replace("_", "-") for name in re.findall(r"^\| (\S+) \|", page, re.MULTILINE)}
+    everywhere = {name for name, marker in LOCKED if not marker or "python_full_version" in marker}
+    assert everywhere == named - {"package", "---"}
+
+
+@pytest.mark.parametrize(
+    ("component", "expected"),
+    [
+        ({"name": "a", "licenses": [{"license": {"id": "MIT"}}]}, []),
+        ({"name": "a", "licenses": [{"expression": "MIT AND LGPL-3.0-or-later"}]}, []),
+        ({"name": "a", "licenses": [{"license": {"name": "License :: OSI Approved :: BSD License"}}]}, []),
+        ({"name": "casadi", "licenses": []}, []),
+        ({"name": "a", "licenses": []}, ["no licence"]),
+        ({"name": "a", "licenses": [{"expression": "MIT AND GPL-3.0-only"}]}, ["GPL-3.0-only"]),
+        ({"name": "a", "licenses": [{"license": {"name": "Proprietary"}}]}, ["Proprietary"]),
+    ],
+)
+def test_licences_are_brought_to_one_spelling_and_judged(component, expected):
+    assert components["unknown"](components["licence"](component)) == expected
+
+
+def test_the_changelog_has_a_part_for_every_version_newest_first():
+    parts = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
+    assert parts[0] == "Unreleased"
+    released = [re.fullmatch(r"(\d+\.\d+\.\d+) - \d{4}-\d{2}-\d{2}", part) for part in parts[1:]]
+    assert all(released), parts
+    versions = [Version(match[1]) for match in released]
+    assert versions == sorted(versions, reverse=True)
+    assert all(version <= Version(mechwright.__version__) for version in versions)
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_files_for_the_project_page_are_read(path):
+    content = yaml.safe_load(path.read_text("utf-8"))
+    if path.parent.name != "workflows":
+        assert "body" in content or "blank_issues_enabled" in content
+        return
+    assert content["permissions"] == {"contents": "read"}
+    for job in content["jobs"].values():
+        assert job["runs-on"]
+        for step in job["steps"]:
+            assert ("run" in step) != ("uses" in step)
+            for script in re.findall(r"\.ci/\w+", step.get("run", "")):
+                assert (ROOT / script).is_file()
+
+
+def test_a_release_is_published_without_a_password():
+    content = (ROOT / ".github" / "workflows" / "release.yml").read_text("utf-8")
+    publish = yaml.safe_load(content)["jobs"]["publish"]
+    assert publish["permissions"]["id-token"] == "write"
+    assert publish["needs"] == "build"
+    assert "secrets." not in content
+
+
+def test_what_runs_before_a_commit_is_there():
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text("utf-8"))["repos"][0]["hooks"]
+    for hook in hooks:
+        for name in re.findall(r"tests/\S+", hook["entry"]):
+            assert (ROOT / name).is_file()
