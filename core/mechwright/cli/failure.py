@@ -4,7 +4,7 @@ import os
 import traceback
 from pathlib import Path
 
-from mechwright.errors import MechwrightError
+from mechwright.errors import MechwrightError, shortened
 
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
@@ -12,7 +12,7 @@ TRACEBACK = "MECHWRIGHT_TRACEBACK"
 
 def lines(error: Exception) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
-    said = str(error) if isinstance(error, MechwrightError) else _unexpected(error)
+    said = str(error) if isinstance(error, MechwrightError) else shortened(_unexpected(error))
     shown = [_printable(line) for line in said.splitlines()]
     if os.environ.get(TRACEBACK) and not isinstance(error, MechwrightError):
         shown += "".join(traceback.format_exception(error)).splitlines()

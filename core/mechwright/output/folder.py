@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import shutil
+import stat
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.errors import OutputError
+from mechwright.reading import kind_of, read_bytes
 
 MANIFEST = "manifest.json"
 Content = str | bytes | Iterable[bytes]
@@ -113,9 +115,9 @@ def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
     if not target.is_dir():
         raise OutputError(f"{target}: is no folder; give a new or an empty one with -o")
     try:
-        outputs = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["outputs"]
+        outputs = json.loads(read_bytes(target / MANIFEST))["outputs"]
         return {str(name): dict(entry) for name, entry in outputs.items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise OutputError(
             f"{target}: holds files that this program has not written; give a new or an empty folder with -o"
         ) from None
@@ -135,6 +137,11 @@ def _link(source: str, target: str) -> None:
     try:
         os.link(source, target, follow_symlinks=False)
     except OSError:
+        mode = os.lstat(source).st_mode
+        if not stat.S_ISLNK(mode) and (kind := kind_of(mode)):
+            raise OutputError(
+                f"{source}: is {kind}, which cannot be copied; take it out of the folder"
+            ) from None
         shutil.copy2(source, target, follow_symlinks=False)
 
 
@@ -170,8 +177,11 @@ def _exchange(one: Path, two: Path) -> bool:
 
 def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
     """Write ``text`` to ``path`` in one step; refuses to replace a file unless told to."""
-    if path.exists() and not replace:
-        raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
+    if path.exists():
+        if not replace:
+            raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
+        if kind := kind_of(path.stat().st_mode):
+            raise OutputError(f"{path}: is {kind}, which is not replaced; give another name")
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         temporary.write_bytes(text.encode() if isinstance(text, str) else text)
