@@ -58,6 +58,10 @@ class PluginError(MechwrightError, LookupError):
     """A family, post or exporter is not there, or a plugin is broken."""
 
 
+class PluginFaultError(PluginError):
+    """A plugin gave what its contract does not allow, or failed; the message says who, where, and what."""
+
+
 class GeometryError(MechwrightError, ValueError):
     """A curve, loop or solid cannot be built from these numbers."""
 

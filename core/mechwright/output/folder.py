@@ -1,6 +1,5 @@
 """Writing output folders: all of the new files or all of the old ones, never a mixture."""
 
-import contextlib
 import ctypes
 import hashlib
 import json
@@ -8,13 +7,13 @@ import os
 import shutil
 import stat
 import sys
-import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mechwright.errors import OutputError
+from mechwright.output.staging import OLD, folder_to_disk, locked, staging_folder, to_disk, write_through
 from mechwright.reading import kind_of, read_bytes
 
 MANIFEST = "manifest.json"
@@ -49,27 +48,25 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     target, old = _examined(target)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        staging = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        with staging_folder(target) as staging:
+            stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
+            kept = {name: entry for name, entry in old.items() if name not in stale}
+            there = target.exists()
+            if there:
+                _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
+            entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
+            for name, content in output.files.items():
+                entries[name] = {"command": command, "sha256": _written(staging / name, content)}
+            manifest = {**facts, "outputs": dict(sorted(entries.items()))}
+            said = json.dumps(manifest, indent=2, sort_keys=True) + "\n"
+            _written(staging / MANIFEST, said.encode())
+            folder_to_disk(staging)
+            if there:
+                shutil.copymode(target, staging)
+            _swap(staging, target)
+            folder_to_disk(target.parent)
     except OSError as error:
         raise _refusal(target, error) from error
-    try:
-        staging.chmod(0o755)
-        stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
-        kept = {name: entry for name, entry in old.items() if name not in stale}
-        if target.exists():
-            _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
-        entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
-        for name, content in output.files.items():
-            entries[name] = {"command": command, "sha256": _written(staging / name, content)}
-        manifest = {**facts, "outputs": dict(sorted(entries.items()))}
-        (staging / MANIFEST).write_text(
-            json.dumps(manifest, indent=2, sort_keys=True) + "\n", encoding="utf-8"
-        )
-        _swap(staging, target)
-    except OSError as error:
-        raise _refusal(target, error) from error
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
 
 
 def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
@@ -79,6 +76,7 @@ def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
         for piece in (content,) if isinstance(content, bytes) else content:
             file.write(piece)
             digest.update(piece)
+        to_disk(file)
     return digest.hexdigest()
 
 
@@ -153,13 +151,14 @@ def _swap(staging: Path, target: Path) -> None:
     if _exchange(staging, target):
         return
     # No atomic exchange on this system: two renames, undone if the second fails.
-    backup = staging.with_name(staging.name + "-old")
-    target.rename(backup)
-    try:
-        staging.rename(target)
-    except BaseException:
-        backup.rename(target)
-        raise
+    backup = staging.with_name(staging.name + OLD)
+    with locked(target):  # between the two it is no leftover
+        target.rename(backup)
+        try:
+            staging.rename(target)
+        except BaseException:
+            backup.rename(target)
+            raise
     shutil.rmtree(backup, ignore_errors=True)
 
 
@@ -182,13 +181,9 @@ def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
             raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
         if kind := kind_of(path.stat().st_mode):
             raise OutputError(f"{path}: is {kind}, which is not replaced; give another name")
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        temporary.write_bytes(text.encode() if isinstance(text, str) else text)
-        temporary.replace(path)
+        write_through(path, text.encode() if isinstance(text, str) else text)
     except OSError as error:
-        with contextlib.suppress(OSError):
-            temporary.unlink(missing_ok=True)
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 

@@ -57,6 +57,10 @@ class Registered(Generic[T]):
     distribution: str
     plugin: str
 
+    def __post_init__(self) -> None:
+        if isinstance(self.item, Plugin):
+            self.item.registered_by = f"plugin {self.plugin} of {self.distribution}"
+
 
 @dataclass
 class Host:
