@@ -23,12 +23,9 @@ import types
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar, Protocol
 
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
-
-if TYPE_CHECKING:
-    from mechwright.contracts.plugin import Plugin
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
 """Environment variable: the seconds that a call of a family's method may take."""
@@ -44,6 +41,19 @@ _inside: list[str] = []
 _streams: list[Any] = []
 
 
+class Called(Protocol):
+    """What the guard knows of a plugin, and of its contract; :class:`Plugin` says what each of them is."""
+
+    kind: ClassVar[str]
+    limited: ClassVar[bool]
+    unlimited: ClassVar[frozenset[str]]
+    registered_by: str
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
+
+
 class UnsoundError(Exception):
     """What is wrong with an answer, in words that follow who gave it."""
 
@@ -52,7 +62,7 @@ class _TimeUp(BaseException):
     """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
 
 
-def guard(cls: "type[Plugin]", contract: "type[Plugin]") -> None:
+def guard(cls: "type[Called]", contract: type["Called"]) -> None:
     """Wrap the methods of a contract that a class has of its own."""
     for name, function in list(vars(cls).items()):
         if isinstance(function, types.FunctionType) and not name.startswith("_") and name in vars(contract):
@@ -64,11 +74,11 @@ def now() -> str:
     return _inside[-1] if _inside else ""
 
 
-def _wrapped(function: Callable[..., Any], contract: "type[Plugin]") -> Callable[..., Any]:
+def _wrapped(function: Callable[..., Any], contract: "type[Called]") -> Callable[..., Any]:
     method = function.__name__
 
     @functools.wraps(function)
-    def called(self: "Plugin", *arguments: Any, **named: Any) -> Any:
+    def called(self: "Called", *arguments: Any, **named: Any) -> Any:
         with _guarded(self, method, contract, arguments):
             found = function(self, *arguments, **named)
             if not isinstance(found, types.GeneratorType):
@@ -79,7 +89,7 @@ def _wrapped(function: Callable[..., Any], contract: "type[Plugin]") -> Callable
 
 
 def _pieces(
-    plugin: "Plugin", method: str, contract: "type[Plugin]", found: Iterator[Any]
+    plugin: "Called", method: str, contract: "type[Called]", found: Iterator[Any]
 ) -> Generator[Any, None, None]:
     """What a method gives one after the other, each asked for under the guard."""
     while True:
@@ -93,7 +103,7 @@ def _pieces(
 
 @contextmanager
 def _guarded(
-    plugin: "Plugin", method: str, contract: "type[Plugin]", arguments: tuple[Any, ...]
+    plugin: "Called", method: str, contract: "type[Called]", arguments: tuple[Any, ...]
 ) -> Iterator[None]:
     who = f"{who_of(plugin)}: {method}()"
     seconds = _seconds() if contract.limited and method not in contract.unlimited else 0.0
@@ -124,13 +134,13 @@ def _guarded(
         raise PluginFaultError(f"{who}: {_said(error)}") from error
 
 
-def who_of(plugin: "Plugin") -> str:
+def who_of(plugin: "Called") -> str:
     """A plugin in words: what registered it, its kind and its name."""
     name = getattr(plugin, "name", type(plugin).__name__)
     return f"{plugin.registered_by}: {plugin.kind} {name}".removeprefix(": ")
 
 
-def _is_own(plugin: "Plugin") -> bool:
+def _is_own(plugin: "Called") -> bool:
     return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
 
 
