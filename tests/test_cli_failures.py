@@ -63,13 +63,14 @@ def run(command_line: Run, tmp_path: Path) -> Run:
 
 
 def test_a_plugin_that_breaks_while_it_works_is_named_in_one_line(
-    run: Run, odd: type[Odd], monkeypatch: pytest.MonkeyPatch
+    run: Run, odd: type[Odd], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(odd, "fault", ZeroDivisionError("no\nsuch \x1b[31mlength"))
     code, out, err = run("check")
     assert (code, out) == (2, "")
     assert err.startswith(
-        "mechwright: plugin odd of odd-mechanisms failed: ZeroDivisionError: no such \\x1b[31m"
+        f"mechwright: {tmp_path / 'odd.toml'}: plugin odd of odd-mechanisms: family odd: check(): "
+        "ZeroDivisionError: no such \\x1b[31m"
     )
     assert "test_cli_failures.py, line" in err
     assert len(err.splitlines()) == 1

@@ -9,15 +9,20 @@ import contextlib
 import importlib
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Sequence
 from typing import IO, TypeVar, cast
 
 R = TypeVar("R")
 
-_SERVE = "from mechwright.beside import serve; serve()"
+_SERVE = "from mechwright.beside import serve; serve({})"
+
+LOOK = 0.2
+"""Seconds between two looks whether the caller is still there."""
 
 
 class Beside:
@@ -38,7 +43,7 @@ class Beside:
             try:
                 # -P: a module in the current folder must not stand in for one of ours.
                 self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and our own words
-                    [sys.executable, "-P", "-c", _SERVE, *modules],
+                    [sys.executable, "-P", "-c", _SERVE.format(os.getpid()), *modules],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.DEVNULL if heard is None else subprocess.PIPE,
@@ -107,8 +112,13 @@ def _listen(pipe: IO[bytes], heard: Callable[[str], None]) -> None:
             heard(line.decode(errors="replace").rstrip())
 
 
-def serve() -> None:
-    """The second interpreter: read a call from standard input, write what it gives to standard output."""
+def serve(caller: int) -> None:
+    """The second interpreter: read a call from standard input, write what it gives to standard output.
+
+    ``caller`` is the number of the process that waits for it; without that it ends at once.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the keyboard stops the caller, which ends this one
+    threading.Thread(target=_end_without, args=(caller,), daemon=True).start()
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # libraries that print would spoil the answer
     for module in sys.argv[1:]:
@@ -124,3 +134,23 @@ def serve() -> None:
 def _end_with_the_caller() -> None:
     sys.stdin.buffer.read()
     os._exit(1)
+
+
+def _end_without(caller: int) -> None:
+    """End when the caller does, whatever this process is at: also before it has read its call."""
+    while os.name == "nt" or os.getppid() == caller:  # Windows tells of a parent that is gone
+        time.sleep(LOOK)
+    os._exit(1)
+
+
+def end_with_parent() -> None:
+    """Have a process of multiprocessing end with the one that started it, also where that is killed."""
+    import multiprocessing
+
+    def end() -> None:
+        caller = multiprocessing.parent_process()
+        if caller is not None:
+            caller.join()
+            os._exit(1)
+
+    threading.Thread(target=end, daemon=True).start()

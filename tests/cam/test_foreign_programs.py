@@ -170,7 +170,7 @@ def test_the_page_is_not_wider_than_the_window(
         (("--set", "measured.lengths.mill-66=7"), "--set: measured.lengths: no tool 'mill-66'"),
         (("--set", "machine=vf-9"), "--set: cam.machine.model: unknown machine 'vf-9'; known: "),
         (("--library", "none.toml"), "none.toml: cannot be read: No such file or directory"),
-        (("--library", "."), ".: is no file; a tool library is a text of [[tool]] tables"),
+        (("--library", "."), ".: cannot be read: it is a folder; name a regular file"),
     ],
 )
 def test_what_is_asked_wrongly_is_one_line(command_line, tmp_path, drawing, more, said) -> None:  # type: ignore[no-untyped-def]

@@ -131,7 +131,7 @@ def test_a_library_is_read_with_the_limits_of_every_toml_file(tmp_path):
 
 def test_a_pipe_as_library_is_refused_and_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "tools.toml")
-    with pytest.raises(DesignError, match="is no file"):
+    with pytest.raises(OutputError, match="it is a pipe"):
         load_library(tmp_path / "tools.toml")
 
 

@@ -1,11 +1,10 @@
 """The bill of materials as CSV, and as a page. Imports jinja2 and what reckons when the page is made."""
 
-import csv
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mechwright.build import Build, Page, RawStock
+from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright_cad.turned_drawing.page import SUFFIXES
 
@@ -72,13 +71,9 @@ def bill_csv(lines: "list[Line]") -> str:
     """The lines under the names of their columns; masses to a hundredth of a gram."""
     from mechwright_cad.bill.lines import COLUMNS
 
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for line in lines:
-        values = [getattr(line, column) for column in COLUMNS]
-        writer.writerow([f"{value:.2f}" if isinstance(value, float) else value for value in values])
-    return text.getvalue()
+    rows = ([getattr(line, column) for column in COLUMNS] for line in lines)
+    said = ([f"{value:.2f}" if isinstance(value, float) else value for value in row] for row in rows)
+    return csv_text([COLUMNS, *said])
 
 
 def bill_html(design: str, lines: "list[Line]") -> str:

@@ -1,6 +1,5 @@
 """The file that a page shows and follows: read, watched, written where the page says so."""
 
-import hashlib
 import tomllib
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
@@ -12,7 +11,7 @@ from mechwright.designs.change import rewritten
 from mechwright.designs.files import read_text
 from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import units_of, written
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import DesignError, MechwrightError, OutputError
 from mechwright.output.folder import rewrite, write_new
 from mechwright.plugins.host import Host
 
@@ -53,8 +52,8 @@ class Following(ABC):
     def digest(self) -> str:
         """SHA-256 of the file as it is now; empty where it cannot be read."""
         try:
-            return hashlib.sha256(self.path.read_bytes()).hexdigest()
-        except OSError:
+            return read_text(self.path)[1]
+        except MechwrightError:
             return ""
 
     def save(self, change: Change, digest: str) -> str:

@@ -1,9 +1,8 @@
 """Mach3 mill, by common practice; G4 in seconds."""
 
-import csv
-import io
 from collections.abc import Mapping, Sequence
 
+from mechwright.output.csv_text import csv_text
 from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.writing.spelling import METRIC
@@ -57,15 +56,13 @@ class Mach3(GcodeControl):
         return self._table(self.offsets.rows(tools, settings))
 
     def _table(self, rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
-        text = io.StringIO()
-        table = csv.writer(text, lineterminator="\n")
         unit = "" if self.units == "mm" else " in"
-        table.writerow(["tool", "description", f"diameter{unit}", f"height{unit}"])
+        table: list[list[object]] = [["tool", "description", f"diameter{unit}", f"height{unit}"]]
         for place, (tool, diameter, note) in sorted(rows.items()):
             height = "" if tool.length is None else self._said(tool.worn_length)
             words = ", ".join(filter(None, (f"{tool.name} {tool.kind}", note)))
-            table.writerow([place, words, self._said(diameter), height])
-        return "mach3-tools.csv", text.getvalue()
+            table.append([place, words, self._said(diameter), height])
+        return "mach3-tools.csv", csv_text(table)
 
 
 def _waits(program: Program) -> bool:

@@ -25,6 +25,7 @@ class Rule(Plugin):
 
     kind = "rule"
     plural = "rules"
+    guarded = False  # :func:`ask` is their guard: a rule that fails is no pass
 
     @abstractmethod
     def check(self, scene: "Scene") -> Check:

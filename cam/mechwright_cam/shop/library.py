@@ -102,8 +102,6 @@ def load_library(path: Path | None = None, at_hand: Library | None = None) -> Li
     if path is None:
         return at_hand
     form = format_of(path)
-    if path.exists() and not path.is_file():
-        raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
     if form is not None:
         crib = read_crib(path, form)
         tools, told, base = crib.tools, crib.told, Library(())

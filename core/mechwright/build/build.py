@@ -7,6 +7,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
+from mechwright.errors import PluginFaultError
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -194,5 +196,7 @@ class Build:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self.close()
+        if isinstance(error, PluginFaultError) and str(self.path) not in str(error):
+            error.args = (f"{self.path}: {error}",)

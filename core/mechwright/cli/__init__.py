@@ -5,22 +5,34 @@ import sys
 
 
 def main() -> None:
-    """Run the command line; errors become a line each and exit code 2, or 1 for a failed proof."""
+    """Run the command line; errors become a line each and exit code 2, or 1 for a failed proof.
+
+    What is stopped ends with 128 and the number of the signal: 130 by the keyboard, 143 where it is ended.
+    """
+    from mechwright.cli.stopping import NOTHING, StoppedError, exit_code, hear
+
+    try:
+        hear()
+        _run()
+    except (KeyboardInterrupt, StoppedError) as stop:
+        print(f"mechwright: stopped; {str(stop) or NOTHING}", file=sys.stderr)  # noqa: T201 - as below
+        sys.exit(exit_code())
+
+
+def _run() -> None:
+    import warnings
+
+    from mechwright.cli import failure
     from mechwright.cli.app import make_app
-    from mechwright.cli.progress import NOTHING, StoppedError
     from mechwright.errors import ProofError
 
+    warnings.showwarning = failure.warned
     try:
         try:
             make_app()()
         finally:
             _flush()
-    except (KeyboardInterrupt, StoppedError) as stop:
-        print(f"mechwright: stopped; {str(stop) or NOTHING}", file=sys.stderr)  # noqa: T201 - as below
-        sys.exit(130)
     except Exception as error:  # noqa: BLE001,RUF100 - a traceback is of no use to a machinist
-        from mechwright.cli import failure
-
         for line in failure.lines(error):
             print(f"mechwright: {line}", file=sys.stderr)  # noqa: T201 - this is the program's own output
         sys.exit(1 if isinstance(error, ProofError) else 2)

@@ -76,6 +76,7 @@ class Command(Plugin):
 
     kind = "command"
     plural = "commands"
+    guarded = False
     order: ClassVar[int] = 100
     """Commands of lower order stand higher in ``--help``."""
     run: ClassVar[Any]

@@ -162,10 +162,12 @@ def _holds(path: Path, *, requirement: bool) -> bool:
     """Whether a file looks like one of ours, of the kind that is wanted."""
     if path.suffix != ".toml":
         return False
+    from mechwright.designs.files import read_text
+    from mechwright.errors import MechwrightError
+
     try:
-        with path.open(encoding="utf-8") as file:
-            text = file.read(100_000)
-    except (OSError, UnicodeDecodeError):
+        text = read_text(path)[0]
+    except MechwrightError:
         return False
     lines = [line.strip() for line in text.splitlines()]
     asked = any(line.startswith("[requirement") for line in lines)

@@ -11,8 +11,10 @@ import typer
 from mechwright.build import Wanted
 from mechwright.cli.perform import perform
 from mechwright.contracts.finding import Stage
-from mechwright.errors import OutputError
+from mechwright.designs.files import read_text
+from mechwright.errors import MechwrightError, OutputError
 from mechwright.output.folder import write_new
+from mechwright.reading import regular
 
 DESIGN = "elliptic-pair.toml"
 """The example's name in its folder; in the package it is ``demo.toml``."""
@@ -46,9 +48,9 @@ def _place(path: Path, text: str) -> None:
     """Write the example, where it does not stand already."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if path.exists() and path.read_text(encoding="utf-8") == text:
+        if regular(path) and read_text(path)[0] == text:
             return
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, MechwrightError) as error:
         raise OutputError(f"{path}: cannot be written: {error}") from error
     if path.exists():
         raise OutputError(

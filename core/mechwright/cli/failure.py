@@ -1,10 +1,12 @@
 """What the command line says when something fails: one line each, also for a fault that nobody expected."""
 
 import os
+import sys
 import traceback
 from pathlib import Path
 
-from mechwright.errors import MechwrightError
+from mechwright.contracts.guard import now
+from mechwright.errors import MechwrightError, PluginFaultError, shortened
 
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
@@ -12,11 +14,27 @@ TRACEBACK = "MECHWRIGHT_TRACEBACK"
 
 def lines(error: Exception) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
-    said = str(error) if isinstance(error, MechwrightError) else _unexpected(error)
+    said = str(error) if isinstance(error, MechwrightError) else shortened(_unexpected(error))
     shown = [_printable(line) for line in said.splitlines()]
-    if os.environ.get(TRACEBACK) and not isinstance(error, MechwrightError):
+    if os.environ.get(TRACEBACK) and (
+        isinstance(error, PluginFaultError) or not isinstance(error, MechwrightError)
+    ):
         shown += "".join(traceback.format_exception(error)).splitlines()
     return shown
+
+
+def warned(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: object = None,  # noqa: ARG001 - as warnings.showwarning has it
+    line: object = None,  # noqa: ARG001
+) -> None:
+    """Say a warning of Python's in a line, with the call into a plugin that is under way."""
+    who = now() or "this program"
+    said = _printable(shortened(" ".join(f"{category.__name__}: {message}".split())))
+    print(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})", file=sys.stderr)  # noqa: T201
 
 
 def _printable(line: str) -> str:

@@ -8,23 +8,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mechwright.cli.stopping import NOTHING, StoppedError
 from mechwright.output.folder import MANIFEST
 
 if TYPE_CHECKING:
     from mechwright.contracts.synthesis import Progress
 
-NOTHING = "nothing was written"
-"""What stands when work that writes nothing, or only at its end, is stopped."""
-
-
 IN_LINES = "MECHWRIGHT_PROGRESS"
 """Environment variable; if it is not empty, a program listens, and each step is a line of standard error."""
 
 _MARK = "@progress "
-
-
-class StoppedError(Exception):
-    """The keyboard has stopped a command; it says what stands."""
 
 
 @contextmanager

@@ -14,7 +14,8 @@ from mechwright.cli.check import check as check_one
 from mechwright.cli.hosting import open_host
 from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.cli.perform import check_formats, data_of, perform, say
-from mechwright.cli.progress import StoppedError, fraction, stamp
+from mechwright.cli.progress import fraction, stamp
+from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
 from mechwright.contracts.finding import Stage
 from mechwright.cores import cores, keep_to

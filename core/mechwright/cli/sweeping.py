@@ -8,7 +8,8 @@ from pathlib import Path
 import typer
 
 from mechwright.cli.hosting import open_host
-from mechwright.cli.progress import StoppedError, fraction
+from mechwright.cli.progress import fraction
+from mechwright.cli.stopping import StoppedError
 from mechwright.cores import cores
 from mechwright.errors import DesignError
 from mechwright.sweep.run import Swept, sweep

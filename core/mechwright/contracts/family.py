@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
@@ -39,6 +39,8 @@ class Family(Plugin, Generic[P]):
     kind = "family"
     plural = "families"
     texts = ("title", "summary")
+    limited = True
+    unlimited = frozenset({"synthesise", "evaluate", "stretches"})
 
     title: ClassVar[str]
     """A few words, as a heading."""
@@ -52,6 +54,13 @@ class Family(Plugin, Generic[P]):
     """Whether there is a motion; families of what stands still derive from ``Standing``."""
     batch: ClassVar[int] = 256
     """Designs of a study that are evaluated together: half a minute's work of one core, or 10^5 and more."""
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """Whether it is findings, a motion of finite numbers, parts that can be made."""
+        from mechwright.contracts.answers import sound
+
+        return sound(method, answer, arguments)
 
     @classmethod
     def fault(cls) -> str:

@@ -7,7 +7,7 @@ from functools import wraps
 from typing import Any, TypeVar
 
 from mechwright.contracts.shown import html_table
-from mechwright.errors import DesignError
+from mechwright.errors import LONGEST, DesignError, shortened
 
 S = TypeVar("S")
 
@@ -78,6 +78,12 @@ class Finding:
     stage: Stage = Stage.MOTION
     proposed: tuple[Change, ...] = field(default=(), hash=False)
     fix: Change | None = field(default=None, hash=False)
+
+    def __post_init__(self) -> None:
+        for name in ("parameter", "message", "remedy"):
+            said = getattr(self, name)
+            if len(said) > LONGEST:
+                object.__setattr__(self, name, shortened(said))
 
     @classmethod
     def error(

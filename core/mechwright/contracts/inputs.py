@@ -10,10 +10,8 @@ from typing import Any
 from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from mechwright.errors import DesignError, MechwrightError, OutputError
-
-INPUT_LIMIT = 20_000_000
-"""Bytes: files of other programs that a design names, such as libraries of thousands of tools."""
+from mechwright.errors import DesignError, MechwrightError
+from mechwright.reading import read_bytes
 
 
 def beside(path: Path, name: str, key: str) -> Path:
@@ -27,23 +25,7 @@ def beside(path: Path, name: str, key: str) -> Path:
         raise DesignError(
             f"{path}: {key}: {name!r} leads out of the folder of the design file; put the file beside it"
         )
-    if found.exists() and not found.is_file():
-        raise DesignError(
-            f"{path}: {key}: {name!r} is no regular file; name one that holds what is asked for"
-        )
     return found
-
-
-def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
-    """Content of a file of any kind; raises OutputError or DesignError that names it."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(limit + 1)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
-    if len(data) > limit:
-        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
-    return data
 
 
 @dataclass(frozen=True)

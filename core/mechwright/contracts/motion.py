@@ -22,11 +22,28 @@ TIME = "time"
 """Name of the channel of time, s, of a motion whose input goes there and back."""
 
 
+_PARTS_COLUMNS = frozenset(",;\"'")
+"""What a name cannot have that heads a column: tables of programs part their columns by it, or quote them."""
+
 _KEPT = 100_000
 """Poses of more samples than this are worked out when they are asked for: 100 bytes each, for every body."""
 
 NOTHING = 1e-12
 """A single figure below this is the rounding of sums, in whatever unit: people are told 0."""
+
+
+def name_fault(name: str, unit: str = "") -> str:
+    """What keeps a name, with its unit, from heading a column of a table; nothing if it can.
+
+    >>> name_fault("omega4", "rad/s"), name_fault("x, y")
+    ('', "has ','")
+    """
+    if not name:
+        return "is empty"
+    if name[0] in "=+-@":
+        return f"begins with {name[0]!r}, which makes it a formula of a spreadsheet"
+    wrong = next((c for c in name + unit if c in _PARTS_COLUMNS or not c.isprintable()), "")
+    return f"has {wrong!r}" if wrong else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +120,12 @@ class Poses:
         """Those of positions and rotations."""
         return self.position.shape, self.rotation.shape
 
+    @property
+    def given(self) -> tuple[Array | float, ...]:
+        """What the poses were made of: if that is finite, they are."""
+        rates = () if self.rates is None else (self.rates.first, self.rates.second)
+        return (self.position, self.rotation, *rates)
+
     def transform(self, points: Array) -> Array:
         """Move body points (k, 3), mm, to every pose: (n, k, 3), mm."""
         moved: Array = np.einsum("nij,kj->nki", self.rotation, points) + self.position[:, None, :]
@@ -136,6 +159,11 @@ class _Planar(Poses):
     def shapes(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Those of positions and rotations."""
         return (self._angle.size, 3), (self._angle.size, 3, 3)
+
+    @property
+    def given(self) -> tuple[Array | float, ...]:
+        """As of any poses."""
+        return self._x, self._y, self._angle, self._z
 
     def __reduce__(self) -> tuple[type[Poses], tuple[Array, Array]]:
         return Poses, (self.position, self.rotation)
@@ -211,8 +239,8 @@ class Motion:
     Raises
     ------
     KinematicsError
-        The input is no channel, a channel or body has another number of samples than the input, or a trace,
-        joint, curve or load is that of no body.
+        The input is no channel, a channel's name cannot head a column of a table, a channel or body has
+        another number of samples than the input, or a trace, joint, curve or load is that of no body.
     """
 
     input_name: str
@@ -227,6 +255,12 @@ class Motion:
     def __post_init__(self) -> None:
         if self.input_name not in self.channels:
             raise KinematicsError(f"the input {self.input_name!r} of the motion is none of its channels")
+        for name, channel in self.channels.items():
+            if fault := name_fault(name, channel.unit):
+                raise KinematicsError(
+                    f"the channel {name!r} [{channel.unit}] cannot head a column: it {fault}; name it by "
+                    "printable characters without quotes, commas and semicolons, a letter first"
+                )
         n = self.samples
         shapes: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
             f"channel {name}": (channel.values.shape, (n,)) for name, channel in self.channels.items()

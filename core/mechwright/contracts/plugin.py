@@ -11,7 +11,9 @@ kind
 """
 
 from abc import ABC
-from typing import ClassVar
+from typing import Any, ClassVar
+
+from mechwright.contracts.guard import guard
 
 HOOK_API = 2
 """Version of the contracts of this program; a class states the one that it was written for."""
@@ -35,6 +37,26 @@ class Plugin(ABC):
     """What all of them are called, for listings."""
     texts: ClassVar[tuple[str, ...]] = ()
     """Names of further attributes that each class gives as text."""
+
+    guarded: ClassVar[bool] = True
+    """Whether calls of its methods go through the guard; of commands they do not, which may print and end."""
+    limited: ClassVar[bool] = False
+    """Whether a call has a time, and works on parameters that stay as they are."""
+    unlimited: ClassVar[frozenset[str]] = frozenset()
+    """Methods whose calls have none all the same."""
+    registered_by: str = ""
+    """What registered it, in words, where the host did: ``"plugin geneva of mechwright"``."""
+
+    def __init_subclass__(cls, **named: Any) -> None:
+        super().__init_subclass__(**named)
+        contract = contract_of(cls)
+        if contract is not None and contract.guarded:
+            guard(cls, contract)
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:  # noqa: ARG003 - by some
+        """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
+        return answer
 
     @classmethod
     def fault(cls) -> str:

@@ -2,14 +2,15 @@
 
 import hashlib
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mechwright.contracts.inputs import INPUT_LIMIT as INPUT_LIMIT
 from mechwright.contracts.inputs import beside as beside
-from mechwright.contracts.inputs import read_bytes as read_bytes
 from mechwright.designs.toml_hints import toml_hint
 from mechwright.errors import DesignError
+from mechwright.reading import INPUT_LIMIT as INPUT_LIMIT
+from mechwright.reading import read_bytes as read_bytes
 
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
@@ -42,9 +43,35 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
     text, digest = read_text(path)
     try:
-        return tomllib.loads(text), digest
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        if isinstance(error, RecursionError):
-            raise DesignError(f"{path}: is no valid TOML: nested too deep") from error
+        content = tomllib.loads(text)
+    except RecursionError as error:
+        raise DesignError(f"{path}: is no valid TOML: nested too deep") from error
+    except tomllib.TOMLDecodeError as error:
         hint = toml_hint(text, str(error))
         raise DesignError(f"{path}: is no valid TOML: {error}" + (f"; {hint}" if hint else "")) from error
+    except ValueError as error:  # Python turns no text of thousands of digits into an integer
+        raise _too_many_digits(path, "") from error
+    if (key := _long_integer(content)) is not None:
+        raise _too_many_digits(path, f"{key}: ")
+    return content, digest
+
+
+def _too_many_digits(path: Path, key: str) -> DesignError:
+    return DesignError(
+        f"{path}: {key}is no valid TOML: an integer has at most 19 digits (64 bits); write fewer"
+    )
+
+
+def _long_integer(content: Mapping[str, Any]) -> str | None:
+    """The key of an integer that is none of TOML's, if there is one."""
+    waiting: list[tuple[str, Any]] = [("", content)]
+    while waiting:
+        key, value = waiting.pop()
+        if isinstance(value, int):
+            if not -(1 << 63) <= value < 1 << 63:
+                return key
+        elif isinstance(value, Mapping):
+            waiting += ((f"{key}.{name}".lstrip("."), one) for name, one in value.items())
+        elif isinstance(value, list):
+            waiting += ((key, one) for one in value)
+    return None

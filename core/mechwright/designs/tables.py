@@ -2,12 +2,13 @@
 
 import difflib
 from collections.abc import Iterator, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from mechwright.errors import DesignError
+from mechwright.errors import MOST_LINES, DesignError
 
 T = TypeVar("T", bound=BaseModel)
 
@@ -31,7 +32,9 @@ def read_table(model: type[T], table: object, source: str, where: str, path: Pat
     try:
         return model.model_validate(dict(table), context={"path": path})
     except ValidationError as error:
-        lines = [f"{source}: {line}" for line in _explain(error, model, where)]
+        # What nobody reads is not worked out: looking for what was meant takes a while for each key.
+        lines = [f"{source}: {line}" for line in islice(_explain(error, model, where), MOST_LINES)]
+        lines += [f"{source}: {where}: another mistake"] * (error.error_count() - len(lines))
         raise DesignError("\n".join(lines)) from None
 
 

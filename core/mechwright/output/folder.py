@@ -1,19 +1,20 @@
 """Writing output folders: all of the new files or all of the old ones, never a mixture."""
 
-import contextlib
 import ctypes
 import hashlib
 import json
 import os
 import shutil
+import stat
 import sys
-import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mechwright.errors import OutputError
+from mechwright.output.staging import OLD, folder_to_disk, locked, staging_folder, to_disk, write_through
+from mechwright.reading import kind_of, read_bytes
 
 MANIFEST = "manifest.json"
 Content = str | bytes | Iterable[bytes]
@@ -47,27 +48,25 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     target, old = _examined(target)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        staging = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        with staging_folder(target) as staging:
+            stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
+            kept = {name: entry for name, entry in old.items() if name not in stale}
+            there = target.exists()
+            if there:
+                _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
+            entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
+            for name, content in output.files.items():
+                entries[name] = {"command": command, "sha256": _written(staging / name, content)}
+            manifest = {**facts, "outputs": dict(sorted(entries.items()))}
+            said = json.dumps(manifest, indent=2, sort_keys=True) + "\n"
+            _written(staging / MANIFEST, said.encode())
+            folder_to_disk(staging)
+            if there:
+                shutil.copymode(target, staging)
+            _swap(staging, target)
+            folder_to_disk(target.parent)
     except OSError as error:
         raise _refusal(target, error) from error
-    try:
-        staging.chmod(0o755)
-        stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
-        kept = {name: entry for name, entry in old.items() if name not in stale}
-        if target.exists():
-            _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
-        entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
-        for name, content in output.files.items():
-            entries[name] = {"command": command, "sha256": _written(staging / name, content)}
-        manifest = {**facts, "outputs": dict(sorted(entries.items()))}
-        (staging / MANIFEST).write_text(
-            json.dumps(manifest, indent=2, sort_keys=True) + "\n", encoding="utf-8"
-        )
-        _swap(staging, target)
-    except OSError as error:
-        raise _refusal(target, error) from error
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
 
 
 def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
@@ -77,6 +76,7 @@ def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
         for piece in (content,) if isinstance(content, bytes) else content:
             file.write(piece)
             digest.update(piece)
+        to_disk(file)
     return digest.hexdigest()
 
 
@@ -113,9 +113,9 @@ def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
     if not target.is_dir():
         raise OutputError(f"{target}: is no folder; give a new or an empty one with -o")
     try:
-        outputs = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["outputs"]
+        outputs = json.loads(read_bytes(target / MANIFEST))["outputs"]
         return {str(name): dict(entry) for name, entry in outputs.items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise OutputError(
             f"{target}: holds files that this program has not written; give a new or an empty folder with -o"
         ) from None
@@ -135,6 +135,11 @@ def _link(source: str, target: str) -> None:
     try:
         os.link(source, target, follow_symlinks=False)
     except OSError:
+        mode = os.lstat(source).st_mode
+        if not stat.S_ISLNK(mode) and (kind := kind_of(mode)):
+            raise OutputError(
+                f"{source}: is {kind}, which cannot be copied; take it out of the folder"
+            ) from None
         shutil.copy2(source, target, follow_symlinks=False)
 
 
@@ -146,13 +151,14 @@ def _swap(staging: Path, target: Path) -> None:
     if _exchange(staging, target):
         return
     # No atomic exchange on this system: two renames, undone if the second fails.
-    backup = staging.with_name(staging.name + "-old")
-    target.rename(backup)
-    try:
-        staging.rename(target)
-    except BaseException:
-        backup.rename(target)
-        raise
+    backup = staging.with_name(staging.name + OLD)
+    with locked(target):  # between the two it is no leftover
+        target.rename(backup)
+        try:
+            staging.rename(target)
+        except BaseException:
+            backup.rename(target)
+            raise
     shutil.rmtree(backup, ignore_errors=True)
 
 
@@ -170,15 +176,14 @@ def _exchange(one: Path, two: Path) -> bool:
 
 def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
     """Write ``text`` to ``path`` in one step; refuses to replace a file unless told to."""
-    if path.exists() and not replace:
-        raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    if path.exists():
+        if not replace:
+            raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
+        if kind := kind_of(path.stat().st_mode):
+            raise OutputError(f"{path}: is {kind}, which is not replaced; give another name")
     try:
-        temporary.write_bytes(text.encode() if isinstance(text, str) else text)
-        temporary.replace(path)
+        write_through(path, text.encode() if isinstance(text, str) else text)
     except OSError as error:
-        with contextlib.suppress(OSError):
-            temporary.unlink(missing_ok=True)
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 

@@ -12,7 +12,7 @@ import pluggy
 
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.contracts.result import Result, found_by
-from mechwright.errors import PluginError
+from mechwright.errors import PluginError, shortened
 from mechwright.plugins import hookspecs
 
 if TYPE_CHECKING:
@@ -56,6 +56,10 @@ class Registered(Generic[T]):
     item: T
     distribution: str
     plugin: str
+
+    def __post_init__(self) -> None:
+        if isinstance(self.item, Plugin):
+            self.item.registered_by = f"plugin {self.plugin} of {self.distribution}"
 
 
 @dataclass
@@ -205,7 +209,7 @@ def _class_fault(cls: Any) -> str:
 def _reason(error: BaseException) -> str:
     text = str(error).strip().splitlines()
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
-    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+    return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
 
 
 def load(

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, TypeVar
 
+from mechwright.beside import end_with_parent
 from mechwright.contracts.synthesis import Progress
 from mechwright.cores import keep_to
 
@@ -134,7 +135,7 @@ def _end(workers: Sequence[_Worker]) -> None:
 def _serve(pipe: "Connection[Any, Any]", work: Callable[[T, Progress], R], cores: int) -> None:
     """The other process: take an item, give what is made of it, until nobody is there any more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # without work there is nothing to stop
-    threading.Thread(target=_end_with_the_caller, daemon=True).start()
+    end_with_parent()
     keep_to(cores)
     try:
         while True:
@@ -151,10 +152,3 @@ def _once(*_: object) -> None:
     """Stop the work; the keyboard and the caller may both ask for it, and tidying up is not stopped."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     raise KeyboardInterrupt
-
-
-def _end_with_the_caller() -> None:
-    caller = multiprocessing.parent_process()
-    if caller is not None:
-        caller.join()
-        os._exit(1)

@@ -8,6 +8,7 @@ from pathlib import Path
 from mechwright.errors import OutputError
 from mechwright.output.folder import Output, write_folder
 from mechwright.plugins.host import Host
+from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
 from mechwright.sweep.shard import Counts, counts_of
 from mechwright.sweep.study import Study
@@ -54,8 +55,8 @@ class SweepFolder:
 
     def _begun(self) -> dict[str, object] | None:
         try:
-            found = json.loads((self.path / BEGUN).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            found = json.loads(read_bytes(self.path / BEGUN))
+        except (OutputError, ValueError, RecursionError):
             return None
         return found if isinstance(found, dict) else None
 
@@ -65,7 +66,7 @@ class SweepFolder:
 
     def has(self, name: str) -> bool:
         """Whether a task is done."""
-        return self.table(name).exists()
+        return regular(self.table(name))
 
     def counts(self, name: str) -> Counts:
         """What was counted in a task that is done."""
@@ -95,7 +96,7 @@ class SweepFolder:
             self.study.name, self.study.family, {self.study.path.name: self.study.digest}, self.host
         )
         if BEGUN not in output.files:
-            output.add(BEGUN, (self.path / BEGUN).read_bytes())
+            output.add(BEGUN, read_bytes(self.path / BEGUN))
         write_folder(self.path, output, COMMAND, facts)
 
 

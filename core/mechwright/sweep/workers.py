@@ -9,6 +9,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
 
+from mechwright.beside import end_with_parent
 from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.extras import optional
@@ -75,7 +76,7 @@ class Processes:
         context = multiprocessing.get_context("spawn")
         waiting = iter(tasks)
         running: dict[Future[bytes], Task] = {}
-        pool = ProcessPoolExecutor(self.count, context, keep_to, (1,))
+        pool = ProcessPoolExecutor(self.count, context, _begin)
         try:
             while True:
                 for task in _some(waiting, AHEAD * self.count - len(running)):
@@ -86,6 +87,12 @@ class Processes:
                     yield running.pop(future), future.result()
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _begin() -> None:
+    """A worker: it has one core, and nobody to wait for when whoever asked is gone."""
+    keep_to(1)
+    end_with_parent()
 
 
 def _some(tasks: Iterator[Task], count: int) -> list[Task]:

@@ -6,6 +6,9 @@ from typing import Any, NoReturn
 
 from mechwright.errors import DesignError
 
+DIGITS = 20
+"""Of a whole number, its sign with them: as many as those of 64 bits have."""
+
 
 def parsed(text: str, where: Path | str, version: int, cure: str) -> dict[str, Any]:
     """The object that a text holds, of a ``version`` up to the one that is known.
@@ -13,7 +16,7 @@ def parsed(text: str, where: Path | str, version: int, cure: str) -> dict[str, A
     Raises DesignError with one line: where, what, and for a newer version the ``cure``.
     """
     try:
-        data = json.loads(text, parse_constant=_no_number)
+        data = json.loads(text, parse_constant=_no_number, parse_int=_whole)
     except RecursionError as error:
         raise DesignError(f"{where}: is no valid JSON: nested too deep") from error
     except ValueError as error:
@@ -26,6 +29,12 @@ def parsed(text: str, where: Path | str, version: int, cure: str) -> dict[str, A
     if found > version:
         raise DesignError(f"{where}: is of version {found:g}, and {version} is the newest known; {cure}")
     return data
+
+
+def _whole(digits: str) -> int:
+    if len(digits) > DIGITS:
+        raise ValueError(f"a whole number has {len(digits):,} digits; {DIGITS} are the most that are read")
+    return int(digits)
 
 
 def _no_number(word: str) -> NoReturn:

@@ -1,0 +1,203 @@
+"""The guard around every call into a plugin: who was called, where, and what was wrong with what came back.
+
+Every method that a class overrides of its contract is wrapped when the class is made, so that a call goes
+through the guard whoever makes it. Inside of a call
+
+- an error that nobody expects, ``sys.exit`` among them, becomes a
+  :class:`~mechwright.errors.PluginFaultError`;
+- what is printed goes to standard error, as standard output belongs to ``--json``;
+- a family's method has a time, :data:`SECONDS`, or as many as :data:`LIMIT` says;
+- the answer is what the contract says (:meth:`~mechwright.contracts.plugin.Plugin.sound`), and parameters
+  stay as they were.
+
+The keyboard, and a want of memory, pass through as they are.
+"""
+
+import functools
+import os
+import signal
+import sys
+import threading
+import traceback
+import types
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, ClassVar, Protocol
+
+from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
+
+LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
+"""Environment variable: the seconds that a call of a family's method may take."""
+SECONDS = 600.0
+"""Without it; the slowest call of a family that is built in takes a sixth of that."""
+
+OWN = "mechwright"
+"""The distribution whose families say what is wrong with a design in words of their own."""
+
+_lock = threading.Lock()
+_inside: list[str] = []
+"""Calls that are under way, the outermost first."""
+_streams: list[Any] = []
+
+
+class Called(Protocol):
+    """What the guard knows of a plugin, and of its contract; :class:`Plugin` says what each of them is."""
+
+    kind: ClassVar[str]
+    limited: ClassVar[bool]
+    unlimited: ClassVar[frozenset[str]]
+    registered_by: str
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
+
+
+class UnsoundError(Exception):
+    """What is wrong with an answer, in words that follow who gave it."""
+
+
+class _TimeUp(BaseException):
+    """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
+
+
+def guard(cls: "type[Called]", contract: type["Called"]) -> None:
+    """Wrap the methods of a contract that a class has of its own."""
+    for name, function in list(vars(cls).items()):
+        if isinstance(function, types.FunctionType) and not name.startswith("_") and name in vars(contract):
+            setattr(cls, name, _wrapped(function, contract))
+
+
+def now() -> str:
+    """Which call into a plugin is under way, the innermost one; empty if none is."""
+    return _inside[-1] if _inside else ""
+
+
+def _wrapped(function: Callable[..., Any], contract: "type[Called]") -> Callable[..., Any]:
+    method = function.__name__
+
+    @functools.wraps(function)
+    def called(self: "Called", *arguments: Any, **named: Any) -> Any:
+        with _guarded(self, method, contract, arguments):
+            found = function(self, *arguments, **named)
+            if not isinstance(found, types.GeneratorType):
+                return contract.sound(method, found, (*arguments, *named.values()))
+        return _pieces(self, method, contract, found)
+
+    return called
+
+
+def _pieces(
+    plugin: "Called", method: str, contract: "type[Called]", found: Iterator[Any]
+) -> Generator[Any, None, None]:
+    """What a method gives one after the other, each asked for under the guard."""
+    while True:
+        with _guarded(plugin, method, contract, ()):
+            try:
+                one = next(found)
+            except StopIteration:
+                return
+        yield one
+
+
+@contextmanager
+def _guarded(
+    plugin: "Called", method: str, contract: "type[Called]", arguments: tuple[Any, ...]
+) -> Iterator[None]:
+    who = f"{who_of(plugin)}: {method}()"
+    seconds = _seconds() if contract.limited and method not in contract.unlimited else 0.0
+    before = repr(arguments[0]) if contract.limited and arguments and not _inside else ""
+    try:
+        with _aside(who), _in_time(seconds):
+            yield
+        if before and repr(arguments[0]) != before:
+            raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
+    except (MemoryError, KeyboardInterrupt, GeneratorExit):
+        raise
+    except _TimeUp:
+        raise PluginFaultError(
+            f"{who}: takes more than {seconds:g} s; {LIMIT} in the environment sets another limit"
+        ) from None
+    except MechwrightError as error:
+        # Which design is wrong the families of others mostly leave to whoever draws a line.
+        if type(error) in {GeometryError, KinematicsError} and not _is_own(plugin) and who not in str(error):
+            raise type(error)(f"{who}: {error}") from error
+        raise
+    except UnsoundError as error:
+        raise PluginFaultError(f"{who}: {error}") from error
+    except SystemExit as error:
+        raise PluginFaultError(
+            f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
+        ) from error
+    except Exception as error:
+        raise PluginFaultError(f"{who}: {_said(error)}") from error
+
+
+def who_of(plugin: "Called") -> str:
+    """A plugin in words: what registered it, its kind and its name."""
+    name = getattr(plugin, "name", type(plugin).__name__)
+    return f"{plugin.registered_by}: {plugin.kind} {name}".removeprefix(": ")
+
+
+def _is_own(plugin: "Called") -> bool:
+    return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
+
+
+def _said(error: Exception) -> str:
+    frames = traceback.extract_tb(error.__traceback__)
+    at = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    reason = " ".join(str(error).split())
+    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + at
+
+
+@contextmanager
+def _aside(who: str) -> Iterator[None]:
+    """Have what is printed meanwhile go to standard error: for all threads, as a plugin may have its own."""
+    with _lock:
+        if not _inside:
+            _streams[:] = [sys.stdout]
+            sys.stdout = sys.stderr
+        _inside.append(who)
+    try:
+        yield
+    finally:
+        with _lock:
+            _inside.remove(who)
+            if not _inside:
+                sys.stdout = _streams.pop()
+
+
+def _seconds() -> float:
+    said = os.environ.get(LIMIT, "")
+    try:
+        seconds = float(said or SECONDS)
+    except ValueError:
+        seconds = -1.0
+    if not 0 < seconds < 1e9:
+        raise DesignError(f"{LIMIT}: {said!r} is no time in seconds above 0; write one, or leave it out")
+    return seconds
+
+
+@contextmanager
+def _in_time(seconds: float) -> Iterator[None]:
+    """Raise _TimeUp after some seconds, where the system has an alarm and this thread hears it."""
+    if (
+        not seconds
+        or not hasattr(signal, "setitimer")
+        or threading.current_thread() is not threading.main_thread()
+        or signal.getitimer(signal.ITIMER_REAL)[0]  # a call inside of another one has what that has left
+    ):
+        yield
+        return
+
+    def up(*_: object) -> None:
+        raise _TimeUp
+
+    before = signal.signal(signal.SIGALRM, up)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

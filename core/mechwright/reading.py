@@ -1,0 +1,100 @@
+"""The one place where a file that somebody names is opened to be read.
+
+What a user names may be anything that a system calls a file: a pipe that nobody writes into, a device without
+an end, a folder, a socket, a link to one of them. Only regular files are read, no more of them than a limit,
+and no longer than a time.
+"""
+
+import os
+import stat
+import time
+from pathlib import Path
+
+from mechwright.errors import DesignError, MechwrightError, OutputError
+
+INPUT_LIMIT = 20_000_000
+"""Bytes: files of other programs that a design names, such as libraries of thousands of tools."""
+
+SECONDS = 60.0
+"""A file that is not read by then hangs: disks and networks that work give the largest in a second or two."""
+
+_PIECE = 1 << 20
+_NONBLOCK = getattr(os, "O_NONBLOCK", 0)
+_FLAGS = os.O_RDONLY | _NONBLOCK | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+_KINDS = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
+
+
+def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
+    """Content of a regular file, or of one that a link leads to.
+
+    Parameters
+    ----------
+    path
+        The file.
+    limit
+        Bytes that it may have.
+
+    Raises
+    ------
+    OutputError
+        It is not there, is no regular file, cannot be read, or not in :data:`SECONDS`.
+    DesignError
+        It is larger than ``limit``.
+    """
+    try:
+        # Asked before it is opened: opening alone rewinds a tape.
+        _require_regular(path, path.stat().st_mode)
+        handle = os.open(path, _FLAGS)
+        try:
+            return _content(path, handle, limit)
+        finally:
+            os.close(handle)
+    except MechwrightError:
+        raise
+    except (OSError, ValueError) as error:  # a null byte in its name
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"{path}: cannot be read: {reason}") from error
+
+
+def _content(path: Path, handle: int, limit: int) -> bytes:
+    status = os.fstat(handle)
+    _require_regular(path, status.st_mode)  # it may be another one since it was asked
+    pieces, size, end = [], status.st_size, time.monotonic() + SECONDS
+    while size <= limit and (piece := os.read(handle, min(_PIECE, limit + 1))):
+        pieces.append(piece)
+        size = max(size, sum(map(len, pieces)))  # what system files hold has no size before it is read
+        if time.monotonic() > end:
+            raise OutputError(
+                f"{path}: cannot be read: it takes more than {SECONDS:g} s; copy it to a disk here"
+            )
+    if size > limit:
+        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    return b"".join(pieces)
+
+
+def regular(path: Path) -> bool:
+    """Whether a regular file is there, behind any link; no error is raised whatever else it is."""
+    try:
+        return stat.S_ISREG(path.stat().st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def kind_of(mode: int) -> str:
+    """What the mode of a file that is not regular says it is, in words; empty of a regular one."""
+    if stat.S_ISREG(mode):
+        return ""
+    return next((kind for test, kind in _KINDS if test(mode)), "no regular file")
+
+
+def _require_regular(path: Path, mode: int) -> None:
+    kind = kind_of(mode)
+    if kind:
+        raise OutputError(f"{path}: cannot be read: it is {kind}; name a regular file")
