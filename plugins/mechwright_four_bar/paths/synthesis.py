@@ -72,11 +72,12 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
         wanted.designs,
         rejected,
         lambda part: progress(SEARCH + (1 - SEARCH) * part, "designs"),
+        len(good),
     )
     if not candidates:
         return Synthesis((), (_refusal(wanted, result, good, reason),), rejected.reasons)
     best = min(good, key=lambda one: one.squares)
-    said_of = _said(wanted, problem, best, candidates[0].residual.value, met)
+    said_of = [_count(result, len(good)), *_said(wanted, problem, best, candidates[0].residual.value, met)]
     return Synthesis(tuple(candidates), tuple(said_of), rejected.reasons)
 
 
@@ -168,6 +169,16 @@ def _found(chosen: tuple[PathSolution, int]) -> Found:
         "cognate": Scalar(float(number), ""),
     }
     return Found(one.bar, Scalar(one.mean, "mm"), figures, one.pivot, one.point, one.sense)
+
+
+def _count(result: PathSearch, looked: int) -> Finding:
+    """How many linkages there were to choose from."""
+    return Finding.note(
+        "path.found",
+        f"in {result.starts} starts {len(result.solutions)} linkages came to rest within the limits and "
+        f"{result.unsettled} beyond one; the {looked} nearest that differ were looked at",
+        float(len(result.solutions)),
+    )
 
 
 def _said(
