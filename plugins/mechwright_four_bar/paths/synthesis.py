@@ -7,12 +7,14 @@ import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import Severity
+from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
+from mechwright.mechanics.tracing.requirement import fault_of_points
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.cognates import Drawing, cognates
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.paths.asked import PathProblem
-from mechwright_four_bar.paths.points import all_angles, fault, problem_of, thinned
+from mechwright_four_bar.paths.points import problem_of
 from mechwright_four_bar.paths.refit import fitted, rounded
 from mechwright_four_bar.paths.same import distinct
 from mechwright_four_bar.paths.search import PathSearch, PathSolution, path, search
@@ -46,13 +48,13 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     smallest leading, then the others, the best transmission angle leading. Then come the designs that do not,
     the nearest first.
     """
-    if said := fault(wanted):
+    if said := fault_of_points(wanted.points, wanted.crank_turns is not None):
         return Synthesis((), (Finding.error("path.points", "points", said),))
     problem = problem_of(wanted)
     if said := problem.limits.contradiction():
         message = f"no linkage keeps the limits: {said}"
         return Synthesis((), (Finding.error("path.contradiction", "longest_link", message),))
-    chosen = thinned(problem.targets, problem.closed)
+    chosen = thinned(in_plane(problem.targets), problem.closed)
     turns = None if problem.turns is None else problem.turns[chosen]
     few = replace(problem, targets=problem.targets[chosen], turns=turns)
     met = max(wanted.tolerance, EXACT * problem.size)
