@@ -12,7 +12,7 @@ import pytest
 import mechwright.plugins.host as hosting
 from mechwright.contracts.family import Family
 from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate
+from mechwright.contracts.synthesis import Candidate, Rejected
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import Registered
@@ -211,8 +211,42 @@ def test_designs_that_the_tables_do_not_let_build_are_named_and_not_given(
         "synthesize", requirement(tmp_path, text.format(asked + 5)), "-o", tmp_path / "some"
     )
     assert (code, "2 found, 1 given: 1 travel" in said) == (0, True)
+    assert re.search(r"\n  1 travel: error \[cam.travel\] .* of travel", said)
     some = json.loads((tmp_path / "some" / "synthesis.json").read_text())
     assert [(one["code"], one["count"]) for one in some["rejected"]] == [("cam.travel", 1)]
+
+
+def test_the_terminal_says_how_many_were_found_of_how_many(command_line: Run, tmp_path: Path) -> None:
+    """Notes stand below the designs; of each reason the words of the first design stand there too."""
+    asked = 'family = "four-bar"\n[requirement]\nkind = "poses"\ndesigns = 1\n'
+    code, said, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert (code, wrong) == (0, "")
+    summary = json.loads((tmp_path / "out" / "synthesis.json").read_text())
+    lines = said.splitlines()
+    assert f"note [{summary['findings'][0]['code']}] {summary['findings'][0]['message']}" in lines
+    found = 1 + sum(one["count"] for one in summary["rejected"])
+    place = next(place for place, line in enumerate(lines) if line.startswith(f"{found} found, 1 given: "))
+    reasons = lines[place + 1 : -1]
+    assert len(reasons) == len(summary["rejected"]) > 1
+    for line, reason in zip(reasons, summary["rejected"], strict=True):
+        assert line.startswith(f"  {reason['count']} ")
+        assert line.endswith(f": {reason['message']}")
+    assert "beyond the number" in said
+
+
+def test_designs_are_counted_together_with_those_that_come_after() -> None:
+    rejected = Rejected()
+    rejected.because("a.b", "first")
+    rejected.because("a.b", "second", 3)
+    rejected.same(2)
+    rejected.beyond(5, 9)
+    rejected.beyond(5, 0)
+    told = [(one.count, str(one), one.message.split(" = ")[-1]) for one in rejected.reasons]
+    assert told == [
+        (9, "9 beyond the number", "5"),
+        (4, "4 b", "first"),
+        (2, "2 near another", "nearly the same as a design that was found before"),
+    ]
 
 
 def test_angles_are_told_in_degrees() -> None:

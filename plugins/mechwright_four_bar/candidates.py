@@ -71,12 +71,15 @@ class Found:
 
 
 def buildable(
-    found: Iterable[Found], most: int, rejected: Rejected, progress: Callable[[float], None]
+    found: Iterable[Found], most: int, rejected: Rejected, progress: Callable[[float], None], count: int
 ) -> tuple[list[Candidate[FourBarParams]], str]:
-    """The first ``most`` linkages whose design has no error, and why the first other one was left out."""
+    """The first ``most`` of ``count`` linkages whose design has no error, and why the first other has one.
+
+    Those that come after them are counted and not looked at.
+    """
     candidates: list[Candidate[FourBarParams]] = []
     reason = ""
-    for one in found:
+    for looked, one in enumerate(found, start=1):
         try:
             params = FourBarParams.model_validate(one.table())
         except ValidationError as error:
@@ -92,5 +95,6 @@ def buildable(
         candidates.append(Candidate(params, one.residual, one.figures))
         progress(len(candidates) / most)
         if len(candidates) == most:
+            rejected.beyond(most, count - looked)
             break
     return candidates, reason

@@ -52,6 +52,7 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
         wanted.designs,
         rejected,
         lambda part: progress(0.5 + 0.3 * part, "designs"),
+        len(good),
     )
     if candidates:
         notes = _notes(problem, turning, len(candidates))

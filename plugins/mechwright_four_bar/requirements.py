@@ -1,6 +1,5 @@
 """What the four-bar's synthesis can be asked for."""
 
-from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -8,22 +7,16 @@ from pydantic import Field, model_validator
 from mechwright import Parameters
 from mechwright.mechanics.adjustable.requirement import Coordinate, PhasedPath
 from mechwright.mechanics.planar.course import MOST_RATIO
+from mechwright.mechanics.tracing.requirement import MOST_STARTS, PlanePath, Turn
 from mechwright.units import Degrees, Millimetres, Unit
 
-Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
 AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit("")]
 
 NEAREST_POLE = 0.01
 """mm. A pole nearer to A0 asks for a coupler that hardly turns; nothing of that kind can be built."""
 
-MOST_POINTS = 5000
-"""More points of a path say nothing new; thin them out."""
 
-MOST_STARTS = 1_000_000
-"""More random starts take minutes and find nothing new."""
-
-
-class PathRequirement(Parameters):
+class PathRequirement(PlanePath):
     """The table ``[requirement]`` of the kind ``path``: a coupler point through points, in this order.
 
     Examples
@@ -32,88 +25,18 @@ class PathRequirement(Parameters):
     6
     """
 
-    points: tuple[tuple[Coordinate, Coordinate], ...] = Field(
-        ((20.0, 20.0), (20.0, 25.0), (20.0, 30.0), (20.0, 35.0), (20.0, 40.0), (20.0, 45.0)),
-        min_length=3,
-        max_length=MOST_POINTS,
-        description="Points [x, y] of the path, 3 or more, in the order in which they are passed; closed "
-        "if the "
-        "first comes again at the end.",
-    )
-    closed: bool = Field(
-        False,
-        description="Whether the first point follows on the last; the crank then turns once from it to it.",
-    )
-    crank_turns: tuple[Turn, ...] | None = Field(
-        None,
-        min_length=3,
-        max_length=MOST_POINTS,
-        description="Crank angle at each point from that at the first, the first 0; left out, any.",
-    )
-    sense: Literal["ccw", "cw", "any"] = Field(
-        "any", description="Sense of the crank, where crank_turns does not say it."
-    )
-    order_tolerance: Degrees = Field(
-        0.0,
-        ge=0,
-        le=45,
-        description="Crank angle by which a point may be passed before the one before it; not with "
-        "crank_turns.",
-    )
-    tolerance: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=100,
-        description="Distance in the mean (root mean square) that counts as met; 0 for as near as possible.",
-    )
-    least_transmission_angle: Degrees = Field(
-        20.0, ge=1, le=80, description="Least transmission angle of the designs."
-    )
-    longest_link: Millimetres = Field(
-        400.0, ge=1, le=2000, description="Longest link, ground and coupler point included."
-    )
-    shortest_link: Millimetres = Field(10.0, ge=1, le=1000, description="Shortest link, ground included.")
     frame: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
         None,
         description="Rectangle [least x, least y, greatest x, greatest y] in which both fixed pivots "
-        "stand; left "
-        "out, anywhere.",
+        "stand; left out, anywhere.",
     )
     length_step: Millimetres = Field(
         0.0,
         ge=0,
         le=50,
         description="Links and the coupler point's coordinates are multiples of it, the rest fitted "
-        "again; 0 for "
-        "any lengths.",
+        "again; 0 for any lengths.",
     )
-    starts: int = Field(
-        100_000, ge=100, le=MOST_STARTS, description="Most random shapes to try for each branch and sense."
-    )
-    designs: int = Field(5, ge=1, le=50, description="Most designs to give.")
-    seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
-
-    @model_validator(mode="after")
-    def _together(self) -> Self:
-        turns = self.crank_turns
-        if turns is not None:
-            if len(turns) != len(self.points):
-                raise ValueError(f"crank_turns has {len(turns)} angles for {len(self.points)} points")
-            steps = [two - one for one, two in pairwise(turns)]
-            if turns[0] != 0 or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
-                raise ValueError("crank_turns starts with 0 and goes one way")
-            if abs(turns[-1]) >= 360:
-                raise ValueError("crank_turns stays within one turn, below 360 degrees")
-            for key in ("closed", "sense", "order_tolerance"):
-                if getattr(self, key) != type(self).model_fields[key].default:
-                    raise ValueError(f"{key} and crank_turns contradict: leave {key} out")
-        if self.shortest_link >= self.longest_link:
-            raise ValueError("shortest_link must be below longest_link")
-        if self.frame is not None and (self.frame[0] >= self.frame[2] or self.frame[1] >= self.frame[3]):
-            raise ValueError(
-                "frame is [least x, least y, greatest x, greatest y], the least below the greatest"
-            )
-        return self
 
 
 _BEAN = (

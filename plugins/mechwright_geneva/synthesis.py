@@ -101,6 +101,7 @@ def from_indexing(wanted: IndexingRequirement, progress: Progress) -> Synthesis[
     if not found:
         return Synthesis((), (_none(wanted, near, limit),), rejected.reasons)
     ranked = sorted(found, key=lambda one: one.figures["contact_pressure"].value)
+    rejected.beyond(wanted.designs, len(ranked) - wanted.designs)
     return Synthesis(tuple(ranked[: wanted.designs]), (), rejected.reasons)
 
 

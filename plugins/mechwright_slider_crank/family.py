@@ -6,7 +6,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
+from mechwright_slider_crank.requirements import (
+    PathRequirement,
+    PolesRequirement,
+    StrokeRequirement,
+)
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -36,6 +40,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {
         "stroke": StrokeRequirement,
         "poles": PolesRequirement,
+        "path": PathRequirement,
     }
 
     def check(self, params: SliderCrankParams) -> Sequence[Finding]:
@@ -107,13 +112,17 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
     ) -> "Synthesis[SliderCrankParams]":
-        """From stroke and time ratio, or from prescribed acceleration poles."""
+        """From stroke and time ratio, from acceleration poles, or from a path of the rod's point."""
         from mechwright_slider_crank.synthesis import from_poles, from_stroke
 
         if isinstance(requirement, StrokeRequirement):
             return from_stroke(requirement)
         if isinstance(requirement, PolesRequirement):
             return from_poles(requirement, progress)
+        if isinstance(requirement, PathRequirement):
+            from mechwright_slider_crank.paths.synthesis import through_points
+
+            return through_points(requirement, progress)
         return super().synthesise(kind, requirement, progress)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":

@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from mechwright import Parameters
 from mechwright.mechanics.planar.course import MOST_RATIO
+from mechwright.mechanics.tracing.requirement import PlanePath
 from mechwright.units import Degrees, Millimetres, Ratio, Unit
 from mechwright_slider_crank.params import LONGEST
 
@@ -36,6 +37,16 @@ class StrokeRequirement(Parameters):
         if len(given) > 1:
             raise ValueError(f"give at most one of crank, rod and offset, not {' and '.join(given)}")
         return self
+
+
+class PathRequirement(PlanePath):
+    """The table ``[requirement]`` of the kind ``path``: a coupler point through points, in this order.
+
+    Examples
+    --------
+    >>> PathRequirement().shortest_link
+    10.0
+    """
 
 
 class PolesRequirement(Parameters):

@@ -127,6 +127,7 @@ def from_five(wanted: PosesRequirement, progress: Progress) -> Synthesis[Spheric
     )
     if found:
         note = Finding.note("spherical.poses", said)
+        rejected.beyond(wanted.designs, len(found) - wanted.designs)
         return Synthesis(tuple(found[: wanted.designs]), (note,), rejected.reasons)
     why = next(iter(reason.message for reason in rejected.reasons), "none is real")
     fault = _fault("poses", f"{said}, and none that can be built within the limits: {why}", "move a pose")

@@ -22,7 +22,7 @@ from mechwright.mechanics.adjustable import (
     search,
     settings_of,
 )
-from mechwright.mechanics.adjustable.order import assigned, isotonic
+from mechwright.mechanics.tracing.order import assigned, isotonic
 
 FACTS = {
     fact["name"]: fact

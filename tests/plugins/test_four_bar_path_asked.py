@@ -75,7 +75,9 @@ def test_every_design_keeps_every_limit_and_can_be_built(limits):
 def test_a_limit_holds_the_nearest_design_back():
     result = asked(points=ELLIPSE, closed=True, longest_link=200)
     assert result.candidates[0].residual.value == pytest.approx(0.11382, abs=1e-4)
-    (note,) = result.findings
+    assert result.findings[0].code == "path.found"
+    assert result.findings[0].value >= len(result.candidates)
+    _, note = result.findings
     assert (note.code, note.severity) == ("path.held", Severity.NOTE)
     assert "longest_link holds" in note.message
     wider = asked(points=ELLIPSE, closed=True, longest_link=300)
@@ -117,7 +119,7 @@ def test_what_cannot_be_met_is_said():
     timed = {"points": points, "crank_turns": turns, "longest_link": 2000, "shortest_link": 1,
              "least_transmission_angle": 1}  # fmt: skip
     missed = asked(**timed, tolerance=0.5)
-    (finding,) = missed.findings
+    _, finding = missed.findings
     assert (finding.code, finding.severity) == ("path.missed", Severity.WARNING)
     assert finding.value >= 100 * math.sqrt(0.0099119274 / 18) * (1 - 1e-6)
     met = asked(**timed, tolerance=4)

@@ -1,6 +1,7 @@
 """The command ``synthesize``."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import typer
@@ -8,7 +9,7 @@ import typer
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction, standing
 from mechwright.contracts.finding import Severity, errors
-from mechwright.contracts.synthesis import Candidate
+from mechwright.contracts.synthesis import Candidate, Reason
 from mechwright.designs.requirement import load_requirement
 from mechwright.output.folder import check_folder
 from mechwright.scripting.synthesis import sought
@@ -33,16 +34,26 @@ def synthesize(path: Path, folder: Path, as_json: bool) -> None:
     for finding in found.result.findings:
         if finding.severity is not Severity.NOTE:
             typer.echo(f"mechwright: {path}: {finding}", err=True)
-    if not len(found):
-        typer.echo(f"mechwright: {path}: {found.told}", err=True)
     if failed:
+        typer.echo(f"mechwright: {path}: {found.told}", err=True)
+        _tell_reasons(found.result.rejected, err=True)
         raise typer.Exit(1)
     for (name, _), candidate in zip(found.texts, found.result.candidates, strict=True):
         typer.echo(f"{name}.toml: {_line(candidate)}")
-    if found.result.rejected:
-        typer.echo(found.told)
+    for finding in found.result.findings:
+        if finding.severity is Severity.NOTE:
+            typer.echo(str(finding))
+    typer.echo(found.told)
+    _tell_reasons(found.result.rejected)
     count = len(found)
     typer.echo(f"{folder}: {count} design{'s' * (count != 1)} written, best first, and synthesis.json")
+
+
+def _tell_reasons(reasons: Sequence[Reason], *, err: bool = False) -> None:
+    """What speaks against the designs that are not given, in the words of the first of each kind."""
+    for reason in reasons:
+        first = "" if reason.count == 1 else ", the first"
+        typer.echo(f"  {reason}{first}: {reason.message}", err=err)
 
 
 def _line(candidate: Candidate[object]) -> str:  # type: ignore[type-var]

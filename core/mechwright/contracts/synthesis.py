@@ -95,10 +95,19 @@ class Rejected:
             self.because(faults[0].code, str(faults[0]))
         return bool(faults)
 
-    def because(self, code: str, message: str) -> None:
-        """Count one design."""
-        before = self._reasons.get(code, Reason(code, 0, message))
-        self._reasons[code] = Reason(code, before.count + 1, before.message)
+    def because(self, code: str, message: str, count: int = 1) -> None:
+        """Count one design, or several."""
+        if count > 0:
+            before = self._reasons.get(code, Reason(code, 0, message))
+            self._reasons[code] = Reason(code, before.count + count, before.message)
+
+    def same(self, count: int = 1) -> None:
+        """Count designs that differ from an earlier one by nothing that anybody would choose by."""
+        self.because("synthesis.near-another", "nearly the same as a design that was found before", count)
+
+    def beyond(self, most: int, count: int) -> None:
+        """Count designs that come after the ``most`` that are asked for."""
+        self.because("synthesis.beyond-the-number", f"the requirement asks for designs = {most}", count)
 
     @property
     def reasons(self) -> tuple[Reason, ...]:

@@ -136,8 +136,7 @@ def designs(
     """
     rejected = Rejected()
     for defect, count in defects.items():
-        for _ in range(count):
-            rejected.because(f"{name}.{defect}", DEFECTS[defect])
+        rejected.because(f"{name}.{defect}", DEFECTS[defect], count)
     good: list[Option] = []
     nearest = ""
     for one in options:
@@ -145,9 +144,11 @@ def designs(
         if key:
             rejected.because(f"{name}.{key}", why)
             nearest = nearest or f"; the first that goes through them breaks a limit: {why}"
-        elif not any(_same(one, other) for other in good):
+        elif any(_same(one, other) for other in good):
+            rejected.same()
+        else:
             good.append(one)
-    candidates, reason = buildable((one.found for one in good), wanted.designs, rejected, progress)
+    candidates, reason = buildable((one.found for one in good), wanted.designs, rejected, progress, len(good))
     if candidates:
         return Synthesis(tuple(candidates), (Finding.note(f"{name}.found", said()),), rejected.reasons)
     why = f"; none of those within the limits can be built: {reason}" if good else nearest

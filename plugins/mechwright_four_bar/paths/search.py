@@ -17,13 +17,14 @@ import numpy as np
 from mechwright import Array
 from mechwright.mechanics.multistart import distinct
 from mechwright.mechanics.planar import Plane
+from mechwright.mechanics.tracing.points import in_plane, random_angles
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.paths.asked import PathProblem
 from mechwright_four_bar.paths.descent import STILL, polish, screen, settle
 from mechwright_four_bar.paths.kernels import lengths, linear
 from mechwright_four_bar.paths.limits import COUNT, NAMES, broken
-from mechwright_four_bar.paths.starts import random_angles, random_shapes
+from mechwright_four_bar.paths.starts import random_shapes
 
 ROUND = 12_000
 """Random linkages of a room in one round."""
@@ -190,7 +191,7 @@ def search(
             rng = np.random.default_rng([seed, turn, number])
             count = min(ROUND, max(1, starts // 2 - turn * ROUND))
             shapes = random_shapes(count, double, problem.limits.ratio, problem.limits.least_angle, rng)
-            angles = random_angles(len(shapes), unit, problem.turns, way, problem.closed, rng)
+            angles = random_angles(len(shapes), in_plane(unit), problem.turns, way, problem.closed, rng)
             tried += len(shapes)
             for solution, phi in _best(problem, unit, limits, shapes, angles, branch, way):
                 one = settled(problem, unit, limits, solution, phi, branch, way)

@@ -1,4 +1,4 @@
-"""Linkages and crank angles to start a search from.
+"""Linkages to start a search from.
 
 Every linkage with a full crank and a transmission angle of at least μ comes from exactly one set of coupler
 c, follower b and 0 < p1 < p2 < 1: with L, U = b² + c² ∓ 2 b c cos μ the shortest and the longest diagonal
@@ -10,19 +10,12 @@ import math
 import numpy as np
 
 from mechwright import Array
-from mechwright.mechanics.planar import Plane
 
 MOST_RATIO = 100.0
 """Starts have no link longer than this many others, whatever is allowed."""
 
 MOST_DRAWS = 10
 """How often as many shapes are drawn as are wanted: few keep a ratio of links near the least there is."""
-
-LEAST_SPAN, MOST_SPAN = math.radians(20), math.radians(355)
-"""Turn of a free crank over all points of an open path in the starts."""
-
-MOST_SWAY = 0.8
-"""Greatest sway of the speed at which a start passes the points, over its mean."""
 
 
 def link_lengths(
@@ -69,23 +62,3 @@ def _shapes(count: int, double: bool, ratio: float, least_angle: float, rng: np.
     good = (links.max(axis=0) <= links.min(axis=0) * math.exp(spread)) & np.isfinite(shapes).all(axis=1)
     kept: Array = shapes[good]
     return kept
-
-
-def random_angles(
-    count: int, unit: Plane, turns: Array | None, way: int, closed: bool, rng: np.random.Generator
-) -> Array:
-    """Crank angles (count, n), rad: the given ones from a random start, or a pass at a swaying speed."""
-    first = rng.uniform(0, math.tau, (count, 1))
-    if turns is not None:
-        return first + turns
-    n = unit.size
-    steps = np.abs(np.diff(np.append(unit, unit[0]) if closed else unit))
-    chords = np.concatenate(([0.0], np.cumsum(steps)))
-    even = np.arange(n) / (n if closed else n - 1)
-    mix = rng.uniform(0, 1, (count, 1))
-    passed = mix * even + (1 - mix) * (chords[:n] / chords[-1])
-    sway, phase = rng.uniform(0, MOST_SWAY, (count, 1)), rng.uniform(0, math.tau, (count, 1))
-    passed = passed + sway / math.tau * (np.sin(math.tau * passed + phase) - np.sin(phase))
-    span = math.tau if closed else rng.uniform(LEAST_SPAN, MOST_SPAN, (count, 1))
-    angles: Array = first + way * span * passed
-    return angles

@@ -7,12 +7,14 @@ import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import Severity
+from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
+from mechwright.mechanics.tracing.requirement import fault_of_points
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.cognates import Drawing, cognates
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.paths.asked import PathProblem
-from mechwright_four_bar.paths.points import all_angles, fault, problem_of, thinned
+from mechwright_four_bar.paths.points import problem_of
 from mechwright_four_bar.paths.refit import fitted, rounded
 from mechwright_four_bar.paths.same import distinct
 from mechwright_four_bar.paths.search import PathSearch, PathSolution, path, search
@@ -46,13 +48,13 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     smallest leading, then the others, the best transmission angle leading. Then come the designs that do not,
     the nearest first.
     """
-    if said := fault(wanted):
+    if said := fault_of_points(wanted.points, wanted.crank_turns is not None):
         return Synthesis((), (Finding.error("path.points", "points", said),))
     problem = problem_of(wanted)
     if said := problem.limits.contradiction():
         message = f"no linkage keeps the limits: {said}"
         return Synthesis((), (Finding.error("path.contradiction", "longest_link", message),))
-    chosen = thinned(problem.targets, problem.closed)
+    chosen = thinned(in_plane(problem.targets), problem.closed)
     turns = None if problem.turns is None else problem.turns[chosen]
     few = replace(problem, targets=problem.targets[chosen], turns=turns)
     met = max(wanted.tolerance, EXACT * problem.size)
@@ -72,11 +74,12 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
         wanted.designs,
         rejected,
         lambda part: progress(SEARCH + (1 - SEARCH) * part, "designs"),
+        len(good),
     )
     if not candidates:
         return Synthesis((), (_refusal(wanted, result, good, reason),), rejected.reasons)
     best = min(good, key=lambda one: one.squares)
-    said_of = _said(wanted, problem, best, candidates[0].residual.value, met)
+    said_of = [_count(result, len(good)), *_said(wanted, problem, best, candidates[0].residual.value, met)]
     return Synthesis(tuple(candidates), tuple(said_of), rejected.reasons)
 
 
@@ -168,6 +171,16 @@ def _found(chosen: tuple[PathSolution, int]) -> Found:
         "cognate": Scalar(float(number), ""),
     }
     return Found(one.bar, Scalar(one.mean, "mm"), figures, one.pivot, one.point, one.sense)
+
+
+def _count(result: PathSearch, looked: int) -> Finding:
+    """How many linkages there were to choose from."""
+    return Finding.note(
+        "path.found",
+        f"in {result.starts} starts {len(result.solutions)} linkages came to rest within the limits and "
+        f"{result.unsettled} beyond one; the {looked} nearest that differ were looked at",
+        float(len(result.solutions)),
+    )
 
 
 def _said(

@@ -123,9 +123,10 @@ def designs_of(family: Phased[W, P], progress: Progress) -> Synthesis[P]:
     candidates: list[Candidate[P]] = []
     given: list[np.ndarray] = []
     reason = ""
-    for one in kept:
+    for looked, one in enumerate(kept, start=1):
         row = np.array(family.all_lengths(one)) / size
         if given and distinct(np.array([*given, row]), SAME).size <= len(given):
+            rejected.same()
             continue
         designs = _designs(family, one, rejected)
         if isinstance(designs, str):
@@ -134,6 +135,7 @@ def designs_of(family: Phased[W, P], progress: Progress) -> Synthesis[P]:
         given.append(row)
         candidates += designs
         if len(given) == wanted.designs:
+            rejected.beyond(wanted.designs, len(kept) - looked)
             break
     progress(1.0, "done")
     notes = [count_note(wanted, family.bars, family.moves)]

@@ -14,9 +14,9 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable.fit import Fit, fit
 from mechwright.mechanics.adjustable.mechanism import Pins, Unknowns, follow
-from mechwright.mechanics.adjustable.order import assigned
 from mechwright.mechanics.adjustable.space import Points
 from mechwright.mechanics.adjustable.task import Limits, Task
+from mechwright.mechanics.tracing.order import assigned
 
 FITTED = 48
 """Random starts of the first phase that are fitted, in each round."""

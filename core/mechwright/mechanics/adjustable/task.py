@@ -9,6 +9,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable.mechanism import Pins, Unknowns, follow
 from mechwright.mechanics.adjustable.space import Points
+from mechwright.mechanics.tracing.order import isotonic
 
 RANGE_SAMPLES, TURN_SAMPLES = 13, 36
 """Crank angles per phase at which the transmission angle is held: over the phase, or over a whole turn."""
@@ -60,6 +61,18 @@ class Task:
     phase: np.ndarray
     size: float
     limits: Limits
+
+    def made(self, x: Array) -> Pins:
+        """The pins (..., phases) of unknowns (..., k)."""
+        return self.unknowns.pins(x)
+
+    def ordered(self, theta: Array, sense: Array) -> Array:
+        """The nearest angles (s, n) that go one way from the pose of setting, within a turn in each phase."""
+        found = theta * sense
+        for phase in range(self.unknowns.phases):
+            own = self.phase == phase
+            found[:, own] = np.clip(isotonic(found[:, own]), 0.0, math.tau)
+        return np.asarray(found * sense)
 
     def misses(self, x: Array, theta: Array) -> Array:
         """Differences (..., n, 2 or 3) from the points, in sizes of the path."""

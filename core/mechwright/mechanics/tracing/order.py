@@ -1,8 +1,13 @@
 """Crank angles in the order of the points."""
 
+import math
+
 import numpy as np
 
 from mechwright.arrays import Array
+
+TURN = math.tau * (1 - 1e-9)
+"""Most that the crank turns from the first point to the last."""
 
 
 def isotonic(values: Array) -> Array:
@@ -23,6 +28,16 @@ def isotonic(values: Array) -> Array:
     low = np.minimum.accumulate(low, axis=-1)[..., ::-1]  # least over j from k on, for each i
     low = np.where(inside, low, -np.inf)
     return np.asarray(low.max(axis=-2))
+
+
+def one_way(theta: Array, sense: Array, slack: float = 0.0) -> Array:
+    """The nearest angles (s, n), rad, that go one way within a turn of the crank, for senses (s, 1).
+
+    ``slack`` is the angle by which a point may lie before the one before it.
+    """
+    back = slack * np.arange(theta.shape[-1])
+    found = isotonic(theta * sense + back) - back
+    return np.asarray(np.minimum(found, found[..., :1] + TURN) * sense)
 
 
 def assigned(costs: Array) -> tuple[Array, np.ndarray]:

@@ -1,0 +1,187 @@
+"""Linkages near prescribed points, within limits, from many random starts in rounds.
+
+In each round, for every room, many random linkages are compared with the points; the best take some steps, of
+these the best more, and the best of these are brought to rest with all limits kept. The search ends when the
+same best has come back in several rounds, when enough linkages meet the points, or when all starts are used.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.mechanics.multistart import distinct
+from mechwright.mechanics.tracing.descent import Traced, descend, excess, settle, squares
+
+STAGES = ((96, 12, 1.0), (32, 24, 10.0), (12, 40, 30.0))
+"""How many of the best go on, for how many steps, and the weight of the limits meanwhile."""
+
+SETTLED, LAST_STEPS = 40, 200
+"""Most steps between two changes of the multipliers, and of those that come close in the end."""
+
+CLOSE, FINISHED = 1e-3, 2
+"""Root mean square distance, in sizes of the path, from which points may be met exactly in the end, and how
+many of a room are followed there: where the points hardly tell linkages apart, the way is long and flat."""
+
+MET = 1e-8
+"""Root mean square distance, in sizes of the path, at which points are met exactly, for the search."""
+
+BROKEN = 1e-8
+"""A linkage at rest that passes a limit by more is beyond it."""
+
+SAME_START, SAME = 1e-3, 1e-2
+"""Unknowns that agree so far are one start, and one linkage where those that meet the points are counted."""
+
+AGAIN, SAME_SQUARES = 3, 1e-3
+"""Rounds that have to bring the best back, and the share of the sum of squares within which they have."""
+
+
+class Room(Traced, Protocol):
+    """Linkages of one branch and one sense of the crank."""
+
+    @property
+    def sense(self) -> int:
+        """In which the crank goes through the points, +1 or -1."""
+
+    def starts(self, count: int, rng: np.random.Generator) -> tuple[Array, Array, Array]:
+        """Random unknowns (m, k), angles (m, n), and what to rank them by (m,); m is at most ``count``."""
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A linkage at rest.
+
+    Parameters
+    ----------
+    room
+        Number of its room.
+    x, theta
+        Unknowns (k,) and crank angles (n,), rad.
+    mean
+        Root mean square distance from the points, in sizes of the path.
+    excess
+        The most by which it passes a limit; 0 or less where it keeps all.
+    """
+
+    room: int
+    x: Array
+    theta: Array
+    mean: float
+    excess: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether it keeps all limits."""
+        return self.excess <= BROKEN
+
+
+@dataclass(frozen=True)
+class Traces:
+    """What a search has found: linkages within the limits, the nearest first, and those beyond one."""
+
+    kept: tuple[Trace, ...]
+    beyond: tuple[Trace, ...]
+    starts: int
+
+
+def search(
+    rooms: Sequence[Room],
+    starts: int,
+    rounds: int,
+    wanted: int,
+    seed: int,
+    met: float,
+    progress: Callable[[float], None],
+) -> Traces:
+    """Linkages of all rooms near the points.
+
+    Parameters
+    ----------
+    starts, rounds
+        Random linkages of a room in one round, and most rounds.
+    wanted
+        How many distinct linkages that meet the points are enough.
+    met
+        Root mean square distance, in sizes of the path, that counts as met.
+    progress
+        Told the part that is done, 0 to 1.
+    """
+    found: list[Trace] = []
+    best: list[float] = []
+    tried = 0
+    for turn in range(rounds):
+        fresh: list[Trace] = []
+        for number, room in enumerate(rooms):
+            rng = np.random.default_rng([seed, turn, number])
+            x, theta, cost = room.starts(starts, rng)
+            tried += len(x)
+            fresh += _at_rest(room, number, x, theta, cost)
+            progress((turn + (number + 1) / len(rooms)) / rounds)
+        found += fresh
+        best.append(min((one.mean for one in fresh if one.kept), default=math.inf))
+        if _enough(found, best, wanted, max(met, MET)):
+            break
+    found.sort(key=lambda one: one.mean)
+    kept, beyond = (tuple(one for one in found if one.kept is good) for good in (True, False))
+    return Traces(kept, beyond, tried)
+
+
+def _enough(found: Sequence[Trace], best: Sequence[float], wanted: int, met: float) -> bool:
+    exact = [one.x for one in found if one.kept and one.mean <= met]
+    if len(exact) >= wanted and len(distinct(np.array(exact), SAME)) >= wanted:
+        return True
+    least = min(best)
+    same = max(least * math.sqrt(1 + SAME_SQUARES), 10 * met)
+    return math.isfinite(least) and sum(one <= same for one in best) >= AGAIN
+
+
+def _at_rest(room: Room, number: int, x: Array, theta: Array, cost: Array) -> list[Trace]:
+    """Of starts those that lead nearest to the points, at rest."""
+    order = np.argsort(cost, kind="stable")[: STAGES[0][0]]
+    order = order[np.isfinite(cost[order])]
+    x, theta = x[order], theta[order]
+    for most, steps, weight in STAGES:
+        x, theta = x[:most], theta[:most]
+        x, theta = descend(room, x, theta, _senses(room, x), weight, steps)
+        price = squares(room, x, theta) + np.maximum(weight * excess(room, x, theta), 0.0) ** 2
+        order = np.argsort(np.where(np.isfinite(price), price, np.inf), kind="stable")
+        order = order[np.isfinite(price[order])]
+        x, theta = x[order], theta[order]
+        if len(x):
+            one = distinct(x, SAME_START)
+            x, theta = x[one], theta[one]
+    return followed(room, number, x, theta)
+
+
+def followed(room: Room, number: int, x: Array, theta: Array) -> list[Trace]:
+    """Linkages (s, k), (s, n) brought to rest within the limits; those that come close, to where they end."""
+    if not len(x):
+        return []
+    x, theta = settle(room, x, theta, _senses(room, x), SETTLED)
+    mean = np.sqrt(squares(room, x, theta) / theta.shape[1])
+    close = np.flatnonzero((mean > MET) & (mean < CLOSE))
+    close = close[np.argsort(mean[close], kind="stable")][:FINISHED]
+    if close.size:
+        x[close], theta[close] = settle(room, x[close], theta[close], _senses(room, x[close]), LAST_STEPS)
+        mean = np.sqrt(squares(room, x, theta) / theta.shape[1])
+    over = excess(room, x, theta)
+    good = np.isfinite(mean) & np.isfinite(over)
+    return [
+        Trace(number, x[k], theta[k], float(mean[k]), float(over[k])) for k in np.flatnonzero(good).tolist()
+    ]
+
+
+def _senses(room: Room, x: Array) -> Array:
+    return np.full((len(x), 1), float(room.sense))
+
+
+ROUND = 6000
+"""Random linkages of a room in one round."""
+
+
+def rounds_of(starts: int) -> int:
+    """Rounds in which at most so many random linkages of a room are tried."""
+    return max(1, math.ceil(starts / ROUND))
