@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from by_night import by_night
 
+from mechwright.designs.change import rewritten
+
 Run = Callable[..., tuple[int, str, str]]
 
 SHORT = """\
@@ -141,6 +143,25 @@ def test_fix_as_json(run: Run, short: Path) -> None:
 
 
 @by_night
+def test_a_small_crank_keeps_its_lengths_and_has_a_pin_that_is_made(run: Run, short: Path) -> None:
+    """The family alone would make the pin 1 mm, whose bore no cutter makes."""
+    short.write_text(
+        'family = "slider-crank"\n[parameters]\ncrank = 3\nrod = 10\noffset = 1\n', encoding="utf-8"
+    )
+    target = short.with_name("new.toml")
+    code, out, _ = run("fix", short, "-o", target)
+    assert code == 0, out
+    assert tomllib.loads(target.read_text(encoding="utf-8"))["parameters"] == {
+        "crank": 3,
+        "rod": 10,
+        "offset": 1,
+        "pin": 1.34,
+        "rail": 20,
+    }
+    assert run("build", target, "-o", short.with_name("out"))[0] == 0
+
+
+@by_night
 def test_a_small_linkage_comes_to_build_up_to_its_programs(run: Run, short: Path) -> None:
     """The nearest for its parts alone has walls that no tab holds while they are cut: another is taken."""
     short.write_text(SMALL, encoding="utf-8")
@@ -188,6 +209,11 @@ def test_what_is_refused_tells_them_too(run: Run, short: Path) -> None:
     [
         ("keyway_width = 3\n", "gear.cut-key"),
         pytest.param("eccentricity = 0.5\nsemi_major = 40\nteeth = 50\n", "gear.cut-mesh", marks=by_night),
+        pytest.param(
+            "eccentricity = 0.5\nsemi_major = 30\nteeth = 50\nthickness = 14\n",
+            "gear.cut-mesh",
+            marks=by_night,
+        ),
     ],
 )
 def test_what_cutters_leave_is_told_with_a_proposal_that_works(
@@ -200,10 +226,7 @@ def test_what_cutters_leave_is_told_with_a_proposal_that_works(
     assert wrong["code"] == code
     ((key, value),) = wrong["fix"].items()
     assert wrong["remedy"].startswith(f"set {key.removeprefix('parameters.')} = {value}")
-    table, _, name = key.rpartition(".")
-    line = f"{name} = {value}\n"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text + (line if table == "parameters" else f"[{table}]\n{line}"), encoding="utf-8")
+    path.write_text(rewritten(path.read_text(encoding="utf-8"), wrong["fix"]), encoding="utf-8")
     assert run("check", path)[0] == 0
 
 

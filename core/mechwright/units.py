@@ -22,6 +22,12 @@ _POWER = r"(?:(?:\^|\*\*)-?\d|[²³])?"
 _TERM = rf"(?:{_UNIT}|1){_POWER}"
 _UNITS = re.compile(rf"{_TERM}(?:\s*[*/·]\s*{_TERM}|\s+{_TERM})*")
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(/\s*\d+)?\s*([^\d/].*?)\s*")
+_MIXED = re.compile(r"\s*([+-]?)(\d+)\s+(\d+)\s*/\s*(\d+)(?=\D)")
+"""Whole inches and a fraction, as in ``"3 1/2 in"``."""
+_TORQUE = re.compile(r"\b([mkM]?N)([cm]?m)\b")
+"""Newton metres as they are written, ``Nm``: pint takes them for metres of a number of yarn."""
+_TWO_MEANINGS = {"grad", "Grad"}
+"""A degree to some and a hundredth of a right angle to others (``gon``)."""
 
 _SIGNIFICANT = 15
 """Digits a converted value keeps: every decimal of 15 digits survives, the rounding of a factor does not."""
@@ -40,10 +46,10 @@ def _registry() -> Any:
 @cache
 def _parse(symbol: str) -> Any:
     """The unit of pint with this symbol; raises ValueError if it is none."""
-    if symbol and not _UNITS.fullmatch(symbol):
+    if symbol and (not _UNITS.fullmatch(symbol) or _TWO_MEANINGS & set(re.findall(r"\w+", symbol))):
         raise ValueError(f"'{symbol}' is no unit")
     try:
-        return _registry().parse_units(symbol.replace("·", "*"))
+        return _registry().parse_units(_TORQUE.sub(r"\1*\2", symbol.replace("·", "*")))
     except Exception as error:
         # pint lets a tokenizer's, a parser's and its own errors through: one meaning for the caller.
         raise ValueError(f"'{symbol}' is no unit") from error
@@ -64,7 +70,7 @@ def kind(symbol: str) -> str:
 
 
 def convert(text: str, unit: str) -> float:
-    """Read a quantity, such as ``"2 in"`` or ``"1/4 in"``, and give its magnitude in ``unit``.
+    """Read a quantity, such as ``"2 in"`` or ``"3 1/2 in"``, and give its magnitude in ``unit``.
 
     A number alone is taken to be in ``unit``, which is spelled as pint does; ``""`` is a pure number. Raises
     ValueError for a text that is no quantity, or of another kind than ``unit``.
@@ -86,8 +92,14 @@ def convert(text: str, unit: str) -> float:
     return value
 
 
+def _improper(mixed: re.Match[str]) -> str:
+    """Seven halves for ``3 1/2``."""
+    sign, whole, number, divisor = mixed.groups()
+    return f"{sign}{int(whole) * int(divisor) + int(number)}/{divisor}"
+
+
 def _quantity(text: str, unit: str, wrong: ValueError) -> float:
-    match = _QUANTITY.fullmatch(text)
+    match = _QUANTITY.fullmatch(_MIXED.sub(_improper, text, count=1))
     if match is None:
         raise wrong
     number, divisor, symbol = match.groups()

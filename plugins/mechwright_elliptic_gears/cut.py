@@ -30,6 +30,5 @@ def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]
 
 def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Polygon") -> Finding:
     deviation = outline_of(params).deviation
-    return cut_mesh(
-        prove_outlines(params, ring_of(one), 2 * (deviation + TOLERANCES.flatten), ring_of(other))
-    )
+    allowance = 2 * (deviation + TOLERANCES.flatten)
+    return cut_mesh(prove_outlines(params, ring_of(one), allowance, ring_of(other)), params.thickness)

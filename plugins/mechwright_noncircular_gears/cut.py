@@ -19,7 +19,7 @@ def cut_findings(params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]"
     if all(name in cut for name in NAMES):
         allowance = sum(outline.deviation + 2 * TOLERANCES.flatten for outline in outlines_of(params))
         one, two = (ring_of(cut[name]) for name in NAMES)
-        found.append(cut_mesh(prove_outlines(params, one, two, allowance)))
+        found.append(cut_mesh(prove_outlines(params, one, two, allowance), params.thickness))
     key = 0.0 if params.keyway_width > 0 else None
     for name in NAMES:
         if name in cut:

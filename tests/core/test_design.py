@@ -110,7 +110,7 @@ MISTAKES = {
     "not finite": (PREFIX + "[parameters]\ndiameter = nan\n", "parameters.diameter:"),
     "true is no number": (
         PREFIX + "[parameters]\nholes = true\n",
-        "parameters.holes: True true and false are no numbers",
+        "parameters.holes: true is no number",
     ),
     "fraction of a count": (PREFIX + "[parameters]\nholes = 2.5\n", "parameters.holes: 2.5"),
     "no table": (PREFIX + "parameters = 3\n", "write a table [parameters]"),

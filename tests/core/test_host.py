@@ -94,6 +94,10 @@ def test_what_is_not_installed_is_named_with_what_is(plugin, what, known):
     host = load([plugin(FAMILY), plugin(OUTPUT, "output")])
     with pytest.raises(PluginError, match=f"{what.kind} 'camm' is not installed; known: {known}"):
         host.get(what, "camm")
+    with pytest.raises(
+        PluginError, match="; did you mean 'cam'\\?$" if known == "cam" else f"known: {known}$"
+    ):
+        host.get(what, "camm")
     with pytest.raises(PluginError, match="known: none is installed"):
         load([]).get(what, "cam")
 

@@ -1,5 +1,6 @@
 """The search for remedies, on a family whose limits are known exactly."""
 
+import importlib
 import io
 import math
 from dataclasses import replace
@@ -64,6 +65,18 @@ def test_what_has_to_go_together_goes_together():
     assert change in ({"parameters.collar": 40}, {"parameters.width": 10}, {"parameters.width": 1.5})
 
 
+def test_where_keys_are_too_many_another_value_of_one_stands_for_two(monkeypatch):
+    module = importlib.import_module("mechwright.remedies.nearest")
+    one = bench(design(collar=3, collar_width=2, tilt=77.0))
+    back = {"parameters.collar": None, "parameters.collar_width": None, "parameters.tilt": 0}
+    assert one.builds(back)
+    assert module._joined(one, back) == back, "not too many"
+    monkeypatch.setattr(module, "MOST_CHANGES", 2)
+    assert module._joined(one, back) == {"parameters.collar": 40, "parameters.tilt": 30}
+    monkeypatch.setattr(module, "MOST_CHANGES", 1)
+    assert one.builds(module._joined(one, back))
+
+
 def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
     class Proposing(Beam):
         def check(self, params):
@@ -83,6 +96,19 @@ def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
 
     (slender,) = told(design(Proposing, length=437.5))
     assert slender.fix == {"parameters.width": 45}
+
+
+def test_a_proposal_is_written_without_the_last_digits_of_its_reckoning():
+    class Reckoning(Beam):
+        def check(self, params):
+            return [
+                error(one.code, one.parameter, "x", proposed=({"parameters.width": 3 * 14.7},))
+                for one in errors(super().check(params))
+            ]
+
+    assert 3 * 14.7 != 44.1
+    (slender,) = told(design(Reckoning, length=437.5))
+    assert slender.fix == {"parameters.width": 44.1}
 
 
 def test_where_nothing_helps_it_says_what_was_tried():

@@ -74,5 +74,5 @@ class Parameters(BaseModel):
         if isinstance(value, bool) and info.field_name is not None:
             annotation = cls.model_fields[info.field_name].annotation
             if annotation is not bool and bool not in get_args(annotation):
-                raise ValueError("true and false are no numbers")
+                raise ValueError("is no number")
         return value

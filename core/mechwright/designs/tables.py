@@ -18,8 +18,13 @@ _MESSAGES = {
     "int_parsing": "should be a whole number",
     "int_from_float": "should be a whole number",
     "int_type": "should be a whole number",
+    "float_type": "should be a number",
+    "float_parsing": "should be a number",
 }
 """Where pydantic speaks of Python's types, by its own name of the error."""
+
+_SHORT = 40
+"""Characters of a list or a table that a line shows."""
 
 
 def read_table(model: type[T], table: object, source: str, where: str, path: Path = Path("design.toml")) -> T:
@@ -51,10 +56,21 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
             message = _MESSAGES.get(item["type"]) or item["msg"]
             for start in ("Value error, ", "Input ", "String "):
                 message = message.removeprefix(start)
-            value = item.get("input")
-            if isinstance(value, (str, int, float)) and item["type"] not in {"unit", "file"} and keys:
-                message = f"{value!r} {message}"
+            value = _shown(item.get("input"), item["type"])
+            if value and keys and not (value.startswith("'") and value in message):
+                message = f"{value} {message}"
             yield f"{place}: {message}"
+
+
+def _shown(value: object, error: str) -> str:
+    """A wrong value as a line shows it; empty where the message has it, or where it would fill the line."""
+    if error in {"unit", "file"}:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str | int | float):
+        return repr(value)
+    return repr(value) if error.endswith("_type") and len(repr(value)) <= _SHORT else ""
 
 
 def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:

@@ -1,5 +1,6 @@
 """The plugin host: finds plugins, keeps what they register, and turns a broken one into a warning."""
 
+import difflib
 import os
 import re
 from collections.abc import Iterable, Sequence
@@ -91,7 +92,9 @@ class Host:
         if name in items:
             return items[name].item
         known = ", ".join(sorted(items)) or "none is installed"
-        raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}")
+        close = difflib.get_close_matches(name, items, 1)
+        meant = f"; did you mean {close[0]!r}?" if close else ""
+        raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}{meant}")
 
     def family(self, name: str) -> "Family[Any]":
         """The family of this name; raises PluginError that lists the installed ones."""

@@ -6,6 +6,7 @@ that of the design, and every key that may have the design's value gets it back.
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from mechwright.contracts.finding import Change
 from mechwright.remedies.bench import Bench, identity
@@ -55,7 +56,7 @@ def candidates(bench: Bench, enough: int = 0) -> list[Change]:
     def rank(change: Change) -> tuple[bool, bool, float]:
         return len(change) > MOST_CHANGES, bench.spoils(change), bench.size(change)
 
-    return sorted((_trimmed(bench, change) for change in found), key=rank)
+    return sorted((_joined(bench, _trimmed(bench, change)) for change in found), key=rank)
 
 
 def _by_steps(bench: Bench) -> Change | None:
@@ -137,3 +138,28 @@ def _trimmed(bench: Bench, change: Change) -> Change:
     """The same remedy without what it does not need, its numbers as near as they may be."""
     small = _given_back(bench, change)
     return drawn_back(bench, small, bench.kept_by(small))
+
+
+def _joined(bench: Bench, change: Change) -> Change:
+    """A remedy of too many keys with fewer, where there is one: two go back, and one other value does.
+
+    The way back from the defaults knows the values of the defaults alone: a law of the drive and its number
+    both go, where a smaller number is enough. Keys whose names begin alike are tried together first.
+    """
+    while len(change) > MOST_CHANGES:
+        pairs = sorted(combinations(change, 2), key=lambda pair: len({path.split("_")[0] for path in pair}))
+        fewer = next(filter(None, (_in_place_of(bench, change, pair) for pair in pairs)), None)
+        if fewer is None:
+            return change
+        change = _trimmed(bench, fewer)
+    return change
+
+
+def _in_place_of(bench: Bench, change: Change, pair: tuple[str, str]) -> Change | None:
+    """A change that builds, with two keys as the file says them, and another value of one key at most."""
+    rest = {path: value for path, value in change.items() if path not in pair}
+    left = bench.errors(rest)
+    step = best_step(bench, left[0], rest, left) if left else None
+    if step is None or len(step.change) >= len(change) or not bench.kept_by(change)(step.change):
+        return None
+    return step.change

@@ -11,6 +11,7 @@ from mechwright.errors import MechwrightError
 from mechwright.plugins.host import Host
 from mechwright.remedies.bench import Bench, Judge, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, candidates, nearest
+from mechwright.remedies.search import proposed_step
 
 FAMILY = Limits(tries=1500, seconds=60.0)
 """For what the family itself judges: milliseconds each."""
@@ -18,6 +19,9 @@ INSPECTED = Limits(tries=60, seconds=120.0)
 """For what inspections judge: a second or so each, of cutters and of bodies that meet."""
 REFUSED = "build.refused"
 """Code of the finding that work ended with an error: no cutter, no parts, a program that is not proven."""
+
+_PROPOSED = 3
+"""Proposals that are followed from a change that pleases the family, before the next such change is tried."""
 
 Ask = Callable[[Build], Sequence[Finding]]
 
@@ -55,16 +59,34 @@ def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unhe
     first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
     whole = asked.judge(asked.looks)
-    start: Change = {}
+    possible: list[Change] = [{}]
     if found:
         possible = [change for change in candidates(first) if len(change) <= MOST_CHANGES]
         if not possible:
             return Repair(found, None, found, first)
-        for change in possible:
-            if not errors(whole(design.changed(change)), stage):
-                return Repair(found, change, [], first)
-        start = possible[0]
-    return _further(Repair(found, start, [], first), design, asked)
+    for change in possible:
+        bench = Bench(design.changed(change), whole, stage, INSPECTED, progress=progress)
+        stood, more = bench.errors({}) or [], _as_proposed(bench)
+        if more is not None and len(merged := {**change, **more}) <= MOST_CHANGES:
+            return Repair(found or stood, merged, [], first)
+    return _further(Repair(found, possible[0], [], first), design, asked)
+
+
+def _as_proposed(bench: Bench) -> Change | None:
+    """What the findings of a design propose, one after the other, where it builds then; None where not.
+
+    A length that the family has chosen may be none that a cutter makes, and the finding knows the next.
+    """
+    change: Change = {}
+    for _ in range(_PROPOSED + 1):
+        left = bench.errors(change)
+        if not left:
+            return None if left is None else change
+        step = proposed_step(bench, left[0], change, left)
+        if step is None:
+            return None
+        change = step.change
+    return None
 
 
 def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:

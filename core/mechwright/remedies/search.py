@@ -20,6 +20,9 @@ _PAST = (0.0, 1e-3, 1e-2)
 _NEAR = KEY + 0.3
 """A change that helps and costs no more than this ends the search: a number a third larger."""
 
+_EXACT = 12
+"""Significant digits of a proposal: all that is meant, without the last ones of 0.4 x 14."""
+
 _PART = re.compile(r"\bpart [\w-]+")
 """The name of a part, which is none of a key: a four-bar has a part and a length that are called ground."""
 
@@ -81,14 +84,7 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
 
     ``decided`` holds besides. What was proposed comes first, and the first proposal that helps is taken.
     """
-    told = bench.told(finding, decided)
-    alike = [bench.told(one, decided) for one in before if identity(one) == identity(finding)]
-    proposed = [
-        step
-        for proposal in _proposals(bench, alike or [told], decided)
-        if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
-    ]
-    best = min(proposed, key=lambda step: step.worth, default=None)
+    best, told = proposed_step(bench, finding, decided, before), bench.told(finding, decided)
     if best is not None and best.worth <= Worth.HELPS:
         return best
     for key in related(bench, told):
@@ -98,6 +94,17 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
         if best is not None and best.worth <= Worth.HELPS and best.size - bench.size(decided) < _NEAR:
             break
     return best
+
+
+def proposed_step(bench: Bench, finding: Finding, decided: Change, before: list[Finding]) -> Step | None:
+    """The first change that does most against a finding, of those that it and others like it propose."""
+    alike = [bench.told(one, decided) for one in before if identity(one) == identity(finding)]
+    proposed = [
+        step
+        for proposal in _proposals(bench, alike or [bench.told(finding, decided)], decided)
+        if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
+    ]
+    return min(proposed, key=lambda step: step.worth, default=None)
 
 
 def _proposals(bench: Bench, findings: Sequence[Finding], decided: Change) -> list[Change]:
@@ -116,7 +123,7 @@ def unnamed(bench: Bench, finding: Finding, decided: Change) -> list[Change]:
 def written(bench: Bench, change: Change, decided: Change) -> Change:
     """A proposal with its numbers as a person writes them, without what is so already."""
     return {
-        path: typed(bench.keys[path], value)
+        path: typed(bench.keys[path], round_to(value, _EXACT))
         if isinstance(value, float) and path in bench.keys and bench.keys[path].numeric
         else value
         for path, value in change.items()

@@ -20,6 +20,9 @@ takes up more."""
 _SMALLER: tuple[Change, ...] = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5}, {"cam.tools": None})
 """Lets smaller end mills be chosen, for the fillets, or all of the library."""
 
+_THINNER = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2)
+"""Shares of the face width that are proposed where no smaller end mill helps: their flutes are short."""
+
 RELIEF = 0.7
 """Widest relief that is proposed, in widths of the keyway: between two, three tenths of the floor stay."""
 
@@ -38,8 +41,8 @@ def ring_of(polygon: "shapely.Polygon") -> Array:
     return ring
 
 
-def cut_mesh(proof: MeshProof) -> Finding:
-    """What the mesh proof of two outlines as cut says."""
+def cut_mesh(proof: MeshProof, thickness: float) -> Finding:
+    """What the mesh proof of two outlines as cut says; ``thickness`` is the face width, mm."""
     depth, overlap = float(proof.mesh.depth.max()), proof.mesh.overlap
     if proof.collides:
         return Finding.error(
@@ -50,8 +53,8 @@ def cut_mesh(proof: MeshProof) -> Finding:
             depth,
             proof.allowance,
             "mm",
-            "add a smaller end mill",
-            proposed=_SMALLER,
+            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through",
+            proposed=(*_SMALLER, *({"parameters.thickness": share * thickness} for share in _THINNER)),
         )
     return Finding.note(
         "gear.cut-mesh",
