@@ -1,12 +1,14 @@
-"""Cost that grows as the work does: ``python benchmarks/bench_growth.py [gears] [solve]``.
+"""Cost that grows as the work does: ``python benchmarks/bench_growth.py [gears] [stars] [solve]``.
 
-Processor time and greatest memory of a child for pairs of elliptic gears of one module, and for tables of
-more and more samples, of a design of each family. The smallest case of its kind, a pair of 25 teeth or a
-table of 1,000 samples, stands for what a child takes in any case: imports, tables, caches. What each further
-tooth or sample takes may be ``GROWTH`` times what it takes in any smaller size; ``solve`` is bounded as well.
+Processor time and greatest memory of a child for pairs of elliptic gears of one module, for plates with more
+and more points of one size, and for tables of more and more samples, of a design of each family. The smallest
+case of its kind, a pair of 25 teeth or a table of 1,000 samples, stands for what a child takes in any case:
+imports, tables, caches. What each further tooth, point or sample takes may be ``GROWTH`` times what it takes
+in any smaller size; ``solve`` is bounded as well.
 """
 
 import itertools
+import math
 import shutil
 import subprocess
 import sys
@@ -15,6 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import ezdxf
 from harness import require
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
@@ -32,17 +35,19 @@ SOLVED = (
 """Examples that are solved."""
 SEMI_MAJOR = 1.6
 """mm for each tooth: a module of 3.07 mm at e = 0.4, so that all have the same cutters."""
+POINT_PITCH, POINT_DEPTH = 5.0, 5.0
+"""mm of circumference for each point of a star, and how deep it is: the finest mill has to finish it."""
 
-GEARS = """
+PLANNED = """
 import resource, sys
 from mechwright import load
 from mechwright_cam.machining import Machining
 
-pair = load(sys.argv[1])
-pair.require()
-pair.parts
+design = load(sys.argv[1])
+design.require()
+design.parts
 begun = sum(resource.getrusage(resource.RUSAGE_SELF)[:2])
-proofs = [item.proof for item in pair.made(Machining).made]
+proofs = [item.proof for item in design.made(Machining).made]
 assert proofs  # those that fail are raised
 used = resource.getrusage(resource.RUSAGE_SELF)
 print(sum(used[:2]) - begun, used.ru_maxrss / 1024)
@@ -97,6 +102,23 @@ def pair(teeth: int, folder: Path) -> Path:
     return path
 
 
+def star(points: int, folder: Path) -> Path:
+    """A plate with so many points of one size, on a machine that is large enough."""
+    name, radius = f"star-{points}", POINT_PITCH * points / math.tau
+    drawing = ezdxf.new(units=4)
+    at = [(radius - POINT_DEPTH * (n % 2), math.pi * n / points) for n in range(2 * points)]
+    corners = [(away * math.cos(turn), away * math.sin(turn)) for away, turn in at]
+    drawing.modelspace().add_lwpolyline(corners, close=True)
+    drawing.saveas(folder / f"{name}.dxf")
+    path = folder / f"{name}.toml"
+    path.write_text(
+        f'format = 1\nfamily = "plate"\nname = "{name}"\n[parameters]\ndrawing = "{name}.dxf"\n'
+        'thickness = 3\n[cam]\nmachine = "large.toml"\n',
+        encoding="utf-8",
+    )
+    return path
+
+
 def grown(title: str, least: int, costs: Mapping[int, Cost], unit: str, each: int) -> bool:
     """Print what each ``each`` more than the least size take, and whether that is the same for all sizes."""
     print(f"\n{title}")
@@ -124,9 +146,15 @@ def rise(shares: Sequence[float]) -> float:
 
 def gears(folder: Path) -> bool:
     (folder / "large.toml").write_text(MACHINE, encoding="utf-8")
-    costs = {teeth: cost(GEARS, pair(teeth, folder)) for teeth in (25, 99, 300, 600)}
+    costs = {teeth: cost(PLANNED, pair(teeth, folder)) for teeth in (25, 99, 300, 600)}
     kept = grown("planning and proof of a pair", 25, costs, "teeth", 1)
     return require("300 teeth, s of one core", costs[300].seconds, MOST_SECONDS) and kept
+
+
+def stars(folder: Path) -> bool:
+    (folder / "large.toml").write_text(MACHINE, encoding="utf-8")
+    costs = {points: cost(PLANNED, star(points, folder)) for points in (30, 60, 120, 240)}
+    return grown("planning and proof of a star", 30, costs, "points", 1)
 
 
 def solve(folder: Path) -> bool:
@@ -145,7 +173,7 @@ def _solved(design: Path, folder: Path) -> bool:
     return require("a million samples, MB", costs[1_000_000].memory, MOST_MEMORY) and kept
 
 
-WORK: dict[str, Callable[[Path], bool]] = {"gears": gears, "solve": solve}
+WORK: dict[str, Callable[[Path], bool]] = {"gears": gears, "stars": stars, "solve": solve}
 
 
 def main(*wanted: str) -> int:

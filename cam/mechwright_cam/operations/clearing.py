@@ -231,9 +231,8 @@ class Roughing:
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
         beside = np.zeros(len(paths), dtype=bool)
-        if self.only is not None and not self.ridges and self.tool.centre_cutting:
-            thick = grow(self.only, radius - CLEAR, ROUGH)
-            beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
+        if self._thick is not None:
+            beside = ~shapely.contains_xy(self._thick, starts[:, 0], starts[:, 1])
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
@@ -248,6 +247,16 @@ class Roughing:
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
             runs.append(Run(path, clear, linked, thin))
         return Cavity(tuple(runs), stays_inside(free, paths[-1].end, paths[0].start))
+
+    @cached_property
+    def _thick(self) -> shapely.Geometry | None:
+        """Where the mill would meet more than the allowance of walls, prepared; None if it may not plunge.
+
+        All cavities share it: there are as many as corners, and each would look at all of the stock.
+        """
+        if self.only is None or self.ridges or not self.tool.centre_cutting:
+            return None
+        return prepared(grow(self.only, self.radius - CLEAR, ROUGH))
 
     def _pieces(self) -> list[Piece]:
         radius = self.radius
