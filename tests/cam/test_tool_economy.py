@@ -136,7 +136,7 @@ def test_the_width_of_a_ring_is_that_of_the_crescent_it_takes(mill, free, share)
 
 @pytest.mark.parametrize("angle", [1.0, 3.0, 20.0])
 def test_a_ramp_is_fed_the_faster_the_less_steep_it_is_and_a_steep_one_at_half(angle):
-    rates = Rates(10_000, 1000, 500, 250, 5000, 0.03)
+    rates = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
     pen = Pen(LIBRARY.get("mill-6"), rates, 5.0, math.tan(math.radians(angle)))
     steep = min(pen.slope, STEEP)
     assert [pen.ramp_feed(share * steep * 80, 80) for share in (0, 0.2, 0.5, 1, 2)] == [

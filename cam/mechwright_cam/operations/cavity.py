@@ -52,7 +52,7 @@ def write_cavities(
                     pen.straight(one.path.start, pen.air)
                 else:
                     pen.above(one.path.start)
-                    pen.sink(z)
+                    pen.sink(z, pen.air_down)
                 pen.follow(one.path)
             above = z
     pen.retract()

@@ -76,6 +76,8 @@ class Run:
     """The start is clear of stock, so the cutter may be sunk there."""
     linked: bool
     """The cutter may go straight from the end of the run before to the start of this one at depth."""
+    cleared: bool = False
+    """All of that way is cleared, so that it is no cut."""
     beside: bool = False
     """Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
     centre may be plunged through that, slowly, which is shorter than a ramp."""
@@ -85,8 +87,14 @@ class Run:
 class Cavity:
     """Runs that remove connected stock, in cutting order; ``back``: the last leads to the first."""
 
+    core: shapely.Polygon
+    """That stock, less slivers at its edge."""
     runs: tuple[Run, ...]
     back: bool
+    cleared: bool
+    """All of the way back is cleared."""
+    bottom: float | None = None
+    """Down to which it is cut, z in mm, if that is not the bottom of its zone."""
 
 
 class Roughing:
@@ -228,25 +236,44 @@ class Roughing:
         """Find out which runs may be entered from the one before without lifting the cutter."""
         radius, stock = self.radius, None
         swept: shapely.Geometry = shapely.Polygon()
+        trails = [shapely.LineString(path.points(radius / 3)) for path in paths]
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
         beside = np.zeros(len(paths), dtype=bool)
         if self._thick is not None:
             beside = ~shapely.contains_xy(self._thick, starts[:, 0], starts[:, 1])
-        runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
+        runs = [Run(paths[0], bool(is_open[0]), linked=False, beside=bool(beside[0]))]
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
             linked = stays_inside(free, last.end, path.start)
-            if linked and math.dist(last.end, path.start) > NEXT_RING * self.step:
+            far = linked and math.dist(last.end, path.start) > NEXT_RING * self.step
+            if far:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
                 stock = grow(core, self.sliver, ROUGH) if stock is None else stock
-                trail = shapely.linestrings(last.points(radius / 3))
-                swept = shapely.union(swept, shapely.buffer(trail, radius, quad_segs=6))
+                swept = shapely.union(swept, shapely.buffer(trails[len(runs) - 1], radius, quad_segs=6))
                 way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
-            runs.append(Run(path, clear, linked, thin))
-        return Cavity(tuple(runs), stays_inside(free, paths[-1].end, paths[0].start))
+            way_there = last.end, path.start
+            cleared = far and linked and self._is_cleared(*way_there, trails[: len(runs)], near)
+            runs.append(Run(path, clear, linked, cleared, thin))
+        ends = paths[-1].end, paths[0].start
+        back = stays_inside(free, *ends)
+        return Cavity(core, tuple(runs), back, back and self._is_cleared(*ends, trails, near))
+
+    def _is_cleared(
+        self, a: Point, b: Point, trails: list[shapely.LineString], near: shapely.Geometry
+    ) -> bool:
+        """Whether the cutter meets nothing on a straight way, after some ``trails`` at the same height."""
+        line = shapely.LineString([a, b])
+        if not shapely.intersects(near, line):
+            return True
+        way = shapely.buffer(line, self.radius - CLEAR, quad_segs=4)
+        x0, y0, x1, y1 = way.bounds
+        box = x0 - self.radius, y0 - self.radius, x1 + self.radius, y1 + self.radius
+        gone = shapely.buffer(shapely.clip_by_rect(trails, *box), self.radius, quad_segs=6)
+        left = shapely.intersection(way, shapely.clip_by_rect(self.stock.standing, x0, y0, x1, y1))
+        return bool(shapely.difference(left, shapely.union_all(gone)).area <= SLIVER * self.tool.diameter)
 
     @cached_property
     def _thick(self) -> shapely.Geometry | None:
@@ -314,9 +341,9 @@ class Roughing:
         zone = self.zone
         bottom = zone.bottom_for(self.tool)
         top = bottom + self.stock.ridge_height if self.ridges else zone.top
-        heights = levels(top, bottom, step_down)
         for cavity in self.cavities:
             first = cavity.runs[0]
+            heights = levels(top, bottom if cavity.bottom is None else cavity.bottom, step_down)
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
                 _spiral(pen, first.path, top, heights)
             else:
@@ -340,12 +367,13 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
         for number, run in enumerate(cavity.runs):
             # Back to the first run goes through what this level has already cleared.
             back = number == 0 and level > 0 and cavity.back
-            pen.go(run.path.start, run.linked or back)
+            feed = pen.air if run.cleared or (back and cavity.cleared) else None
+            pen.go(run.path.start, run.linked or back, feed)
             if run.beside and not (run.open or run.linked):
                 pen.sink(above)
                 pen.sink(z, pen.rates.plunge)
             elif not run.linked:
-                pen.enter(run.path, above, z, run.open)
+                pen.enter(run.path, above, z, run.open, pen.air_down)
             pen.follow(run.path)
         above = z
 

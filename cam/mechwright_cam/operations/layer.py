@@ -14,6 +14,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
+from mechwright_cam.operations.deeper import join
 from mechwright_cam.operations.finishing import Finishing, finish_depth, finish_engagement
 from mechwright_cam.operations.ladder import change_time, rest_time
 from mechwright_cam.operations.pen import Pen
@@ -159,10 +160,14 @@ class Layer:
                 "list a smaller end mill"
             )
 
-    def finished(self) -> None:
-        """The last cuts of a layer, with a flat end mill before a finer round one."""
-        for mill in self.zone.finishers:
-            self.rough(self.roughing(mill))
+    def finished(self, *, roughed: bool) -> None:
+        """The last cuts of a layer, with a flat end mill before a finer round one.
+
+        What the first of them has to rough may be done already.
+        """
+        for number, mill in enumerate(self.zone.finishers):
+            if number or not roughed:
+                self.rough(self.roughing(mill))
             self.rough_heavy(mill)
             self.level(mill)
             self.finish(mill)
@@ -183,8 +188,19 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
         # The layers share their cutters: the tallest one decides.
         tallest, cut = max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)
         if not tallest.stock.begun or cut.share >= WORTH_A_TOOL or tallest.saves(cut):
-            together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
-            found += [cut for layer in layers for cut in layer.taken()]
+            found += _roughed(layers, cuts)
+    # Places that layers of an outside have in common are roughed before the first of them is finished.
+    if at_once := first.kind == "outside" and layers[0].stock.begun:
+        found += _roughed(layers, together(methodcaller("roughing", first.finishers[0]), layers))
     # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
-    together(Layer.finished, layers)
+    together(methodcaller("finished", roughed=at_once), layers)
     return found + [cut for layer in layers for cut in layer.taken()]
+
+
+def _roughed(layers: Sequence[Layer], cuts: list[Roughing]) -> list[Cut]:
+    """Rough each layer with its cut; places of an outside that layers have in common are cut at once."""
+    if layers[0].zone.kind == "outside" and layers[0].stock.begun:
+        together(lambda cut: cut.cavities, cuts)
+        join(cuts)
+    together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
+    return [cut for layer in layers for cut in layer.taken()]

@@ -18,7 +18,10 @@ from mechwright_cam.shop.tool import Tool
 APPROACH = 1.0
 """Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
 AIR = 2.0
-"""Feed through cleared ground in feeds of the cut."""
+"""Feed through cleared ground in feeds of a full cut."""
+DOWN = 1.5
+"""The same straight down: where the end of a mill should meet something, that is still no more than a proof
+accepts of programs with the cutting data of others."""
 EASIER = 1e-3
 """Ramps are longer than the steepest by this share, and so many mm: rounding of z must make none steeper."""
 STEEP = math.tan(math.radians(3))
@@ -45,8 +48,13 @@ class Pen:
 
     @property
     def air(self) -> float:
-        """Feed through what is cleared, at depth, mm/min: faster than in the cut."""
-        return min(AIR * self.rates.feed, self.rates.fastest)
+        """Feed through what is cleared, at depth, mm/min: no slower than in the cut."""
+        return max(self.rates.feed, min(AIR * self.rates.full, self.rates.fastest))
+
+    @property
+    def air_down(self) -> float:
+        """Feed straight down through what is cleared, mm/min."""
+        return max(self.rates.feed, min(math.floor(DOWN * self.rates.full), self.rates.fastest))
 
     def above(self, point: Point) -> None:
         """Retract, rapid over a point and down to just over the stock."""
@@ -58,10 +66,10 @@ class Pen:
         self.moves.append(Rapid(z=height))
         self.place, self.z, self.level = point, height, height
 
-    def go(self, point: Point, direct: bool) -> None:
+    def go(self, point: Point, direct: bool, feed: float | None = None) -> None:
         """Straight to a point where the way at this height is free, else over the stock."""
         if direct:
-            self.straight(point)
+            self.straight(point, feed)
         else:
             self.above(point)
 
@@ -170,9 +178,12 @@ class Pen:
         self.place, self.z = path.end, rounded(z)
         self.level = self.z
 
-    def enter(self, path: Path, above: float, z: float, clear: bool) -> None:
-        """Down at a path's start: straight to ``z`` where that is clear, else from ``above`` along it."""
-        self.sink(z if clear else above)
+    def enter(self, path: Path, above: float, z: float, clear: bool, feed: float | None = None) -> None:
+        """Down at a path's start: straight to ``z`` where that is clear, else from ``above`` along it.
+
+        Straight down it goes with the ``feed``, that of a cut unless it is given.
+        """
+        self.sink(z if clear else above, feed)
         if not clear:
             self.ramp(path, z)
 

@@ -34,6 +34,8 @@ class Rates:
     """The machine's limit."""
     chip: float
     """Feed per tooth in a full cut, mm: the planned chip load, or less where the machine feeds too slowly."""
+    full: float
+    """Feed of a full cut: ``feed`` is above it where chips are thin."""
 
     def inside(self, path_radius: float, cutter_radius: float, feed: float | None = None) -> float:
         """Feed of the centre on a circle inside a wall, so that the cutting edge has the planned feed."""
@@ -96,4 +98,5 @@ def rates(
         max(1.0, round(plain * data.plunge)),
         machine.max_feed,
         data.chip_load * min(1.0, machine.max_feed / most),
+        plain,
     )

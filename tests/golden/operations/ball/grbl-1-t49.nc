@@ -41,7 +41,7 @@ G0 Z5
 (operation: dish: level the floor)
 X-0.121 Y-0.049
 Z1
-G1 Z0
+G1 Z0 F1470
 Z-3 F294
 G3 X0.119 Y-0.05 I0.12 J0.051 F980
 X-0.048 Y0.122 I-0.121 J0.05
