@@ -96,7 +96,7 @@ class Machining:
     @cached_property
     def assignments(self) -> Assignments:
         """Who cuts what, with the operations that others have registered at hand."""
-        return Assignments(self._build.host.all(Operation))
+        return Assignments(self._build.host.all(Operation), self.control)
 
     @property
     def jobs(self) -> list[Job]:

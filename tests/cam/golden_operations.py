@@ -8,7 +8,6 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from by_control import CONTROLS
 from golden_cases import CASES, MORE
 
 from mechwright.contracts.finding import errors
@@ -52,7 +51,11 @@ def keep(operation: str) -> None:
     """Write the kept texts of an operation, and take away those that nothing writes."""
     here = FOLDER / operation
     here.mkdir(parents=True, exist_ok=True)
-    written = {name: text for control in CONTROLS for name, text in texts(operation, control).items()}
+    written = {
+        name: text
+        for control in CASES[operation].controls
+        for name, text in texts(operation, control).items()
+    }
     for old in here.glob("*.nc"):
         if old.name not in written:
             old.unlink()

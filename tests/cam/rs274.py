@@ -65,6 +65,9 @@ def _ends(canon: str) -> tuple[tuple[str, ...], np.ndarray]:
         if match[1] in {"STRAIGHT_FEED", "STRAIGHT_TRAVERSE"}:
             kinds.append("rapid" if match[1].endswith("TRAVERSE") else "feed")
             ends.append([float(n) for n in numbers[:3]])
+        elif match[1] == "RIGID_TAP":  # in, and back to where it began
+            kinds += ["feed", "feed"]
+            ends += [[float(n) for n in numbers[:3]], ends[-1]]
         elif match[1] == "ARC_FEED":
             kinds.append("arc")
             first, second, across = float(numbers[0]), float(numbers[1]), float(numbers[5])

@@ -106,7 +106,7 @@ def test_a_slot_narrower_than_every_cutter(tmp_path: Path) -> None:
 
 WORDS = {
     "G5.1": r"line 3: G5\.1 is no code that is read in programs for LinuxCNC",
-    "G84 X1 Y1 Z-3 R1 F100": r"line 3: G84 is not supported; tapping is not simulated",
+    "G33.1 Z-3 K1": r"line 3: G33.1 from an unknown position; move to X, Y and Z first",
     "M77": r"line 3: M77 is no code that is read in programs for LinuxCNC",
     "G1 X1 W5 F100": r"line 3: axis W is not read",
     "G1 X1..2 F100": r"line 3: ",

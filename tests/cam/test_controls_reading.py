@@ -32,7 +32,7 @@ HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": 
         ("fanuc", "G54.1 X1.", "needs its number, P"),
         ("fanuc", "G91.1", "G91.1 is no code"),
         ("haas", "G54.1 P3", "G54.1 is no code that is read in programs for Haas"),
-        ("mach3", "G84 X1 Y1 Z-2 R1", "tapping"),
+        ("mach3", "G84 X1 Y1 Z-2 R1", "G84 without a feed"),
         ("grbl", "G43 H1 Z5", "no table of lengths"),
         ("grbl", "T1 M6", "M6 is no code that is read in programs for Grbl"),
         ("grbl", "G81 X1 Y1 Z-1 R1 F9", "G81 is no code that is read in programs for Grbl"),

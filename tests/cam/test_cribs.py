@@ -59,6 +59,8 @@ def test_a_tool_in_inches_is_converted_with_its_speeds(tmp_path):
         ("drill", {"SIG": 140}, {"point_angle": 140}),
         ("spot drill", {"SIG": 90}, {"point_angle": 90}),
         ("thread mill", {"shoulder-diameter": 4}, {"neck_diameter": 4}),
+        ("tap right hand", {"TP": 1}, {"pitch": 1, "left_hand": False}),
+        ("tap left hand", {"TP": 1, "HAND": False}, {"pitch": 1, "left_hand": True}),
     ],
 )
 def test_the_ends_of_fusion_tools(tmp_path, kind, geometry, expected):
@@ -72,7 +74,8 @@ def test_the_ends_of_fusion_tools(tmp_path, kind, geometry, expected):
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"type": "tap right hand"}, "there is no 'tap right hand' among our kinds"),
+        ({"type": "face mill"}, "there is no 'face mill' among our kinds"),
+        ({"type": "tap right hand"}, "a tap without a pitch (TP); give it one"),
         ({"geometry": {"HAND": False}}, "it turns left (HAND false)"),
         ({"geometry": {"DC": 0}}, "has no diameter (DC); give it one"),
         ({"geometry": {"DC": True}}, "has no diameter (DC)"),
@@ -161,7 +164,8 @@ def test_freecad_bits_lie_in_a_folder_beside_the_library(tmp_path):
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (bit("Tap", Diameter="9 mm"), "there is no 'Tap' among our kinds"),
+        (bit("Dovetail", Diameter="9 mm"), "there is no 'Dovetail' among our kinds"),
+        (bit("Tap", Diameter="9 mm"), "a tap without a pitch (Pitch)"),
         (bit("Endmill", CuttingEdgeHeight="9 mm"), "has no diameter (Diameter)"),
         (bit("Endmill", Diameter="6"), "Diameter is '6'; write a number and a unit"),
         (bit("Drill", Diameter="6 mm", Length="90 mm"), "add a CuttingEdgeHeight to its .fctb"),

@@ -30,13 +30,16 @@ OURS = {"holder", "purpose", "wear_length", "wear_diameter"}
 """Keys that no other program has a field for."""
 NO_BIT = {ToolKind.SPOT_DRILL, ToolKind.REAMER}
 """Kinds that FreeCAD's bits are not written for."""
+OF_TAPS = {"chamfer_length", "floating"}
+"""What only our own libraries say of taps."""
 LACKS = {
     "crib.toml": set(),
     "crib.tbl": {"cutting", "coating"},
-    "crib.json": {*OURS, "centre_cutting", "coating", "length", "life", "ramp_angle"},
-    "crib.tools": {*OURS, "centre_cutting", "coating", "length", "life", "ramp_angle"},
+    "crib.json": {*OURS, *OF_TAPS, "centre_cutting", "coating", "length", "life", "ramp_angle"},
+    "crib.tools": {*OURS, *OF_TAPS, "centre_cutting", "coating", "length", "life", "ramp_angle"},
     "Library/crib.fctl": {
         *OURS,
+        *OF_TAPS,
         "centre_cutting",
         "coating",
         "cutting",
@@ -76,6 +79,13 @@ def some_tool(draw, number):
         said |= {"tip_diameter": wide * draw(share), "point_angle": draw(st.floats(31, 170))}
     elif kind is ToolKind.THREAD_MILL and draw(st.booleans()):
         said["neck_diameter"] = wide * draw(share)
+    elif kind is ToolKind.TAP:
+        said |= {
+            "pitch": min(wide, long) * draw(st.floats(0.05, 0.2)),
+            "left_hand": draw(st.booleans()),
+            "floating": draw(st.booleans()),
+            "chamfer_length": draw(st.floats(1, 4)),
+        }
     elif kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
         said["point_angle"] = draw(st.floats(31, 180))
     optional = {
@@ -91,10 +101,11 @@ def some_tool(draw, number):
         "wear_diameter": st.floats(-1, 1),
     }
     said |= {key: draw(value) for key, value in optional.items() if draw(st.booleans())}
+    lead = said["pitch"] / said["flutes"] if kind is ToolKind.TAP else None
     data = st.builds(
         CuttingData,
         cutting_speed=st.floats(1, 1000),
-        chip_load=st.floats(0.001, 1),
+        chip_load=st.floats(0.001, 1) if lead is None else st.just(lead),
         step_down=st.floats(0.1, 3),
         step_over=st.floats(0.1, 1),
         plunge=st.floats(0.1, 1) if kind not in {ToolKind.DRILL, ToolKind.SPOT_DRILL} else st.just(0.3),

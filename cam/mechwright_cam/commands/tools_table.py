@@ -13,8 +13,8 @@ TIE = "\a"
 """A blank at which no line ends."""
 HEAD = ("T", "name", "kind", "D", "end", "z", "flutes", "out", "holder", "of")
 LEGEND = (
-    "in {unit}: D diameter, end radius of the corner or angle of the point/its flat, flutes their length, "
-    "out of the holder, holder its diameter; z teeth, of what it is made"
+    "in {unit}: D diameter, end radius of the corner or angle of the point/its flat or P pitch, flutes their "
+    "length, out of the holder, holder its diameter; z teeth, of what it is made"
 )
 LEFT = frozenset({"name", "kind", "of"})
 """Columns of words; those of figures stand on the right."""
@@ -55,6 +55,8 @@ def listing(tools: Sequence[Tool], to: Lengths = MILLIMETRES) -> list[str]:
 def _row(tool: Tool, to: Lengths) -> tuple[str, ...]:
     pointed = tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER}
     end = f"{tool.point_angle:g}°" if pointed else f"R{to.plain(tool.nose)}" if tool.nose else "flat"
+    if tool.pitch is not None:
+        end = f"P{to.plain(tool.pitch)}"
     if tool.tip_diameter:
         end = f"{end}/{to.plain(tool.tip_diameter)}"
     out = "-" if tool.stick_out is None else to.plain(tool.stick_out)

@@ -51,6 +51,10 @@ class Control(Plugin):
     """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not
     say is written with the middle one."""
 
+    taps: ClassVar[frozenset[str]] = frozenset()
+    """The ways in which it taps: ``"rigid"``, where it keeps feed and spindle together itself, ``"floating"``
+    in a holder that gives way, and each with ``" left"`` behind it for left-hand taps."""
+
     units: "Units" = "mm"
     """Of the programs and tables that it writes, and of the words on its sheets; it reads both."""
 
@@ -141,6 +145,22 @@ class Control(Plugin):
     def check_tools(self, settings: "CamSettings", tools: "Sequence[Tool]") -> "Sequence[Finding]":  # noqa: ARG002
         """What the control cannot do with the tools of a job, whose lengths are those measured."""
         return ()
+
+    def cannot_tap(self, tool: "Tool") -> str:
+        """Why it does not tap with a tap as it is held; nothing where it does."""
+        way = "floating" if tool.floating else "rigid"
+        if way + (" left" if tool.left_hand else "") in self.taps:
+            return ""
+        if tool.left_hand and way in self.taps:
+            return f"{self.title} has no cycle for left-hand taps"
+        if not tool.floating and "floating" in self.taps:
+            return (
+                f"{self.title} does not keep feed and spindle together: a tap needs a floating holder there"
+            )
+        return f"{self.title} does not turn the spindle back in step with the feed: it has no tapping cycle"
+
+    tap_needs: ClassVar[str] = ""
+    """What it needs for rigid tapping, a sentence for the setup sheet."""
 
     @abstractmethod
     def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -126,6 +126,11 @@ class Dialect:
     """Whether the control refuses G10, G28, G30 and G43.1 beside a motion, as both take the axes."""
     tables: frozenset[int] = frozenset({2, 10, 11, 12, 13, 20})
     """L of the G10 that the control knows."""
+    tapping: Literal["", "G33.1", "M29", "always"] = ""
+    """What keeps feed and spindle together: a code of its own, an M code before the cycle, every cycle, or
+    nothing."""
+    taps_out: bool = False
+    """Whether a tapping cycle feeds out as far as it goes up, and not only to the R plane."""
     change_stops_spindle: bool = True
     """Whether M6 stops the spindle."""
     change_stops_coolant: bool = False
@@ -226,7 +231,6 @@ class Dialect:
 
 CENTRE = "shift the origin with a work offset"
 FEEDS = "write feeds in units per minute (G94)"
-_TAPPING = "tapping is not simulated"
 _MACRO = "macros and subprograms are not read; post the program without them"
 
 RETURN = 300
@@ -256,14 +260,12 @@ MILLING = frozenset(
         560,
         570,
     }
-    | {580, 590, 610, 640, 800, 810, 820, 830, 900, 910, 940, 100, 730, 850, 890, 980, 990}
+    | {580, 590, 610, 640, 800, 810, 820, 830, 900, 910, 940, 100, 730, 850, 890, 980, 990, 840}
 )
 """G codes that Fanuc and those who follow it share, in tenths."""
 NOT_SIMULATED = (
     (650, _MACRO),
     (660, _MACRO),
-    (740, _TAPPING),
-    (840, _TAPPING),
     (520, CENTRE),
     (920, CENTRE),
     (930, FEEDS),

@@ -5,11 +5,15 @@ from collections.abc import Sequence
 from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
+from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Tap
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
+RIGID = 29
+"""M code of rigid tapping, as the makers of most machines have set it."""
 OFFSETS_NUMBER = 7999
 """O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""
 
@@ -27,11 +31,12 @@ class Fanuc(GcodeControl):
         "earlier program: look that the common offset (EXT) is 0, and G50, G50.1 and G69 in force"
     )
     dialect = Dialect(
-        g_codes=MILLING | {541},
+        g_codes=MILLING | {541, 740},
+        tapping="M29",
         unsupported=NOT_SIMULATED,
         inert=((90, ""), (970, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
         inert_with=frozenset({51, 80}),
-        m_codes=USUAL_M | {19},
+        m_codes=USUAL_M | {19, 29},
         bare_dwell_unit=0.001,
         semicolon_comments=False,
         peck_clearance=1.0,
@@ -65,6 +70,10 @@ class Fanuc(GcodeControl):
     )
     offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)
     work_offsets = (G54_TO_G59, FANUC_OFFSETS)
+    taps = EVERY_WAY
+    tap_needs = (
+        "M29 has to be the machine's code of rigid tapping (parameter 5210; the builder may have another)."
+    )
     capitals = True
     retract_motion = ""
     forbidden = '%;@&!?"<>{}|\\^`~$'
@@ -78,6 +87,11 @@ class Fanuc(GcodeControl):
     def retract_lines(self, z: float) -> Sequence[str]:  # noqa: ARG002 - the reference point is the control's
         """To the reference point of Z, from where the tool stands: G91 makes that the way."""
         return f"G91 G28 Z{self.length(0.0)}", "G90"
+
+    def tap(self, out: Writer, hole: Tap) -> None:
+        """M29 before the cycle keeps feed and spindle together; a floating holder does without."""
+        rigid = () if out.tapping.floating else (f"M{RIGID}", out.speed)
+        self.tap_cycle(out, hole, before=rigid)
 
     def end(self, out: Writer) -> None:
         """End, rewind, and the closing percent sign."""

@@ -15,6 +15,7 @@ from mechwright_cam.controls.writing.sections import Sections
 from mechwright_cam.controls.writing.writer import Writer, with_numbers
 from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 class GcodeControl(Sections):
@@ -64,6 +65,8 @@ class GcodeControl(Sections):
                     f"tool {tool.name} has number {max(tool.number, tool.d_number)}; {title} takes up "
                     f"to T{self.highest_tool}; give it a lower one in the tool library"
                 )
+            if tool.kind is ToolKind.TAP and (why := self.cannot_tap(tool)):
+                raise ProgramError(f"program {program.name}, tool {tool.name}: {why}; mill the thread")
             first = next((move for operation in section.operations for move in operation.moves), None)
             if not (isinstance(first, Rapid) and None not in (first.x, first.y)):
                 raise ProgramError(
@@ -83,6 +86,16 @@ class GcodeControl(Sections):
             remedy = 'use compensation = "computer"'
             found.append(Finding.error("cam.compensation", "cam.compensation", lack, remedy=remedy))
         return found
+
+    def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:  # noqa: ARG002
+        """Taps that it cannot use."""
+        return [
+            Finding.error(
+                "cam.tapping", "cam.tools", f"{tool.name}: {why}", remedy="list a thread mill for it"
+            )
+            for tool in tools
+            if tool.kind is ToolKind.TAP and (why := self.cannot_tap(tool))
+        ]
 
     def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
         """Run a program by the rules of the control's dialect."""

@@ -108,13 +108,14 @@ class Grbl(GcodeControl):
 
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
         """A tool that is loaded at a stop has to have a known length."""
+        taps = super().check_tools(settings, tools)
         unknown = [tool.name for tool in tools if tool.length is None]
         if settings.post.tool_change != "pause" or not unknown:
-            return ()
+            return taps
         names, lengths = ", ".join(unknown), "[cam.measured.lengths]"
         message = f"at a stop (M0) Grbl can neither jog nor probe, so {names} cannot be touched off there"
         remedy = f"leave tool_change out for one file per tool, or give their lengths in {lengths}"
-        return [Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
+        return [*taps, Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
 
     def blending(self, exact: bool) -> list[str]:
         """Grbl always follows the path exactly; it knows G61 only."""

@@ -8,7 +8,7 @@ from mechwright_cam.controls.fanuc import Fanuc
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import G54_TO_G59, HAAS_OFFSETS
 from mechwright_cam.controls.writing.writer import Writer
-from mechwright_cam.program.moves import Drill
+from mechwright_cam.program.moves import Drill, Tap
 from mechwright_cam.shop.settings import CamSettings
 
 
@@ -27,6 +27,8 @@ class Haas(Fanuc):
     dialect = replace(
         Fanuc.dialect,
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},
+        m_codes=Fanuc.dialect.m_codes - {29},
+        tapping="always",
         inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, ""), (970, "")),
         inert_with=frozenset(),
         inert_m=frozenset({31, 33, 88, 89}),
@@ -39,6 +41,7 @@ class Haas(Fanuc):
     )
     offsets = replace(Fanuc.offsets, d_setting="setting 40")
     work_offsets = (G54_TO_G59, HAAS_OFFSETS)
+    tap_needs = "G84 taps rigidly where the machine has the option; look whether it is turned on."
     highest_tool = 200
     retract_motion = "G0"
 
@@ -54,3 +57,7 @@ class Haas(Fanuc):
     def drill(self, out: Writer, hole: Drill) -> None:
         """Drill with a cycle, stated in full: an edited or restarted block then means what it says."""
         self.cycle(out, hole, every_word=True)
+
+    def tap(self, out: Writer, hole: Tap) -> None:
+        """G84 and G74 keep feed and spindle together by themselves."""
+        self.tap_cycle(out, hole, every_word=True)

@@ -10,9 +10,11 @@ from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
+from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Rapid, Tap
 from mechwright_cam.shop.formats.linuxcnc import Row, table_text
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
@@ -55,10 +57,11 @@ class LinuxCnc(GcodeControl):
         one_use_of_axes=True,
         inert=((970, ""),),
         tables=frozenset({1, 2, 10, 11, 20}),
-        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},
+        tapping="G33.1",
+        taps_out=True,
+        g_codes=MILLING - {RETURN} | {331, 740, 411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},
         unsupported=(
             (RETURN, "retract with G53 G0 Z0 or G28"),
-            (840, "tapping is not simulated"),
             (920, "shift the origin with the work offset, G54 to G59.3"),
             (930, FEEDS),
             (950, FEEDS),
@@ -68,6 +71,8 @@ class LinuxCnc(GcodeControl):
     leftover = "an origin shift (G92, G52) of an earlier program: type G92.1 before zero is set"
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
+    taps = EVERY_WAY
+    tap_needs = "G33.1 needs an encoder on the spindle, whose index is wired to spindle.0.index-enable."
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
     active_comments = (
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
@@ -92,6 +97,18 @@ class LinuxCnc(GcodeControl):
         digits = self.decimals if self.units == "mm" else IN_INCHES
         word = "P" + number(floored(tolerance / self.scale, digits), digits)
         return ["G64", word, "Q0"] if tolerance > 0 else ["G61"]
+
+    def tap(self, out: Writer, hole: Tap) -> None:
+        """G33.1 keeps feed and spindle together; a floating holder takes G84 or G74."""
+        if out.tapping.floating:
+            self.tap_cycle(out, hole)
+            return
+        self.rapid(out, Rapid(hole.x, hole.y))
+        above = out.z
+        self.rapid(out, Rapid(z=hole.retract))
+        out.line("G33.1", "Z" + out.height(hole.bottom), "K" + out.pitch(out.tapping.pitch or 0.0))
+        out.motion = ""
+        self.rapid(out, Rapid(z=above))
 
     def message(self, out: Writer, text: str) -> None:
         """Show a message on the control's screen."""

@@ -7,7 +7,7 @@ from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Diale
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
-from mechwright_cam.program.moves import Drill, Program
+from mechwright_cam.program.moves import Drill, Program, Tap
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
@@ -28,6 +28,7 @@ class Mach3(GcodeControl):
         tables=frozenset({1, 2}),
         corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
     )
+    taps = frozenset({"floating"})
     forbidden = "%;"
     highest_tool = 254
     leftover = (
@@ -67,4 +68,4 @@ class Mach3(GcodeControl):
 
 def _waits(program: Program) -> bool:
     moves = (m for section in program.sections for operation in section.operations for m in operation.moves)
-    return program.machine.spindle_delay > 0 or any(isinstance(m, Drill) and m.dwell > 0 for m in moves)
+    return program.machine.spindle_delay > 0 or any(isinstance(m, Drill | Tap) and m.dwell > 0 for m in moves)

@@ -48,6 +48,8 @@ class Hole:
 
     drill: Tool
     place: Point
+    deep: float | None = None
+    """Depth to which it has its full diameter, mm; None for one through the plate."""
 
 
 @dataclass(frozen=True, eq=False)

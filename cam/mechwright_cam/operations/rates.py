@@ -18,6 +18,13 @@ SLOWEST = 0.5
 """Where the machine's fastest feed is too slow, the spindle gives way, down to this share of the cutting
 speed: chips stay as thick as planned. Slower still, aluminium and steel build up on the edge."""
 
+EXACT = 3
+"""Decimals of a feed that all controls keep: speed times pitch of a tap is to have no more, mm/min."""
+MOST_TURNS = 64
+"""In steps of so many turns at most a speed is looked for that makes it so: 28 threads per inch take 7."""
+NOISE = 1e-9
+"""Noise of floating point in a product of both, mm."""
+
 TOO_FAST = 1.01
 """Beyond this share of its cutting speed a cutter runs too fast: less is rounding."""
 
@@ -83,6 +90,8 @@ def rates(
     """
     data = cutting_data(tool, material)
     wanted = 1000 * data.cutting_speed / (math.pi * tool.diameter)
+    if tool.pitch is not None:
+        return _tapping(tool, tool.pitch, wanted, machine)
     fed = machine.max_feed / (tool.flutes * data.chip_load)
     wanted = min(wanted, max(fed, SLOWEST * wanted))
     spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
@@ -100,3 +109,28 @@ def rates(
         data.chip_load * min(1.0, machine.max_feed / most),
         plain,
     )
+
+
+def _tapping(tool: Tool, pitch: float, wanted: float, machine: Machine) -> Rates:
+    """Feed is speed times pitch, to the last decimal: the speed is the fastest one for which it is that.
+
+    Raises ToolError where the machine's slowest speed feeds a tap faster than the machine can.
+    """
+    whole = (turns for turns in range(1, MOST_TURNS + 1) if _is_exact(turns * pitch))
+    step = next(whole, 1)
+    most = min(wanted, machine.spindle_max, machine.max_feed / pitch)
+    spindle = float(max(math.floor(most / step), 1) * step)
+    while spindle < machine.spindle_min:
+        spindle += step
+    feed = spindle * pitch
+    if feed > machine.max_feed:
+        raise ToolError(
+            f"cam.tools: {tool.name} with its pitch of {pitch:g} mm goes {feed:.0f} mm/min at the slowest "
+            f"speed of the machine, {machine.spindle_min:g} rpm, and it feeds {machine.max_feed:g} at most; "
+            "mill the thread"
+        )
+    return Rates(spindle, feed, feed, feed, machine.max_feed, pitch / tool.flutes)
+
+
+def _is_exact(feed: float) -> bool:
+    return abs(feed - round(feed, EXACT)) < NOISE

@@ -13,10 +13,12 @@ from mechwright_cam.operations.engrave import Engrave
 from mechwright_cam.operations.face import Face
 from mechwright_cam.operations.groove import Groove
 from mechwright_cam.operations.ream import Ream
+from mechwright_cam.operations.tap import TapOperation
 from mechwright_cam.operations.thread import ThreadOperation
 
 BUILT_IN: tuple[Operation, ...] = (
     Ream(),
+    TapOperation(),
     BoreOperation(),
     Groove(),
     Face(),

@@ -5,13 +5,13 @@ from functools import partial
 
 from mechwright.contracts.details import Thread
 from mechwright.errors import ToolError
-from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.pointed import DetailOperation
+from mechwright_cam.operations.tap import lacks
 from mechwright_cam.plane.leads import half_circles
 from mechwright_cam.plane.path import printed, round_from_right
-from mechwright_cam.setup.depths import bores
+from mechwright_cam.setup.depths import core_of
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
 
@@ -19,8 +19,6 @@ AROUND = 0.1
 """Air all round a thread mill in its hole, mm."""
 NECK_AIR = 0.02
 """Air between a thread mill's neck and the core, mm: the proof lets the neck touch nothing."""
-CORE_PLAY = 0.25
-"""By how much, in pitches, a hole may miss the core diameter of its thread: ISO 965's tolerance, roughly."""
 
 
 class ThreadOperation(DetailOperation):
@@ -31,11 +29,7 @@ class ThreadOperation(DetailOperation):
 
     def task(self, detail: Thread, job: Job) -> Task:
         """Choose the tool; raises ToolError if there is none, and says what it needs."""
-        holes = [b for b in bores(job) if math.dist(b.centre, detail.centre) < TOLERANCES.closure]
-        play = CORE_PLAY * detail.pitch
-        hole = next(
-            (h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None
-        )
+        hole = core_of(job, detail)
         if hole is None:
             raise ToolError(
                 f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} "
@@ -50,7 +44,8 @@ class ThreadOperation(DetailOperation):
         raise ToolError(
             f"cam.tools: no thread mill cuts {detail.name} of part {job.part.name}; list one of at most "
             f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm, with teeth of at least "
-            f"{detail.diameter / 2 - hole.diameter / 2 + NECK_AIR:.2f} mm beside its neck"
+            f"{detail.diameter / 2 - hole.diameter / 2 + NECK_AIR:.2f} mm beside its neck; "
+            f"{lacks(job, detail)}"
         )
 
 

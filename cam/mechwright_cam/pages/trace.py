@@ -17,6 +17,7 @@ from mechwright_cam.program.moves import (
     Pause,
     Program,
     Rapid,
+    Tap,
     ToolSection,
 )
 
@@ -99,7 +100,7 @@ def _strokes(move: Move, start: Place) -> Iterator[Stroke]:
             end = (move.x, move.y, _to(move.z, z))
             centre = (x + move.i, y + move.j)
             yield Stroke(start, end, min(z, end[2]), move.feed, centre, move.ccw)
-        case Drill():
+        case Drill() | Tap():
             above = (move.x, move.y, max(z, move.retract))
             yield Stroke(start, above, z, 0.0)
             yield Stroke(above, above, move.bottom, move.feed, drilled=True)

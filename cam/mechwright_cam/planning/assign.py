@@ -4,13 +4,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.errors import DesignError, MechwrightError
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.drilling import spot_drill
 from mechwright_cam.operations.table import asked
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 @dataclass(frozen=True)
@@ -72,16 +74,24 @@ def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
 class Assignments:
     """The tasks of the jobs of one build, each worked out when it is first asked for.
 
-    Of ``more`` operations besides the built-in ones a design asks for some by name.
+    Of ``more`` operations besides the built-in ones a design asks for some by name. Tools that the
+    ``control`` cannot use are not chosen.
     """
 
-    def __init__(self, more: Sequence[Operation] = ()) -> None:
-        self.more = tuple(more)
+    def __init__(self, more: Sequence[Operation] = (), control: Control | None = None) -> None:
+        self.more, self.control = tuple(more), control
         self._known: dict[int, tuple[Job, Assigned]] = {}
 
     def operations(self, settings: CamSettings) -> tuple[Operation, ...]:
         """Those that a job asks; raises DesignError for a name that is not known."""
         return asked(settings.operations, self.more)
+
+    def untapped(self, library: Library) -> dict[str, str]:
+        """Taps of a library that the control cannot use, by name, with the reason."""
+        if self.control is None:
+            return {}
+        taps = [tool for tool in library.tools if tool.kind is ToolKind.TAP]
+        return {tap.name: why for tap in taps if (why := self.control.cannot_tap(tap))}
 
     def of(self, job: Job) -> Assigned:
         """Who cuts what in this very job."""

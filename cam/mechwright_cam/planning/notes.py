@@ -27,9 +27,17 @@ def clamp_message(job: Job) -> str:
 
 
 def notes(
-    job: Job, drills: Sequence[Tool], round_mills: Sequence[Tool] = (), *, reamers: bool = False
+    job: Job,
+    drills: Sequence[Tool],
+    round_mills: Sequence[Tool] = (),
+    *,
+    reamers: bool = False,
+    tapped: float = 0.0,
 ) -> tuple[str, ...]:
-    """Part, stock, origin, fits, and what ``drills`` and round mills that cut through ask of the table."""
+    """Part, stock, origin, fits, and what ``drills`` and round mills that cut through ask of the table.
+
+    Taps go so far, mm, below the plate.
+    """
     x0, y0, x1, y1 = job.stock
     to = lengths_of(job)
     nest = job.part if isinstance(job.part, Nest) else None
@@ -67,6 +75,8 @@ def notes(
     if reamers:
         below = LEAD + job.settings.breakthrough
         lines.append(f"reamers go {to.fixed(below)} {to.unit} below the stock: leave room under the holes")
+    if tapped > 0:
+        lines.append(f"taps go {to.fixed(tapped)} {to.unit} below the stock: leave room under the holes")
     if round_mills:
         below = max(mill.nose for mill in round_mills) + job.settings.breakthrough
         lines.append(f"round mills go {to.fixed(below)} {to.unit} below the stock: leave room under the cuts")

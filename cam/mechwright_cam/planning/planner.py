@@ -66,14 +66,24 @@ class _Planner:
             sections += self._sections(outer)
         else:
             sections = self._sections(inner | outer)
-        drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
+        through = {task.hole.drill.name for task in self.tasks if task.hole and task.hole.deep is None}
+        drills = [step.tool for step in self.steps if step.tool.name in through]
+        low = [
+            t for t in self.tasks for tool in t.tools if tool.kind is ToolKind.TAP and t.bottom < job.floor
+        ]
         reamers = any(step.tool.kind is ToolKind.REAMER for step in self.steps)
         return Program(
             job.part.name,
             job.settings.work_offset,
             self.clearance,
             _merged(sections),
-            notes(self.job, drills, self._through_with_round_ends(), reamers=reamers),
+            notes(
+                self.job,
+                drills,
+                self._through_with_round_ends(),
+                reamers=reamers,
+                tapped=max((-task.bottom - job.thickness for task in low), default=0.0),
+            ),
             compensation=job.settings.compensation,
             wear_limit=job.settings.wear_limit,
         )
@@ -122,10 +132,13 @@ class _Planner:
             places = [(hole.place, hole.drill.diameter) for hole in holes]
             after = self._step("spot drill", spot, spot_moves(job, spot, places, self.clearance), after)
         done = after
-        for drill in {hole.drill.number: hole.drill for hole in holes}.values():
-            same = [hole.place for hole in holes if hole.drill is drill]
-            moves = drill_moves(job, drill, same, -job.floor, self.clearance)
-            done = done | self._step(f"drill {drill.diameter:g}", drill, moves, after)
+        for drill, deep in {
+            (hole.drill.number, hole.deep): (hole.drill, hole.deep) for hole in holes
+        }.values():
+            same = [hole.place for hole in holes if hole.drill is drill and hole.deep == deep]
+            name = f"drill {drill.diameter:g}" + ("" if deep is None else f" to {deep:.4g}")
+            moves = drill_moves(job, drill, same, -job.floor if deep is None else deep, self.clearance)
+            done = done | self._step(name, drill, moves, after)
         return done
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:

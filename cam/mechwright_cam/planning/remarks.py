@@ -15,6 +15,7 @@ from mechwright_cam.operations.choice import MisfitError, long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
 from mechwright_cam.operations.rates import rates, runs_too_fast
+from mechwright_cam.operations.tap import declined
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
@@ -59,6 +60,8 @@ def lay_out(
     if not found:
         for task in assigned.tasks:
             found += task.operation.remarks(task, job)
+        every = replace(job, tools=library.tools)
+        found += declined(every, assigned.tasks, assignments.untapped(library))
         idle = _idle(job, assigned.tasks)
         if settings.tools:
             found += [_idling(job, mill) for mill in idle]

@@ -17,6 +17,7 @@ from mechwright_cam.operations.rates import runs_too_fast
 from mechwright_cam.operations.ream import reaming
 from mechwright_cam.operations.recess_zone import first_look, floor_mill
 from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.tap import core_drill
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.assign import Assignments, assign
@@ -56,7 +57,10 @@ def choose_tools(
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    operations = (assignments or Assignments()).operations(settings)
+    assignments = assignments or Assignments()
+    operations = assignments.operations(settings)
+    useless = assignments.untapped(library)
+    library = Library(tuple(tool for tool in library.tools if tool.name not in useless))
     library = _low_enough(part, settings, library)
     slow = _slow_enough(part, settings, library)
     if len(slow.tools) < len(library.tools):
@@ -187,6 +191,9 @@ def _drills(every: Job) -> list[Tool]:
     wanted: list[tuple[float, Tool]] = []
     drills: dict[str, Tool] = {}
     for feature in every.features:
+        if isinstance(feature, Bore) and (core := core_drill(every, feature)) is not None:
+            drills[core.name] = core
+            continue
         if not through(every, feature.top + feature.depth):
             continue
         if isinstance(feature, Bore):

@@ -61,7 +61,7 @@ def _used(
     part: Part, cam: CamSettings, library: Library, more: Sequence[Tool], assignments: Assignments
 ) -> list[Tool] | None:
     """Those of some more tools that the part takes; None if it cannot be cut with them either."""
-    tried = Assignments(assignments.more)
+    tried = Assignments(assignments.more, assignments.control)
     try:
         laid, found = lay_out_setups(part, cam, library.extended(tuple(more)), tried)
         if errors(found) or not laid:

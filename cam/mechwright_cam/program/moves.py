@@ -76,13 +76,28 @@ class Drill:
 
 
 @dataclass(frozen=True, slots=True)
+class Tap:
+    """A tapped hole: rapid over it and down to ``retract``; in to ``bottom`` and out, a pitch in every turn.
+
+    The spindle turns back at the bottom, after ``dwell`` seconds; the tool is back at the height it began at.
+    """
+
+    x: float
+    y: float
+    bottom: float
+    retract: float
+    feed: float
+    dwell: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Pause:
     """The machine stops until the operator goes on, at a safe height with spindle and coolant off."""
 
     message: str
 
 
-Move = Rapid | Feed | FeedArc | Drill | Pause
+Move = Rapid | Feed | FeedArc | Drill | Tap | Pause
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def _heights(paths: Paths, job: Job) -> set[float]:
             heights |= {-detail.width * share for share in SHARES}
         else:
             heights.add(-detail.depth)
-    run, steps = paths.run, paths.of_kinds({ToolKind.DRILL, ToolKind.SPOT_DRILL}).steps
+    run, steps = paths.run, paths.of_kinds({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.TAP}).steps
     down = steps[(run.kind[steps] == Kind.FEED) & (paths.end[steps, 2] < paths.start[steps, 2])]
     full = paths.cutters(down).height_at(paths.radius[down])
     noses = {tool.nose for tool in paths.tools.values() if tool.nose > 0}

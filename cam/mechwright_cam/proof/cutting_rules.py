@@ -67,7 +67,7 @@ def chips(scene: Scene) -> Check:
         steps = working[run.tool[working] == tool.number]
         way = paths.end[steps] - paths.start[steps]
         plunge = (way[:, 2] < 0) & (paths.length[steps] <= -way[:, 2] + NEAR)
-        if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER}:
+        if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER, ToolKind.TAP}:
             steps, plunge = steps[plunge], plunge[plunge]
         # Straight down a flat end has no place where chips are thin.
         thick = (plunge & (tool.nose == 0)) | (tool.kind not in MILLS) | np.isin(steps, full)

@@ -14,17 +14,27 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
 from mechwright_cam.proof.stock import UNEVEN
+from mechwright_cam.proof.tap_rules import turns
+from mechwright_cam.shop.tool import ToolKind
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
 
 
 def spindle(scene: Scene) -> Check:
-    """The spindle turns clockwise while the cutter is in the work, and starts and stops clear of it."""
-    turning = scene.run.of_states(lambda state: state.turning)
-    if (step := first(in_work(scene) & (turning != 1))) is not None:
-        how = f"backwards ({scene.control.m(4)})" if turning[step] == -1 else "not at all"
-        message = f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}"
+    """The spindle turns as the cutter asks while it is in the work, and starts and stops clear of it."""
+    turning, wanted = scene.run.of_states(lambda state: state.turning), turns(scene)
+    if (step := first(in_work(scene) & (turning != wanted))) is not None:
+        names = {
+            1: f"clockwise ({scene.control.m(3)})",
+            -1: f"backwards ({scene.control.m(4)})",
+            0: "not at all",
+        }
+        message = f"feeds into the work while the spindle turns {names[int(turning[step])]}; "
+        if scene.tools[int(scene.run.tool[step])].kind is ToolKind.TAP:
+            message += f"there this tap has to turn {names[int(wanted[step])]}: tap with a tapping cycle"
+        else:
+            message += f"write S and {scene.control.m(3)}"
         return scene.bad(step, message)
     for change in scene.run.spindle_changes:
         if scene.stock.touches(change):
@@ -35,7 +45,7 @@ def spindle(scene: Scene) -> Check:
             )
             message = f"{scene.spot(change.line, change.file)}: {message}"
             return Check(False, message, change.line, None, UNEVEN, "mm", change.place)
-    return Check(True, "the spindle turns clockwise whenever the cutter is in the work")
+    return Check(True, "the spindle turns the right way whenever the cutter is in the work")
 
 
 def coolant(scene: Scene) -> Check:

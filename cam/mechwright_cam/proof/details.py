@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
-from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.details import CORE_PLAY, Chamfer, Detail, Engraving, Thread
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.bands import Band
@@ -20,11 +20,16 @@ from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.proof.wall import Wall
+from mechwright_cam.setup.depths import core_of, makes, tapped_deep
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
 
-OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
-"""Which kind of tool may cut which detail."""
+OWN = {
+    Chamfer: (ToolKind.CHAMFER,),
+    Engraving: (ToolKind.CHAMFER,),
+    Thread: (ToolKind.THREAD_MILL, ToolKind.TAP, ToolKind.DRILL),
+}
+"""Which kinds of tool may cut which detail; a drill takes of a tapped thread what its core may be wider."""
 EDGE_SPACING = 0.2
 """Distance of the places along an edge or a stroke at which its cut is measured, mm."""
 FINE = 24
@@ -41,7 +46,8 @@ BELOW = 0.3
 
 def heights(job: Job) -> tuple[float, ...]:
     """Heights z at which the details end, mm."""
-    return tuple(max(-_depth(detail), -job.thickness) for detail in job.details)
+    depths = {_depth(detail, kind, job) for detail in job.details for kind in OWN[type(detail)]}
+    return tuple(max(-depth, -job.thickness) for depth in depths)
 
 
 def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
@@ -50,8 +56,10 @@ def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
     found = []
     for band in bands:
         found.append(deepest_cut(others, band.keep, band.top))
-        for own, details in special:
-            given = [_given(detail) for detail in details if band.top > -_depth(detail) + NEAR]
+        for kind, own, details in special:
+            given = [
+                _given(detail, kind) for detail in details if band.top > -_depth(detail, kind, job) + NEAR
+            ]
             keep = shapely.difference(band.keep, shapely.union_all(given)) if given else band.keep
             found.append(deepest_cut(own, keep, band.top))
     return found
@@ -64,36 +72,45 @@ def deepest_in_fillet(paths: Paths, job: Job, fillet: Fillet) -> list[Gouge | No
     """
     others, special = _by_tool(paths, job)
     found = [fillet.deepest(others)]
-    for own, details in special:
+    for kind, own, details in special:
         for z in fillet.heights_in(FINE) if own.steps.size else ():
-            given = [_given(detail, -z) for detail in details if _depth(detail) > NEAR - z]
+            given = [_given(detail, kind, -z) for detail in details if _depth(detail, kind, job) > NEAR - z]
             found.append(deepest_cut(own, shapely.difference(fillet.solid(z), shapely.union_all(given)), z))
     return found
 
 
-def _by_tool(paths: Paths, job: Job) -> tuple[Paths, list[tuple[Paths, list[Detail]]]]:
-    """The moves of tools that may cut no detail; those of each other kind, with the details for it."""
+def _by_tool(paths: Paths, job: Job) -> tuple[Paths, list[tuple[ToolKind, Paths, list[Detail]]]]:
+    """The moves of tools that may cut no detail; each other kind, its moves and the details for it."""
     if not job.details:
         return paths, []
     own: dict[ToolKind, list[Detail]] = {}
     for detail in job.details:
-        own.setdefault(OWN[type(detail)], []).append(detail)
+        for kind in OWN[type(detail)]:
+            own.setdefault(kind, []).append(detail)
     others = paths.of_kinds(set(ToolKind) - own.keys())
-    return others, [(paths.of_kinds({kind}), own[kind]) for kind in sorted(own)]
+    return others, [(kind, paths.of_kinds({kind}), own[kind]) for kind in sorted(own)]
 
 
-def _depth(detail: Detail) -> float:
-    """How deep a detail goes, mm."""
-    return detail.width if isinstance(detail, Chamfer) else detail.depth
+def _depth(detail: Detail, kind: ToolKind, job: Job) -> float:
+    """How deep a kind of tool may go for a detail, mm: a tap by its chamfer deeper, a drill to its floor."""
+    if isinstance(detail, Chamfer):
+        return detail.width
+    if not isinstance(detail, Thread) or kind is ToolKind.THREAD_MILL:
+        return detail.depth
+    taps, hole = [tap for tap in job.tools if makes(tap, detail)], core_of(job, detail)
+    if not taps or hole is None:
+        return 0.0
+    return hole.depth if kind is ToolKind.DRILL else max(tapped_deep(tap, detail) for tap in taps)
 
 
-def _given(detail: Detail, depth: float = 0.0) -> Shape:
+def _given(detail: Detail, kind: ToolKind, depth: float = 0.0) -> Shape:
     """What of the plate a detail takes so far below the top face: a chamfer less and less."""
     match detail:
         case Chamfer():
             return grow(shapely.LinearRing(detail.loop.flatten()), detail.width - depth)
         case Thread():
-            return grow(shapely.Point(detail.centre), detail.diameter / 2)
+            wide = detail.core + CORE_PLAY * detail.pitch if kind is ToolKind.DRILL else detail.diameter
+            return grow(shapely.Point(detail.centre), wide / 2)
         case Engraving():
             return grow(shapely.MultiLineString(list(detail.strokes)), detail.width / 2)
 
@@ -107,7 +124,7 @@ def missing(paths: Paths, job: Job) -> str:
             case Engraving():
                 found = _engraving(paths, detail)
             case Thread():
-                found = _thread(paths, detail)
+                found = "" if _tapped(paths, detail, job) else _thread(paths, detail)
         if found:
             return f"{detail.name}: {found}"
     return ""
@@ -159,6 +176,18 @@ def _engraving(paths: Paths, detail: Engraving) -> str:
         x, y = points[int(np.argmax(off))]
         return f"the stroke is not cut {detail.depth:g} mm deep at X{x:.3f} Y{y:.3f}"
     return ""
+
+
+def _tapped(paths: Paths, detail: Thread, job: Job) -> bool:
+    """Whether a tap has cut a thread to its last full turn."""
+    for tap in (tool for tool in job.tools if makes(tool, detail)):
+        steps = paths.of_kinds({ToolKind.TAP}).steps
+        steps = steps[paths.run.cutting[steps] & (paths.run.tool[steps] == tap.number)]
+        ends = np.hypot(*(paths.end[steps, :2] - detail.centre).T)
+        deep = paths.low[steps] <= -tapped_deep(tap, detail) + FITS
+        if ((ends < FITS) & deep).any():
+            return True
+    return False
 
 
 def _thread(paths: Paths, detail: Thread) -> str:

@@ -23,7 +23,7 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-POINTS = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER})
+POINTS = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER, ToolKind.TAP})
 """Tools that cut with their end alone, straight down."""
 
 
@@ -67,6 +67,11 @@ def _hollow(tool: Tool) -> str:
         return (
             "is fed into material with its middle, and cuts with its rim; open its hole to "
             f"{2 * tool.hollow:g} mm at least first"
+        )
+    if tool.kind is ToolKind.TAP:
+        return (
+            "is fed into material with its core, and cuts with its teeth alone; drill the hole of its thread "
+            f"to {tool.diameter - (tool.pitch or 0.0):g} mm first, deep enough for its chamfer"
         )
     return (
         "is fed into material with its point, which does not cut; keep the point beside the material, or set "

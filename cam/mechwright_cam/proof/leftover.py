@@ -28,6 +28,7 @@ from mechwright_cam.proof.plane import Boundary, Shape, grow, swept, without_spe
 from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.proof.wall import on_walls
 from mechwright_cam.proof.wanted import COARSE, Wanted, recesses
+from mechwright_cam.setup.depths import makes, thread_in
 from mechwright_cam.setup.job import Job
 
 
@@ -86,10 +87,13 @@ def _on_floors(
 ) -> tuple[float, tuple[float, float] | None]:
     """Greatest distance from the reachable wall to stock that stands on a floor, and the place."""
     # A floor has to be cleared all over; the waste of a through opening drops out.
+    pointed = [bore for bore, _ in drilled_floors(job)]
     floors = [
         floor_of(feature, job)
         for feature in recesses(job)
-        if -feature.top >= band.top - NEAR and -(feature.top + feature.depth) <= band.bottom + NEAR
+        if feature not in pointed
+        and -feature.top >= band.top - NEAR
+        and -(feature.top + feature.depth) <= band.bottom + NEAR
     ]
     if not floors:
         return 0.0, None
@@ -107,6 +111,13 @@ def _on_floors(
     return float(distance[worst]), (float(corners[worst, 0]), float(corners[worst, 1]))
 
 
+def drilled_floors(job: Job) -> list[tuple[Bore, float]]:
+    """The blind holes that are tapped, and where their threads end, mm: a drill's point may stay below."""
+    blind = [bore for bore in recesses(job) if isinstance(bore, Bore)]
+    threads = [(bore, thread) for bore in blind if (thread := thread_in(job, bore)) is not None]
+    return [(bore, one.depth) for bore, one in threads if any(makes(tool, one) for tool in job.tools)]
+
+
 AROUND = 64
 """So many places on the wall of a bore are looked at: it is a circle, and so is the path that makes it."""
 
@@ -117,11 +128,14 @@ def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, fl
     bores = [feature for feature in job.features if isinstance(feature, Bore)]
     turn = np.linspace(0.0, math.tau, AROUND, endpoint=False)
     ray = np.column_stack((np.cos(turn), np.sin(turn)))
-    for band in bands(job) if bores else ():
+    pointed = drilled_floors(job)
+    for band in bands(job, tuple(-depth for _, depth in pointed)) if bores else ():
         here = [
             bore
             for bore in bores
-            if -bore.top >= band.top - NEAR and -(bore.top + bore.depth) <= band.bottom + NEAR
+            if -bore.top >= band.top - NEAR
+            and -(bore.top + bore.depth) <= band.bottom + NEAR
+            and not any(bore is one and band.top <= NEAR - depth for one, depth in pointed)
         ]
         if not here:
             continue

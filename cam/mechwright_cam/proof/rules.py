@@ -65,6 +65,7 @@ _HOMES = (
     ("cutting_state", "spindle coolant arcs feeds speeds"),
     ("cutting_rules", "cutting_speed chips pecks"),
     ("edge_rules", "edges plunges climb"),
+    ("tap_rules", "tapping"),
     ("depth_of_cut", "depth_of_cut"),
     ("power_rules", "power"),
     ("cutting_state", "dwells"),

@@ -79,6 +79,13 @@ def _check_apart(what: str, key: str, numbers: list[tuple[int, Tool]]) -> None:
 
 def _changed(tool: Tool, change: CuttingChange) -> Tool:
     said = change.model_dump(exclude_none=True)
+    if tool.pitch is not None:
+        if "chip_load" in said:
+            raise DesignError(
+                f"cam.cutting.{tool.name}.chip_load: a tap feeds its pitch, {tool.pitch:g} mm, in a turn; "
+                "leave it out"
+            )
+        said["chip_load"] = tool.pitch / tool.flutes
     cutting = {name: data.model_copy(update=said) for name, data in tool.cutting.items()}
     if "cutting_speed" in said and "chip_load" in said:
         cutting = dict.fromkeys(MATERIALS, CuttingData(**said)) | cutting

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
+from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio, convert
 
 
 class ToolKind(StrEnum):
@@ -21,19 +21,29 @@ class ToolKind(StrEnum):
     CHAMFER = "chamfer-mill"
     THREAD_MILL = "thread-mill"
     REAMER = "reamer"
+    TAP = "tap"
 
 
 MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
 """Cutters that clear and finish with end and side."""
 
 
-HOLLOW = frozenset({ToolKind.CHAMFER, ToolKind.THREAD_MILL, ToolKind.REAMER})
+HOLLOW = frozenset({ToolKind.CHAMFER, ToolKind.THREAD_MILL, ToolKind.REAMER, ToolKind.TAP})
 """Tools that by default do not cut with their middle."""
 NECK = 0.7
 """Diameter of a thread mill's neck in that of its teeth, if nothing is said of it: then the teeth are higher
 by a third than the coarsest thread for that diameter asks."""
 BLUNT_TIP = 0.05
 """Radius of the point of a chamfer mill that is ground to one, mm: there it presses and does not cut."""
+
+TAP_ROOT = 0.6134
+"""How far in from its rim the teeth of a tap reach, in pitches: the height of an external thread (ASME B1.1;
+ISO 724 alike). With less room the tap's core meets the wall, and it breaks."""
+TAP_POINT = 0.7
+"""How far in from its rim a tap's point is, in pitches: its first tooth cuts nothing yet."""
+
+SAME_LEAD = 1e-3
+"""By this share the feed per turn of a tap in a library may differ from its pitch: rounded digits."""
 
 REAMED = 0.26
 """How far in from its rim a reamer cuts, mm: half of the greatest allowance, and a last digit."""
@@ -81,7 +91,7 @@ class Tool(Parameters):
     centre_cutting: bool = Field(
         True,
         description="Whether its middle cuts, so that it may be plunged straight down; by default that of "
-        "all does but of chamfer and thread mills and reamers.",
+        "all does but of chamfer and thread mills, reamers and taps.",
     )
     ramp_angle: Degrees | None = Field(
         None, gt=0, le=90, description="Steepest ramp into full material, if its maker says one."
@@ -96,6 +106,20 @@ class Tool(Parameters):
         gt=0,
         le=100,
         description="Diameter of a thread mill behind its teeth; by default 0.7 of it.",
+    )
+    pitch: Millimetres | None = Field(
+        None, gt=0, le=10, description="Pitch of a tap; its diameter is that of the thread."
+    )
+    chamfer_length: Ratio = Field(
+        4.0, ge=1, le=10, description="Length of a tap's chamfer in pitches: 2 bottoming, 4 plug, 8 taper."
+    )
+    left_hand: bool = Field(
+        False, description="Whether a tap cuts left-hand threads, turning backwards (M4)."
+    )
+    floating: bool = Field(
+        False,
+        description="Whether a tap is in a floating holder, which gives way along its axis; without one the "
+        "control has to keep feed and spindle together.",
     )
     shank_diameter: Millimetres | None = Field(
         None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
@@ -135,8 +159,11 @@ class Tool(Parameters):
     @model_validator(mode="before")
     @classmethod
     def _middle(cls, said: Any) -> Any:
-        if isinstance(said, dict) and said.get("kind") in HOLLOW:
-            return {"centre_cutting": False, **said}
+        if not isinstance(said, dict) or said.get("kind") not in HOLLOW:
+            return said
+        said = {"centre_cutting": False, **said}
+        if said["kind"] == ToolKind.TAP and isinstance(said.get("cutting"), dict):
+            said["cutting"] = {name: _led(said, data) for name, data in said["cutting"].items()}
         return said
 
     @model_validator(mode="after")
@@ -145,7 +172,11 @@ class Tool(Parameters):
             self.kind is not ToolKind.THREAD_MILL or self.neck_diameter >= self.diameter
         ):
             raise ValueError("neck_diameter is that of a thread mill, and below its diameter")
-        if self.kind in {ToolKind.THREAD_MILL, ToolKind.REAMER} and self.centre_cutting:
+        if self.kind is ToolKind.TAP:
+            self._tap()
+        elif {"pitch", "chamfer_length", "left_hand", "floating"} & self.model_fields_set - _plain(self):
+            raise ValueError("pitch, chamfer_length, left_hand and floating are those of a tap")
+        if self.kind in {ToolKind.THREAD_MILL, ToolKind.REAMER, ToolKind.TAP} and self.centre_cutting:
             what = str(self.kind).replace("-", " ")
             raise ValueError(f"a {what} cuts with the teeth at its rim; leave centre_cutting out")
         if self.corner_radius > self.diameter / 2:
@@ -157,6 +188,23 @@ class Tool(Parameters):
         if self.stick_out is not None and self.stick_out < self.flute_length:
             raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
         return self
+
+    def _tap(self) -> None:
+        if self.pitch is None or not self.pitch < self.diameter / 2:
+            raise ValueError("a tap needs its pitch, below half of its diameter")
+        if self.chamfer_length * self.pitch >= self.flute_length:
+            raise ValueError("the chamfer of a tap is shorter than its flute_length")
+        for name, data in self.cutting.items():
+            if abs(data.chip_load * self.flutes - self.pitch) > SAME_LEAD * self.pitch:
+                raise ValueError(
+                    f"in {name} the chip_load of a tap is its pitch over its flutes, "
+                    f"{self.pitch / self.flutes:g} mm; leave it out"
+                )
+
+    @property
+    def point_length(self) -> float:
+        """Length of a tap's chamfer, mm: so far above its tip the thread is full; 0 of what is no tap."""
+        return 0.0 if self.pitch is None else self.chamfer_length * self.pitch
 
     @property
     def radius(self) -> float:
@@ -182,8 +230,8 @@ class Tool(Parameters):
     def hollow(self) -> float:
         """Radius, mm, within which its end does not cut: 0 if it is centre-cutting.
 
-        That of a thread mill's neck, of a chamfer mill's tip, or within a reamer's allowance; of other mills
-        it is not known, and they may ramp.
+        That of a thread mill's neck, a chamfer mill's tip, a tap's root, or within a reamer's allowance; of
+        other mills it is not known, and they may ramp.
         """
         if self.kind is ToolKind.THREAD_MILL:
             return NECK * self.radius if self.neck_diameter is None else self.neck_diameter / 2
@@ -191,7 +239,27 @@ class Tool(Parameters):
             return max(self.tip_diameter / 2, BLUNT_TIP)
         if self.kind is ToolKind.REAMER:
             return max(self.radius - REAMED, 0.0)
+        if self.pitch is not None:
+            return self.radius - TAP_ROOT * self.pitch
         return 0.0
+
+
+def _plain(tool: Tool) -> set[str]:
+    """The keys of a tap that say of another tool what is so anyway, as files that are written say all."""
+    fields = Tool.model_fields
+    return {name for name in fields if getattr(tool, name) == fields[name].default}
+
+
+def _led(tap: dict[str, Any], data: Any) -> Any:
+    """Cutting data of a tap: its feed per tooth follows from its pitch."""
+    pitch, flutes = tap.get("pitch"), tap.get("flutes", 2)
+    if not isinstance(data, dict) or "chip_load" in data:
+        return data
+    try:
+        lead = convert(pitch, "mm") if isinstance(pitch, str) else float(pitch or 0)
+        return {"chip_load": lead / int(flutes), **data}
+    except (TypeError, ValueError, ZeroDivisionError):
+        return data  # what is wrong with them is told of themselves
 
 
 def widest_mill(tools: Iterable[Tool]) -> float:

@@ -9,7 +9,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading.run import Kind, Run
 from mechwright_cam.controls.writing.text import number
 from mechwright_cam.pages.setup_sheet import setup_html
-from mechwright_cam.program.moves import Drill, Pause, Program, Rapid, ToolSection
+from mechwright_cam.program.moves import Drill, Pause, Program, Rapid, Tap, ToolSection
 from mechwright_cam.setup.job import Job
 
 OTHER = {"radius": "diameter", "diameter": "radius"}
@@ -55,7 +55,8 @@ def assert_read_back(control: Control, program: Program) -> None:
 def _assert_state(run: Run, step: int, section: ToolSection, program: Program, words: str) -> None:
     state = run.states[int(run.state[step])]
     found = (state.tool, state.spindle, state.rpm, state.coolant, state.work_offset)
-    planned = (section.tool.number, 1, section.spindle, section.coolant, program.work_offset)
+    hand = -1 if section.tool.left_hand else 1
+    planned = (section.tool.number, hand, section.spindle, section.coolant, program.work_offset)
     assert found == planned, f"line {run.line[step]}: {words} is read in another state"
 
 
@@ -67,7 +68,7 @@ def _cuts(program: Program) -> Iterator[tuple[ToolSection, tuple[float, float, f
             if isinstance(move, Pause):
                 continue
             x, y = (x if move.x is None else move.x), (y if move.y is None else move.y)
-            if isinstance(move, Drill):
+            if isinstance(move, Drill | Tap):
                 yield section, (x, y, move.bottom), move.feed, True
                 continue
             z = z if move.z is None else move.z

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     import shapely
 
 
+CORE_PLAY = 0.25
+"""By how much, in pitches, a hole may miss the core diameter of its thread: ISO 965's tolerance, roughly."""
+
+
 @dataclass(frozen=True)
 class Chamfer:
     """A top edge broken at 45 degrees; a few tenths of ``width`` deburr it.

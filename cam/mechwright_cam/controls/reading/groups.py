@@ -1,7 +1,7 @@
 """Modal groups: codes of one group exclude each other in a line (RS274/NGC, table 4)."""
 
 GROUPS: dict[str, frozenset[int]] = {
-    "motion": frozenset({0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}),
+    "motion": frozenset({0, 10, 20, 30, 331, 730, 740, 800, 810, 820, 830, 840, 850, 890}),
     "plane": frozenset({170, 180, 190}),
     "distance": frozenset({900, 910}),
     "arc centre": frozenset({901, 911}),
@@ -19,14 +19,16 @@ GROUPS: dict[str, frozenset[int]] = {
 M_GROUPS: dict[str, frozenset[int]] = {
     "stop": frozenset({0, 1, 2, 30}),
     "tool change": frozenset({6}),
-    "spindle": frozenset({3, 4, 5, 19}),
+    "spindle": frozenset({3, 4, 5, 19, 29}),
 }
 """M groups. Coolant is none: M7 and M8 may stand in one line."""
 
 G_GROUP = {code: name for name, codes in GROUPS.items() for code in codes}
 M_GROUP = {code: name for name, codes in M_GROUPS.items() for code in codes}
 
-CYCLES = frozenset({730, 810, 820, 830, 850, 890})
+TAPPING = frozenset({740, 840})
+"""Tapping cycles, left-hand and right-hand."""
+CYCLES = frozenset({730, 810, 820, 830, 850, 890}) | TAPPING
 """Drilling cycles."""
 
 

@@ -30,8 +30,10 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
     (False, True): "flood",
     (True, True): "both",
 }
-_SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0}
-"""What M codes make of the spindle; M19 stops it, and turns it to its mark."""
+_SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0, 29: 0}
+"""What M codes make of the spindle; M19 stops it and turns it to its mark, M29 stops it to tap."""
+RIGID = 29
+"""The M code after which Fanuc taps rigidly."""
 _SPINDLE_CODES = {1: 3, -1: 4, 0: 5}
 _COOLANT_CODES: dict[Coolant, tuple[int, ...]] = {"off": (9,), "mist": (7,), "flood": (8,), "both": (7, 8)}
 """M codes that leave spindle and coolant as they are."""
@@ -49,6 +51,7 @@ class Modal(Compensation):
         self.state = self.states[0]
         self.plane = 170
         self.motion: int | None = None
+        self.rigid = dialect.tapping == "always"
         self.offsets_are_zero = False
         self.diameters: Mapping[int, float] = {}
 
@@ -185,6 +188,8 @@ class Modal(Compensation):
 
     def _spindle_and_coolant(self, block: Block) -> None:
         for code in block.m:
+            if code == RIGID:
+                self.rigid = True
             if code in M_GROUPS["spindle"]:
                 self._set(spindle=_SPINDLE[code])
         mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}

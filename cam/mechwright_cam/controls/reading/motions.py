@@ -5,9 +5,10 @@ from collections.abc import Collection
 
 from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
-from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, spell
-from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES, Modal
+from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, TAPPING, spell
+from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES
 from mechwright_cam.controls.reading.run import Kind
+from mechwright_cam.controls.reading.tapping import Tapping
 
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
@@ -17,7 +18,7 @@ ARC_CHORD = 0.0005
 """Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
 
 
-class Moving(Modal):
+class Moving(Tapping):
     """A machine that moves."""
 
     sticky: dict[str, float]
@@ -29,6 +30,8 @@ class Moving(Modal):
     def _move(self, block: Block, words: dict[str, float]) -> None:
         named = next((code for code in block.g if code in GROUPS["motion"]), None)
         if named is not None:
+            if named not in TAPPING:
+                self.end_rigid()
             if named == 800:
                 self.motion = None
             elif named in CYCLES and named != self.motion:
@@ -53,6 +56,8 @@ class Moving(Modal):
                 self._cycle(block, words, self.motion)
             elif self.motion in {20, 30}:
                 self._arc(block, words)
+            elif self.motion == 331:
+                self.rigid_tap(block, words)
             else:
                 x, y, z = self._target(block, words)
                 if self.side:
@@ -62,7 +67,7 @@ class Moving(Modal):
                     self._row(Kind.RAPID, block.line, x, y, z)
                 else:
                     self._feed_to(block.line, x, y, z)
-        elif named in CYCLES | {20, 30}:
+        elif named in CYCLES | {20, 30, 331}:
             raise fail(block.line, f"{spell(named or 0)} without an axis")
 
     def _home(self, block: Block, words: dict[str, float]) -> None:
@@ -225,7 +230,9 @@ class Moving(Modal):
             self.lacks(line, "G98")
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
-        asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else "")
+        asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} | TAPPING else "")
+        if code in TAPPING:
+            self.sticky.setdefault("P", 0.0)
         for letter in asked:  # what it does not ask for is left over, and refused
             if letter in words:
                 time = self._waiting(block, "P", "") if letter == "P" else words.pop(letter) * self.scale
@@ -252,6 +259,10 @@ class Moving(Modal):
         self._rapid(line, x, y, self.z)
         self._rapid(line, x, y, plane)
         up = max(self.initial, plane) if self.to_initial else plane
+        if code in TAPPING:
+            self.tap(line, code, bottom, up if self.dialect.taps_out else plane, self.sticky["P"])
+            self._rapid(line, x, y, up)
+            return
         self._drill(line, code, bottom, plane, step)
         if code in {820, 890}:
             seconds = self.sticky["P"]

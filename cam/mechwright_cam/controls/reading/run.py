@@ -54,6 +54,8 @@ class State:
     """1 clockwise, -1 counter-clockwise, 0 stopped."""
     rpm: float = 0.0
     """Programmed speed, rev/min."""
+    synchronous: bool = False
+    """Whether the control keeps feed and spindle together, as in rigid tapping."""
     coolant: Coolant = "off"
     """What runs."""
     side: int = 0

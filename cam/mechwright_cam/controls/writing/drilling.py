@@ -5,10 +5,12 @@ import math
 from mechwright_cam.controls.writing.spelling import Spelling
 from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
-from mechwright_cam.program.moves import Drill, Rapid
+from mechwright_cam.program.moves import Drill, Rapid, Tap
 
 PECK_GAP = 0.25
 """Height above the last depth at which a peck that is written out starts to feed, mm: out of the chips."""
+EVERY_WAY = frozenset({"rigid", "rigid left", "floating", "floating left"})
+"""The ways in which a control taps that has both cycles and keeps feed and spindle together."""
 
 
 class Drilling(Spelling):
@@ -67,6 +69,33 @@ class Drilling(Spelling):
         stated = out.feed_word(hole.feed) or (feed if every_word else "")
         out.line("G98", code, *place, *words[1:], stated)
         out.cycle = (*words, feed)
+        out.motion = ""
+
+    def tap(self, out: Writer, hole: Tap) -> None:
+        """Tap one hole."""
+        self.tap_cycle(out, hole)
+
+    def tap_cycle(
+        self, out: Writer, hole: Tap, *, before: tuple[str, ...] = (), every_word: bool = False
+    ) -> None:
+        """Tap with G84, or G74 to the left; holes that agree share the cycle and what is ``before``."""
+        code = "G74" if out.tapping.left_hand else "G84"
+        words = [code, "Z" + out.height(hole.bottom), "R" + out.height(hole.retract, up=True)]
+        if hole.dwell > 0 and out.tapping.floating:
+            words.append("P" + self.waiting(hole.dwell))
+        feed = out.feed_text(hole.feed, exact=True)
+        again = out.cycle == (*words, feed)
+        if again and not every_word:
+            place = out.axis_words(hole.x, hole.y, None)
+            out.line(*(place or ["X" + out.length(hole.x)]))
+            return
+        if not again:
+            self.end_drilling(out)
+            out.line(*before)
+        out.x = out.y = math.nan
+        place = out.axis_words(hole.x, hole.y, None)
+        out.line("G98", code, *place, *words[1:], feed)
+        out.cycle, out.feed = (*words, feed), ""
         out.motion = ""
 
     def drill_in_moves(self, out: Writer, hole: Drill) -> None:

@@ -24,6 +24,7 @@ from mechwright_cam.program.moves import (
     Operation,
     Pause,
     Rapid,
+    Tap,
     ToolSection,
 )
 from mechwright_cam.shop.tool import Tool
@@ -121,7 +122,7 @@ class Sections(Drilling):
             out.x = out.y = math.nan
 
     def _move(self, out: Writer, section: ToolSection, move: Move) -> None:
-        if out.cycle and not isinstance(move, Drill):
+        if out.cycle and not isinstance(move, Drill | Tap):
             self.end_drilling(out)
         match move:
             case FeedArc():
@@ -139,6 +140,11 @@ class Sections(Drilling):
                     self.drill(out, move)
                 else:
                     self.drill_in_moves(out, move)
+            case Tap():
+                out.tapping = section.tool
+                if math.isnan(out.z):
+                    self.rapid(out, Rapid(z=out.program.clearance))
+                self.tap(out, move)
             case Pause():
                 self._pause(out, section, move)
 
@@ -172,7 +178,8 @@ class Sections(Drilling):
         out.resumed = section
 
     def _start_spindle(self, out: Writer, section: ToolSection, *words: str) -> None:
-        out.line(*words, "S" + number(section.spindle, 0), self.m(3))
+        out.speed = "S" + number(section.spindle, 0)
+        out.line(*words, out.speed, self.m(4 if section.tool.left_hand else 3))
         if out.program.machine.spindle_delay > 0:
             self.dwell(out, out.program.machine.spindle_delay)
 

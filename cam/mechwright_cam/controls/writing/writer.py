@@ -5,6 +5,7 @@ import math
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.writing.text import NOISE, floored, number
 from mechwright_cam.program.moves import Feed, FeedArc, Program, ToolSection
+from mechwright_cam.shop.tool import Tool
 
 HIGHEST_NUMBER = 99999
 """The largest N number that all five controls take."""
@@ -33,6 +34,8 @@ class Writer:
         self.tool = 0
         self.resumed: ToolSection | None = None
         self.cycle: tuple[str, ...] = ()
+        self.tapping: Tool
+        self.speed = ""
         self.corners: list[str] = []
         # By identity: the program holds its moves as long as it is written.
         self._ends: dict[tuple[int, float, float], str] = {}
@@ -79,8 +82,17 @@ class Writer:
         self.feed = word
         return word
 
-    def feed_text(self, feed: float) -> str:
-        """A feed, mm/min: to a tenth of a millimetre or a hundredth of an inch a minute."""
+    def pitch(self, value: float) -> str:
+        """A pitch, mm: to more decimals than a place, as it adds up over all turns."""
+        return number(value / self.scale, 6, self.point)
+
+    def feed_text(self, feed: float, *, exact: bool = False) -> str:
+        """A feed, mm/min: to a tenth of a millimetre or a hundredth of an inch a minute.
+
+        An ``exact`` one, of a tap, has two decimals more.
+        """
+        if exact:
+            return "F" + number(feed / self.scale, 3 if self.scale == 1.0 else 4, self.point)
         if self.scale == 1.0:
             return "F" + number(feed, 1, self.point)
         return "F" + number(floored(feed / self.scale, 2), 2, self.point)  # a limit may be no round number

@@ -120,6 +120,10 @@ def describe(tool: Tool, to: Lengths = MILLIMETRES) -> str:
     'end mill ⌀6, 3 flutes'
     """
     words = f"{str(tool.kind).replace('-', ' ')} ⌀{to.size(tool.diameter)}"
+    if tool.pitch is not None:
+        words = f"{'left-hand ' if tool.left_hand else ''}{words} × {to.plain(tool.pitch)}"
+        words += f", chamfer of {tool.chamfer_length:g} turns{', floating' if tool.floating else ''}"
+        return words + (f", {tool.coating}" if tool.coating else "")
     words += f", {tool.coating}" if tool.coating else ""
     if tool.kind not in (ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER):
         plunge = "" if tool.centre_cutting else ", not centre cutting"

@@ -14,6 +14,7 @@ from mechwright.contracts.part import Bore
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.setup_sheet.tapping import about_taps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
@@ -64,6 +65,7 @@ def steps(
     over = job.side == "underside"
     by_hand = not control.offsets.lengths
     touched = by_hand and not _in_program(job, control, tools)
+    used = [tool for tool in job.tools if tool.number in tools]
     needs = tuple(control.needs(job.settings))
     if control.leftover:
         needs += (f"The program does not take back {control.leftover}.",)
@@ -82,6 +84,7 @@ def steps(
             if offsets
             else []
         ),
+        *([Step("Tapping", taps)] if (taps := about_taps(used, control)) else []),
         _run(job, offset, file_names, to, touched=touched),
     ]
 

@@ -29,6 +29,7 @@ KINDS = {
     "vbit": ToolKind.CHAMFER,
     "drill": ToolKind.DRILL,
     "threadmill": ToolKind.THREAD_MILL,
+    "tap": ToolKind.TAP,
 }
 """Shapes, by their letters alone."""
 SHAPES = {
@@ -38,8 +39,11 @@ SHAPES = {
     ToolKind.CHAMFER: ("Chamfer", "chamfer.fcstd"),
     ToolKind.DRILL: ("Drill", "drill.fcstd"),
     ToolKind.THREAD_MILL: ("ThreadMill", "thread-mill.fcstd"),
+    ToolKind.TAP: ("Tap", "tap.fcstd"),
 }
 """The other way; FreeCAD has no spot drill."""
+REACHES = {ToolKind.THREAD_MILL: "NeckLength", ToolKind.TAP: "CuttingEdgeLength"}
+"""What says how deep a tool cuts, where it is not its ``CuttingEdgeHeight``."""
 UNITS = {
     "length": {
         "mm": 1.0,
@@ -160,13 +164,19 @@ def _shape(said: Said, data: Mapping[str, Any]) -> None:
     for table in (data.get("attribute"), data.get("parameter")):
         values |= table if isinstance(table, Mapping) else {}
     kind, keys = _kind(data), said.keys
-    if str(values.get("SpindleDirection", "")).lower() == "reverse":
+    backwards = str(values.get("SpindleDirection", "")).lower() == "reverse"
+    if kind is ToolKind.TAP:
+        keys["left_hand"] = backwards
+        if not (pitch := _quantity(values, "Pitch")):
+            raise LeftOutError("a tap without a pitch (Pitch); give it one")
+        keys["pitch"] = pitch
+    elif backwards:
         raise LeftOutError("it turns left (SpindleDirection), and programs start the spindle with M3")
     keys["kind"] = kind.value
     if not (wide := _quantity(values, "Diameter")):
         raise LeftOutError("has no diameter (Diameter); give it one")
     keys["diameter"] = wide
-    reach = "NeckLength" if kind is ToolKind.THREAD_MILL else "CuttingEdgeHeight"
+    reach = REACHES.get(kind, "CuttingEdgeHeight")
     if kind is ToolKind.DRILL and reach not in values:
         raise LeftOutError("does not say how long its flutes are; add a CuttingEdgeHeight to its .fctb")
     for key, name in (("flute_length", reach), ("shank_diameter", "ShankDiameter")):
@@ -255,9 +265,9 @@ def _content(tool: Tool) -> dict[str, Any]:
         lengths["CuttingEdgeHeight"] = (tool.diameter - tool.tip_diameter) / 2 / slope
         lengths["TipDiameter"] = tool.tip_diameter
     else:
-        lengths["NeckLength" if tool.kind is ToolKind.THREAD_MILL else "CuttingEdgeHeight"] = (
-            tool.flute_length
-        )
+        lengths[REACHES.get(tool.kind, "CuttingEdgeHeight")] = tool.flute_length
+    if tool.pitch is not None:
+        lengths["Pitch"] = tool.pitch
     if tool.kind is ToolKind.BULL_NOSE:
         lengths["CornerRadius"] = tool.corner_radius
     if tool.neck_diameter is not None:
@@ -269,6 +279,8 @@ def _content(tool: Tool) -> dict[str, Any]:
     if angle is not None:
         parameter[angle] = f"{tool.point_angle:.9f} °"
     parameter["Flutes"] = str(tool.flutes)
+    if tool.kind is ToolKind.TAP:
+        parameter["SpindleDirection"] = "Reverse" if tool.left_hand else "Forward"
     shape, file = SHAPES[tool.kind]
     material = {"hss": "HSS", "carbide": "Carbide"}[tool.substrate]
     return {

@@ -26,6 +26,8 @@ VERSION = 36
 MEMBER = "tools.json"
 """Name of the file in a ``.tools``."""
 UNITS = {"millimeters": 1.0, "inches": 25.4}
+LEFT = "tap left hand"
+"""The one kind that turns backwards."""
 KINDS = {
     "flat end mill": ToolKind.END_MILL,
     "bull nose end mill": ToolKind.BULL_NOSE,
@@ -35,6 +37,8 @@ KINDS = {
     "spot drill": ToolKind.SPOT_DRILL,
     "thread mill": ToolKind.THREAD_MILL,
     "reamer": ToolKind.REAMER,
+    "tap right hand": ToolKind.TAP,
+    LEFT: ToolKind.TAP,
 }
 NOSE = 20.0
 """Segments of a holder that begin within this height above its lower end count, mm: higher up nothing of a
@@ -62,6 +66,8 @@ class FusionLibrary(Format):
         "point_angle": "SIG or TA",
         "tip_diameter": "tip-diameter",
         "neck_diameter": "shoulder-diameter",
+        "pitch": "TP",
+        "left_hand": "type",
         "holder_diameter": "holder.segments",
     }
 
@@ -156,7 +162,9 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
         raise LeftOutError(
             f"there is no {row.get('type')!r:.40} among our kinds of tools; leave it to other programs"
         )
-    if geometry.get("HAND") is False:
+    if kind is ToolKind.TAP:
+        keys["left_hand"] = row.get("type") == LEFT
+    elif geometry.get("HAND") is False:
         raise LeftOutError("it turns left (HAND false), and programs start the spindle with M3")
     keys["kind"] = kind.value
 
@@ -171,6 +179,10 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
     for key, name in (("flute_length", "LCF"), ("stick_out", "LB"), ("shank_diameter", "SFDM")):
         if (value := length(name)) is not None:
             keys[key] = value
+    if kind is ToolKind.TAP:
+        if not (pitch := length("TP")):
+            raise LeftOutError("a tap without a pitch (TP); give it one")
+        keys["pitch"] = pitch
     if kind is ToolKind.BULL_NOSE and (corner := length("RE")) is not None:
         keys["corner_radius"] = corner
     _ends(said, geometry, kind, length("RE"), length("tip-diameter"))
@@ -241,13 +253,15 @@ def _row(tool: Tool) -> dict[str, Any]:
         "NOF": tool.flutes,
         "shoulder-length": tool.flute_length,
         "shoulder-diameter": tool.neck_diameter or tool.diameter,
-        "HAND": True,
+        "HAND": not tool.left_hand,
         "CSP": False,
     }
     if tool.stick_out is not None:
         geometry["LB"] = tool.stick_out
     if tool.shank_diameter is not None:
         geometry["SFDM"] = tool.shank_diameter
+    if tool.pitch is not None:
+        geometry["TP"] = tool.pitch
     if tool.kind in MILLS:
         geometry["RE"] = tool.nose
     elif tool.kind in DRILLS:
@@ -257,7 +271,7 @@ def _row(tool: Tool) -> dict[str, Any]:
     segment = {"height": NOSE, "lower-diameter": tool.holder_diameter, "upper-diameter": tool.holder_diameter}
     holder = {"description": "holder", "type": "holder", "unit": "millimeters", "segments": [segment]}
     return {
-        "type": next(name for name, kind in KINDS.items() if kind is tool.kind),
+        "type": LEFT if tool.left_hand else next(name for name, kind in KINDS.items() if kind is tool.kind),
         "unit": "millimeters",
         "BMC": tool.substrate,
         "description": tool.name,
