@@ -11,7 +11,7 @@ from mechwright_noncircular_gears.params import NoncircularParams
 
 
 class PairStage(Transmission):
-    """Driver in, driven gear out, the other way round."""
+    """Driver in, driven gear out, the other way round unless it is a ring."""
 
     own_drive = ("speed",)
     load_field = "load_torque"
@@ -20,9 +20,9 @@ class PairStage(Transmission):
         self.params = params
         driver, mate = NAMES
         self.input = Port(driver, (0.0, 0.0))
-        self.output = Port(mate, (pair_of(params).distance, 0.0))
+        self.output = Port(mate, (pair_of(params).axis, 0.0))
         self.period = Fraction(turns_of(params))
-        self.advance = -self.period * params.lobes / params.mate_lobes
+        self.advance = -params.side * self.period * params.lobes / params.mate_lobes
         self.speed = params.omega
 
     def move(self, drive: Turning) -> Turning:
