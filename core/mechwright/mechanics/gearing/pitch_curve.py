@@ -98,6 +98,11 @@ class PitchCurve(ABC):
     def frame(self, t: Array, arc: Array | None = None) -> Frame:
         """The moving frame at parameters (...); ``arc`` is given where it is known already."""
 
+    @property
+    def breaks(self) -> Array:
+        """Parameters (n,), rad, 0 to 2π, at which the curvature jumps; none by default."""
+        return np.empty(0)
+
     @cached_property
     def _table(self) -> tuple[Array, Array]:
         t = np.linspace(0, math.tau, _GUESSES)

@@ -23,6 +23,12 @@ from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
 from mechwright.mechanics.gearing.primitive import Primitive
 from mechwright.mechanics.gearing.ratio import RatioLaw
 
+_BESIDE = 1e-7
+"""rad on both sides of a break of the law, between which a jump is told from a bend."""
+
+_JUMP = 1e-4
+"""Share of the second derivative of the ratio by which it jumps; less no fit takes notice of."""
+
 
 @dataclass(frozen=True, slots=True)
 class Rolling:
@@ -93,6 +99,16 @@ class RolledCurve(PitchCurve):
     def perimeter(self) -> float:
         """As many lobes as the curve has, each of the length that both share."""
         return self.distance * self.roll.total * abs(self.sense) * self.law.lobes[0]
+
+    @cached_property
+    def breaks(self) -> Array:
+        """Where the second derivative of the ratio jumps, in all lobes."""
+        law, edge = self.law, np.asarray(self.law.breaks, dtype=float)
+        before, after = (law.rates(edge + side * _BESIDE)[2] for side in (-1, 1))
+        jumps = edge[np.abs(after - before) > _JUMP * (1 + np.abs(before) + np.abs(after))]
+        lobes = round(law.lobes[0] * abs(self.sense))
+        phi = (jumps + law.period * np.arange(lobes)[:, None]).ravel()
+        return np.sort(phi / self.sense % math.tau)
 
     def arc(self, t: Array) -> Array:
         """Arc length (...), mm, from t = 0."""
