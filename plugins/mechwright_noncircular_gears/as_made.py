@@ -6,6 +6,7 @@ from mechwright import AsMade, MadePart
 from mechwright.mechanics.gearing.running import (
     MadePair,
     about_bore,
+    about_rim,
     play_curve,
     running_figures,
     running_findings,
@@ -27,7 +28,10 @@ def as_made(params: NoncircularParams, made: Mapping[str, Sequence[MadePart]]) -
         pair_of(params),
         driver,
         NAMES,
-        (about_bore(one, params.bore), about_bore(two, params.bore)),
+        (
+            about_bore(one, params.bore),
+            about_rim(two) if params.internal else about_bore(two, params.bore),
+        ),
         one.corridor + two.corridor,
         (least_backlash(params), RULE),
         mate=mate,

@@ -16,9 +16,9 @@ from mechwright.mechanics.gearing.checks import (
     land_findings,
     mesh_findings,
     profile_findings,
-    rim_findings,
     tip_findings,
 )
+from mechwright.mechanics.gearing.checks import rim_findings as opening_rim_findings
 from mechwright.mechanics.openings import keyed_findings, too_small
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_noncircular_gears.gear import (
@@ -39,9 +39,11 @@ from mechwright_noncircular_gears.params import LEAST_MODULE, NoncircularParams
 from mechwright_noncircular_gears.parts import mill_for_fillets
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.proof import prove
+from mechwright_noncircular_gears.ring_checks import rim_findings
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
+from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
 
 
 @kept
@@ -57,8 +59,9 @@ def judged(params: NoncircularParams) -> tuple[Finding, ...]:
 
 @kept
 def _of_the_parts(params: NoncircularParams) -> tuple[Finding, ...]:
-    checks = (_size, _profile, convexity_findings, _land, undercut_findings, _tip, _opening, _drive)
-    return tuple(at_stage(Stage.PARTS, until_error(params, *checks)))
+    teeth = (_size, _profile, convexity_findings, _land, undercut_findings)
+    tips = (cusp_findings, _tip, fillet_findings)
+    return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, _drive)))
 
 
 @of_stage(Stage.PARTS)
@@ -114,8 +117,8 @@ def _opening(params: NoncircularParams) -> Iterator[Finding]:
         return
     rims = [
         finding
-        for gear in range(2)
-        for finding in rim_findings(
+        for gear in range(1 if params.internal else 2)
+        for finding in opening_rim_findings(
             params,
             rack_of(params),
             partial(room, params, gear),
@@ -165,10 +168,10 @@ def _mesh(params: NoncircularParams) -> Iterator[Finding]:
 
 
 def _lower(params: NoncircularParams) -> Iterator[Change]:
-    """Lower teeth, which may clear the fillets of their mates."""
-    addendum = profile_of(params).addendum
+    """Lower teeth, which may clear the fillets and tips of their mates."""
     for less in (0.1, 0.2):
-        yield {"parameters.addendum": round(addendum - less, 3)}
+        heights = dict(addendum_of(params, gear) for gear in range(2))
+        yield {f"parameters.{name}": round(value - less, 3) for name, value in heights.items()}
 
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from mechwright import TOLERANCES, Finding
-from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, ring_of
+from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, hole_of, ring_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.proof import prove_outlines
@@ -19,9 +19,11 @@ def cut_findings(params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]"
     if all(name in cut for name in NAMES):
         allowance = sum(outline.deviation + 2 * TOLERANCES.flatten for outline in outlines_of(params))
         one, two = (ring_of(cut[name]) for name in NAMES)
+        if params.internal:
+            two = hole_of(cut[NAMES[1]])
         found.append(cut_mesh(prove_outlines(params, one, two, allowance), params.thickness))
     key = 0.0 if params.keyway_width > 0 else None
-    for name in NAMES:
+    for name in NAMES[: 1 if params.internal else 2]:
         if name in cut:
             found += cut_opening(params, key, cut[name])
     return tuple(dict.fromkeys(found))

@@ -63,7 +63,7 @@ class NoncircularGears(Family[NoncircularParams]):
         return mounting_of(params)
 
     def transmission(self, params: NoncircularParams) -> "Transmission":
-        """Driver in, driven gear out."""
+        """Driver in, driven gear out; DesignError for a ring, which has no shaft."""
         from mechwright_noncircular_gears.stage import PairStage
 
         return PairStage(params)

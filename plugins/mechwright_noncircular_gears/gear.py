@@ -1,6 +1,7 @@
 """From the design table to both gears: sizes, teeth and outlines."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
+from mechwright_noncircular_gears.ring import Rim, ring_outline
 
 NAMES = ("gear-1", "gear-2")
 """Bodies and parts: driver and driven gear."""
@@ -24,9 +26,9 @@ def pair_of(params: NoncircularParams) -> RolledPair:
     """Both pitch curves; a module asks for a centre distance of its own."""
     law = law_of(params)
     if params.centre_distance is not None:
-        return RolledPair.of(law, params.centre_distance)
+        return RolledPair.of(law, params.centre_distance, params.side)
     assert params.module is not None  # noqa: S101 - the table has exactly one of both
-    return RolledPair.of_pitch(law, math.pi * params.module, params.teeth)
+    return RolledPair.of_pitch(law, math.pi * params.module, params.teeth, params.side)
 
 
 def curves_of(params: NoncircularParams) -> tuple[RolledCurve, RolledCurve]:
@@ -61,11 +63,19 @@ def with_backlash(params: NoncircularParams, backlash: float) -> NoncircularPara
 
 
 def rack_of(params: NoncircularParams) -> Rack:
-    """The generating cutter of both gears, in mm."""
+    """The generating cutter of both gears, in mm; with a ring, that of the driver."""
     module = params.module
     if module is None:
         module = pair_of(params).driver.perimeter / (math.pi * params.teeth)
     return profile_of(params).sized(module, backlash_of(params))
+
+
+def racks_of(params: NoncircularParams) -> tuple[Rack, Rack]:
+    """Cutters of driver and driven gear, which differ in the height of the teeth that they leave."""
+    rack = rack_of(params)
+    if not params.internal:
+        return rack, rack
+    return rack, replace(rack, addendum=params.value("ring_addendum") * rack.module)
 
 
 @kept
@@ -73,13 +83,13 @@ def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
     """Teeth of driver and driven gear.
 
     Tooth centres of the driver lie at arcs (j + δ) p from the pitch point at φ = 0, those of the driven gear
-    at (j + δ + 1/2) p. The contact runs clockwise in the driver, against the sense of its arc.
+    at (j + δ + 1/2) p. The contact runs clockwise in the driver and in a ring, against their arcs' sense.
     """
-    (one, two), rack = curves_of(params), rack_of(params)
+    (one, two), (rack, mate) = curves_of(params), racks_of(params)
     offset = params.tooth_offset
     return (
         Teeth(one, rack, params.teeth, -offset % 1.0),
-        Teeth(two, rack, params.mate_teeth, (offset + 0.5) % 1.0),
+        Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0),
     )
 
 
@@ -91,6 +101,8 @@ toothed = kept(gear_loop)
 def outlines_of(params: NoncircularParams) -> tuple[Outline, Outline]:
     """Outlines of driver and driven gear, each about its axis; keyways point along +x.
 
+    Teeth of a ring are its first opening.
+
     Raises
     ------
     GeometryError
@@ -98,8 +110,15 @@ def outlines_of(params: NoncircularParams) -> tuple[Outline, Outline]:
     """
     opening = opening_of(params)
     holes = () if opening is None else (opening.loop(),)
-    one, two = (Outline(outer, holes, deviation) for outer, deviation in map(toothed, teeth_of(params)))
-    return one, two
+    (one, off), (two, more) = map(toothed, teeth_of(params))
+    driver = Outline(one, holes, off)
+    return driver, ring_outline(rim_of(params), two, more) if params.internal else Outline(two, holes, more)
+
+
+@kept
+def rim_of(params: NoncircularParams) -> Rim:
+    """What lies around the teeth of a driven gear that is a ring."""
+    return Rim.of(params, teeth_of(params)[1])
 
 
 @kept

@@ -24,7 +24,7 @@ LEAST_RATIO = 1e-3
 GRID = 1440
 """Samples of a lobe at which extremes are sought: sixteen harmonics have ninety of them each."""
 
-PITCH_LAWS: dict[str, Callable[[tuple[int, int], float], RatioLaw]] = {
+PITCH_LAWS: dict[str, Callable[[tuple[int, int], float, int], RatioLaw]] = {
     "ellipse": EllipseLaw,
     "limacon": LimaconLaw,
     "eccentric-circle": CircleLaw,
@@ -58,7 +58,7 @@ def law_of(params: NoncircularParams) -> RatioLaw:
     if params.law == "slider":
         angles = (math.radians(params.value(name)) for name in ("stroke_start", "stroke_end", "window"))
         return SliderLaw(lobes, params.value("rod_ratio"), *angles)
-    return PITCH_LAWS[params.law](lobes, params.value("eccentricity"))
+    return PITCH_LAWS[params.law](lobes, params.value("eccentricity"), params.side)
 
 
 @dataclass(frozen=True)
@@ -97,21 +97,25 @@ def slowest_of(law: RatioLaw) -> Extreme:
     return least(law, lambda phi: law.rates(phi)[0])
 
 
+def fastest_of(law: RatioLaw) -> Extreme:
+    """The greatest ratio; a ring has no centre where it is not below 1."""
+    return least(law, lambda phi: -law.rates(phi)[0], -1.0)
+
+
 @kept
 def extremes_of(params: NoncircularParams) -> Extremes:
-    """Extremes of the pitch curves; the ratio has to be above 0."""
+    """Extremes of the pitch curves; the ratio has to be above 0, and of a ring below 1."""
     law = law_of(params)
 
     def slope(phi: Array) -> Array:
-        i, first, _ = law.rates(phi)
-        return -np.abs(np.arctan2(first, i * (1 + i)))
+        return -np.abs(Rolling.of(law, phi, params.side).tilt)
 
     def of(name: str, sign: float) -> Extreme:
-        return least(law, lambda phi: sign * getattr(Rolling.of(law, phi), name), sign)
+        return least(law, lambda phi: sign * getattr(Rolling.of(law, phi, params.side), name), sign)
 
     return Extremes(
         slowest_of(law),
-        least(law, lambda phi: -law.rates(phi)[0], -1.0),
+        fastest_of(law),
         least(law, slope, -1.0),
         (of("curvature1", 1.0), of("curvature2", 1.0)),
         (of("curvature1", -1.0), of("curvature2", -1.0)),

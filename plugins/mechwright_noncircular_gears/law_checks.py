@@ -5,15 +5,18 @@ from collections.abc import Iterator
 
 from mechwright import Finding
 from mechwright_noncircular_gears.formula_checks import formula_finding
-from mechwright_noncircular_gears.law import LEAST_RATIO, law_of, slowest_of
+from mechwright_noncircular_gears.law import LEAST_RATIO, fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.softer import nearest, said
 
+MOST_RING_RATIO = 0.95
+"""Of a ring and the gear in it: pitch radii r = a i/(1 - i) have no bound towards 1."""
+
 
 def law_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """Room for the blends of a window, and a ratio above 0."""
+    """Room for the blends of a window, a ratio above 0, and below 1 in a ring."""
     law = law_of(params)
     if isinstance(law, WindowLaw):
         taken, period = law.width + 2 * law.blend, law.period
@@ -36,6 +39,21 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
         if wrong is not None:
             yield wrong
             return
+    if params.internal and not outruns(params):
+        fastest = fastest_of(law)
+        words, changes = said(nearest(params, outruns), "draw the law nearer to a constant ratio")
+        yield Finding.error(
+            "law.ring",
+            "law",
+            f"the ring turns {fastest.value:.4g} times as fast as the gear in it at "
+            f"{math.degrees(fastest.angle):.1f} degrees of the driver, and no ring catches up: its ratio is "
+            f"to stay below {MOST_RING_RATIO:g}",
+            fastest.value,
+            MOST_RING_RATIO,
+            remedy=words,
+            proposed=changes,
+        )
+        return
     if runs(params):
         return
     slowest = slowest_of(law)
@@ -50,6 +68,11 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
         remedy=words,
         proposed=changes,
     )
+
+
+def outruns(params: NoncircularParams) -> bool:
+    """Whether the driver is faster than the ring about it, all the way round."""
+    return fastest_of(law_of(params)).value < MOST_RING_RATIO
 
 
 def runs(params: NoncircularParams) -> bool:

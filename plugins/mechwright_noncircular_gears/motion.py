@@ -19,6 +19,7 @@ from mechwright import (
 )
 from mechwright.contracts.finding import errors
 from mechwright.contracts.stretch import Samples, travelled
+from mechwright.mechanics.gearing import Rolling
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_noncircular_gears.checks import findings
@@ -42,7 +43,8 @@ def turns_of(params: NoncircularParams) -> int:
 def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
     """Sample the turns of the driver at constant speed, both ends included.
 
-    The driver turns about the origin, the driven gear about (a, 0), the other way round.
+    The driver turns about the origin, the driven gear about (a, 0), the other way round; a ring about
+    (-a, 0), the same way.
 
     Raises
     ------
@@ -54,10 +56,10 @@ def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
 
 
 def driven(params: NoncircularParams, driver: Turning) -> Turning:
-    """The driven gear of any motion of the driver, about +z: against the sense of the driver."""
-    law = law_of(params)
+    """The driven gear of any motion of the driver, about +z: a ring with the driver, others against it."""
+    law, way = law_of(params), -params.side
     ratio, first, second = law.rates(driver.theta)
-    return Turning(-law.angle(driver.theta), *driver.carried(-ratio, -first, -second))
+    return Turning(way * law.angle(driver.theta), *driver.carried(way * ratio, way * first, way * second))
 
 
 def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion:
@@ -65,9 +67,9 @@ def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion
     for finding in errors(findings(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     law, pair, phi = law_of(params), pair_of(params), driver.theta
-    ratio, first, _ = law.rates(phi)
+    ratio = law.rates(phi)[0]
     r1, r2 = pair.pitch_radii(phi)
-    slope = np.abs(np.arctan2(first, ratio * (1 + ratio)))
+    slope = np.abs(Rolling.of(law, phi, params.side).tilt)
     mate = driven(params, driver)
     channels = {
         "time": Channel(time, "s", "time"),
@@ -80,7 +82,7 @@ def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion
             slope + math.radians(params.pressure_angle), "rad", "pressure angle at the shaft"
         ),
     }
-    a = pair.distance
+    a = pair.axis
     poses = {
         "gear-1": Poses.planar(0.0, 0.0, driver.theta),
         "gear-2": Poses.planar(a, 0.0, mate.theta),

@@ -13,8 +13,13 @@ from mechwright_noncircular_gears.params import NoncircularParams
 def mounting_of(params: NoncircularParams) -> Mounting:
     """Both shafts. A torque T on gear 1 is T/i on gear 2 and presses the teeth together with T/(r1 cos α).
 
-    Raises MountingError for gears without a bore.
+    Raises MountingError for gears without a bore, and for a ring, which has no shaft.
     """
+    if params.internal:
+        raise MountingError(
+            "parameters.internal: a ring is screwed to what turns with it, and has no shaft for a frame; "
+            "leave the frame out",
+        )
     if params.bore == 0:
         raise MountingError(
             "parameters.bore: gears without a bore have no shafts; set bore = 10",

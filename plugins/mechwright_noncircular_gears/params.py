@@ -54,11 +54,17 @@ USUAL: dict[str, Any] = {
     "slots": 4,
     "ramp": 0.145,
     "eccentricity": 0.2,
+    "ring_addendum": 0.6,
+    "ring_holes": 6,
+    "ring_hole": 5.5,
 }
-"""Field of a law to its value where it is left out."""
+"""Field of a law or of a ring to its value where it is left out."""
 
 USUAL_OF = {("slider", "window"): 150.0, ("geneva", "window"): 180.0, ("geneva", "blend"): 60.0}
 """Law and field to a value of its own, degrees of the driver, where the design names none."""
+
+RING_FIELDS = ("ring_addendum", "ring_outside", "ring_holes", "ring_hole")
+"""Fields of a driven gear that is a ring."""
 
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
@@ -193,6 +199,27 @@ class NoncircularParams(Parameters):
     centre_distance: Annotated[float, Field(ge=4, le=3000), Unit("mm")] | None = Field(
         None, description="Distance of the axes; give this or module."
     )
+    internal: bool = Field(
+        False,
+        description=(
+            "Whether the driven gear is a ring with teeth inside, in which the driver runs; it has more "
+            "lobes than the driver and turns the same way round."
+        ),
+        json_schema_extra=FIRST,
+    )
+    ring_addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
+        None, description="Tooth height of the ring, in modules; left out, 0.6: hollow tips reach farther."
+    )
+    ring_outside: Annotated[float, Field(ge=10, le=3000), Unit("mm")] | None = Field(
+        None,
+        description="Diameter of the ring; left out, what its rim and holes need, in whole millimetres.",
+    )
+    ring_holes: Annotated[int, Field(ge=0, le=24)] | None = Field(
+        None, description="Holes in the ring's rim, by which it is screwed on; left out, 6."
+    )
+    ring_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
+        None, description="Their diameter; left out, 5.5, for M5."
+    )
     tooth_offset: Annotated[float, Field(ge=0, lt=1), Unit("")] = Field(
         0.0,
         description="From the pitch point at φ = 0 to the middle of a tooth of the driver, in pitches.",
@@ -265,6 +292,7 @@ class NoncircularParams(Parameters):
         if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
             raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
         self._of_the_law()
+        self._of_the_ring()
         if self.shaper_radius is not None and self.cutter == "rack":
             raise ValueError('shaper_radius is for cutter = "shaper"; leave one of both out')
         if self.teeth * self.mate_lobes % self.lobes:
@@ -275,6 +303,22 @@ class NoncircularParams(Parameters):
                 f"number of teeth of the driven gear; make teeth {more}"
             )
         return self
+
+    def _of_the_ring(self) -> None:
+        if not self.internal:
+            for name in RING_FIELDS:
+                if getattr(self, name) is not None:
+                    raise ValueError(f"{name} is for a ring; leave it out, or set internal = true")
+            return
+        if self.mate_lobes <= self.lobes:
+            raise ValueError(
+                f"a ring goes round slower than the gear in it, and has more lobes; set mate_lobes to "
+                f"{self.lobes + 1} or more"
+            )
+        if self.cutter == "rack":
+            raise ValueError('no rack goes into a ring; leave cutter out, or set cutter = "shaper"')
+        if self.ring_holes == 0 and self.ring_hole is not None:
+            raise ValueError("ring_hole is the size of no hole; leave it out, or set ring_holes")
 
     def _of_the_law(self) -> None:
         own = LAW_FIELDS[self.law]
@@ -332,7 +376,7 @@ class NoncircularParams(Parameters):
                 )
 
     def value(self, name: str) -> Any:
-        """A field of the law, or what it is where it is left out; in the units of the table."""
+        """A field of the law or the ring, or what it is where it is left out; in the units of the table."""
         given = getattr(self, name)
         if given is not None:
             return given
@@ -344,6 +388,11 @@ class NoncircularParams(Parameters):
     def mate_teeth(self) -> int:
         """Number of teeth of the driven gear."""
         return self.teeth * self.mate_lobes // self.lobes
+
+    @property
+    def side(self) -> int:
+        """σ: 1 of two gears beside each other, -1 of a gear in a ring."""
+        return -1 if self.internal else 1
 
     @property
     def omega(self) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
 from mechwright.mechanics.gearing import Teeth, tip_sites
 from mechwright.mechanics.openings import opening_of
-from mechwright_noncircular_gears.gear import NAMES, outlines_of, rack_of, teeth_of
+from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.68, 0.42)}
@@ -20,24 +20,39 @@ UNDER = 1.5
 def parts_of(params: NoncircularParams) -> tuple[Part, ...]:
     """Driver and driven gear; ``check`` has found no error."""
     marks = _marks(params)
+    made_of = (_gear, _ring if params.internal else _gear)
     return tuple(
-        _gear(params, name, outline, mark)
-        for name, outline, mark in zip(NAMES, outlines_of(params), marks, strict=True)
+        _part(params, name, outline, features(params, outline), mark)
+        for name, outline, features, mark in zip(NAMES, outlines_of(params), made_of, marks, strict=True)
     )
 
 
-def _gear(params: NoncircularParams, name: str, outline: Outline, mark: FittingMark) -> Part:
+def _gear(params: NoncircularParams, outline: Outline) -> list[Feature]:
     depth, opening = params.thickness, opening_of(params)
     features: list[Feature] = []
     if opening is not None:
         features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
         if opening.has_keyway:
             features.append(Profile("keyway", opening.loop(), "inside", 0, depth))
-    features.append(Profile("outside", outline.outer, "outside", 0, depth, tip_sites(outline.outer)))
+    return [*features, Profile("outside", outline.outer, "outside", 0, depth, tip_sites(outline.outer))]
+
+
+def _ring(params: NoncircularParams, outline: Outline) -> list[Feature]:
+    depth, rim = params.thickness, rim_of(params)
+    return [
+        *(Bore(f"hole-{k}", centre, rim.hole, 0, depth) for k, centre in enumerate(rim.centres, start=1)),
+        Profile("teeth", outline.inner[0], "inside", 0, depth),
+        Profile("outside", outline.outer, "outside", 0, depth),
+    ]
+
+
+def _part(
+    params: NoncircularParams, name: str, outline: Outline, features: list[Feature], mark: FittingMark
+) -> Part:
     return Part(
         name,
         outline,
-        depth,
+        params.thickness,
         params.material,
         instances=(Instance(name, 0.0, COLOURS[name]),),
         machined=tuple(features),
@@ -48,12 +63,13 @@ def _gear(params: NoncircularParams, name: str, outline: Outline, mark: FittingM
 def _marks(params: NoncircularParams) -> tuple[FittingMark, FittingMark]:
     """One dot under tooth 0 of the driver, two about the space that takes it up.
 
-    Tooth 0 of the driver lies δ pitches before the pitch point at φ = 0, and the space before tooth 0 of the
-    driven gear lies as far behind it: both meet there.
+    Tooth 0 of the driver lies behind the pitch point at φ = 0, and that space as far: both meet there.
     """
     driver, driven = teeth_of(params)
     tooth = _dot(driver, 0)
-    space = _dot(driven, -1), _dot(driven, 0)
+    # Both pitch curves roll off the same length; the arcs of driver and ring run against the contact.
+    middle = -params.side * driver.tooth_arcs[0] / driver.rack.pitch - driven.offset
+    space = _dot(driven, round(middle - 0.5) % driven.count), _dot(driven, round(middle + 0.5) % driven.count)
     at = math.degrees(_meeting(params)) % 360
     return (
         FittingMark(
@@ -81,11 +97,13 @@ def _meeting(params: NoncircularParams) -> float:
 def mill_for_fillets(params: NoncircularParams) -> float:
     """Diameter, mm, of the largest end mill that cuts every fillet exactly.
 
-    A fillet is tightest at its bottom, where the pitch curve is flattest.
+    A fillet is tightest at its bottom, where the pitch curve is flattest, or hollow the most.
     """
-    rack = rack_of(params)
-    depth, flattest = rack.arc_depth, 0.0
+    least = math.inf
     for teeth in teeth_of(params):
-        radius = teeth.curve.frame_at(teeth.arc_centres).radius
-        flattest = max(flattest, float(radius.max()))
-    return 2 * (rack.tip_radius + depth**2 / (flattest + depth))
+        rack = teeth.rack
+        curvature = 1 / teeth.curve.frame_at(teeth.arc_centres).radius + rack.curvature
+        # Its bottom is the path of the tip arc's centre, widened by the arc: by Euler and Savary.
+        depth = rack.arc_depth
+        least = min(least, rack.tip_radius + depth**2 / (float(1 / curvature.min()) + depth))
+    return 2 * least

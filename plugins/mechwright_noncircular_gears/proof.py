@@ -16,12 +16,13 @@ def prove(params: NoncircularParams) -> MeshProof:
     pair = pair_of(params)
     tolerance = min(FLATTEN * pair.distance / 2, TOLERANCES.flatten)
     (one, off), (two, more) = map(toothed, teeth_of(params))
-    outlines = one.flatten(tolerance), two.flatten(tolerance)
+    mate = two.reversed() if params.internal else two
+    outlines = one.flatten(tolerance), mate.flatten(tolerance)
     return prove_mesh(pair, rack_of(params), params.teeth, outlines, off + more + 2 * tolerance)
 
 
 def prove_outlines(params: NoncircularParams, driver: Array, driven: Array, allowance: float) -> MeshProof:
-    """Run outlines (n, 2) and (m, 2), mm, counter-clockwise, each about its axis, against each other.
+    """Run outlines (n, 2) and (m, 2), mm, material on the left, each about its axis, against each other.
 
     ``allowance`` is the depth, mm, that the making of the outlines itself can cause.
     """

@@ -56,8 +56,8 @@ def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
             return
     deep = rack_of(params).dedendum
     for name, sharp in zip(NAMES, found.sharpest, strict=True):
-        radius = a / sharp.value
-        if deep >= radius:
+        if deep * sharp.value >= a:
+            radius = a / sharp.value
             more = math.ceil(params.teeth * deep / radius * 1.05)
             step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
             more = -(-more // step) * step
@@ -132,7 +132,7 @@ def least_teeth(params: NoncircularParams) -> int | None:
     def works(count: int) -> bool:
         found = params.model_copy(update={"teeth": count})
         sharpest = max(one.value for one in extremes_of(found).sharpest)
-        return rack_of(found).dedendum < pair_of(found).distance / sharpest and not is_undercut(found)
+        return rack_of(found).dedendum * sharpest < pair_of(found).distance and not is_undercut(found)
 
     # Finer teeth reach less deeply into the same curve: the limit is found by halving, then looked at.
     low, high = params.teeth // step, MOST_PROPOSED // step

@@ -4,19 +4,24 @@ from fractions import Fraction
 
 import numpy as np
 
-from mechwright import Array, Motion, Port, Transmission, Turning
+from mechwright import Array, DesignError, Motion, Port, Transmission, Turning
 from mechwright_noncircular_gears.gear import NAMES, pair_of
 from mechwright_noncircular_gears.motion import driven, driven_by, turns_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 
 class PairStage(Transmission):
-    """Driver in, driven gear out, the other way round."""
+    """Driver in, driven gear out, the other way round; a ring has no shaft (DesignError)."""
 
     own_drive = ("speed",)
     load_field = "load_torque"
 
     def __init__(self, params: NoncircularParams) -> None:
+        if params.internal:
+            raise DesignError(
+                "internal: a ring is screwed to what turns with it and has no shaft for the next stage; set "
+                "internal = false"
+            )
         self.params = params
         driver, mate = NAMES
         self.input = Port(driver, (0.0, 0.0))

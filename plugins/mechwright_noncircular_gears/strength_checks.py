@@ -56,14 +56,13 @@ def loads(params: NoncircularParams) -> tuple[Array, Array, Array, Array]:
     """Torque on the driven gear, N m, force along the pitch tangent, N, both radii of curvature, mm: (n,)."""
     law, a = law_of(params), pair_of(params).distance
     phi = law.grid(GRID)
-    ratio, first, _ = law.rates(phi)
+    first = law.rates(phi)[1]
     density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
     inertia = outlines_of(params)[1].polar_moment * params.thickness * density
     torque = inertia * TO_NM * first * params.omega**2 + params.load_torque
-    now = Rolling.of(law, phi)
-    slant = np.arctan2(first, ratio * (1 + ratio))
+    now = Rolling.of(law, phi, params.side)
     alpha = math.radians(params.pressure_angle)
-    force = tangential_force(np.abs(torque), a * now.r2, slant, alpha)
+    force = tangential_force(np.abs(torque), a * now.r2, now.tilt, alpha)
     with np.errstate(divide="ignore"):
         return torque, force, a / now.curvature1, a / now.curvature2
 

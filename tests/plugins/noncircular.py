@@ -16,6 +16,7 @@ TABLES = {
     "D2": {"law": "window", "window_ratio": 0.85, "window": 100, "blend": 90, "teeth": 41},
     "D3": {"law": "ellipse", "mate_lobes": 2, "eccentricity": 0.3, "teeth": 30},
     "D4": {"law": "ellipse", "lobes": 2, "mate_lobes": 3, "eccentricity": 0.12, "teeth": 32},
+    "D5": {"law": "ellipse", "internal": True, "mate_lobes": 3, "eccentricity": 0.15, "teeth": 24},
     "D6": {"law": "eccentric-circle", "eccentricity": 0.25, "teeth": 40},
     "D7": {"law": "table", "nodes": NODES, "teeth": 40},
     "D8": {
@@ -31,7 +32,7 @@ TABLES = {
     "D10": {"law": "ellipse", "lobes": 3, "mate_lobes": 3, "eccentricity": 0.2, "teeth": 48},
     "SL": {"law": "slider", "teeth": 48},
 }
-"""Design of the reference to its table; D5 is a ring gear, which no design file asks for yet."""
+"""Design of the reference to its table."""
 
 
 def design(name: str, **changes: object) -> NoncircularParams:

@@ -11,6 +11,8 @@ from mechwright_noncircular_gears.family import NoncircularGears
 SMALL = {"thickness": 4, "bore": 6}
 LOBES = {"law": "ellipse", "mate_lobes": 2, "eccentricity": 0.15, "teeth": 18, "centre_distance": 70}
 
+RING = {"law": "ellipse", "internal": True, "mate_lobes": 3, "eccentricity": 0.15, "teeth": 24}
+
 
 class TestNoncircularGears(DayContract):
     family = NoncircularGears
@@ -22,7 +24,7 @@ class TestNoncircularGears(DayContract):
     )
     night: ClassVar = {
         # One pair is built by day; of the other laws, findings and motion.
-        name: {1, 2, 3, 4, 5, 6}
+        name: {1, 2, 3, 4, 5, 6, 7}
         for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
     }
     max_frames = tried(1, 40)
@@ -37,6 +39,7 @@ class TestNoncircularGears(DayContract):
         {**SMALL, "law": "slider", "teeth": 36},
         {**SMALL, "law": "ratio", "ratio": "exp(0.15*cos(phi))", "teeth": 24},
         {**SMALL, "law": "angle", "angle": "phi + 0.1*sin(phi)", "teeth": 24},
+        {**SMALL, **RING},
     )
     requirements: ClassVar = {
         "geneva": ({"harmonics": 4, "teeth": 40}, {"harmonics": 3, "slots": 6, "hollow": False}),
@@ -58,12 +61,21 @@ class TestNoncircularGears(DayContract):
         ({"eccentricity": 0.1}, "eccentricity"),
         ({"lobes": 2, "teeth": 41, "mate_lobes": 3}, "teeth"),
         ({"backlash": 0.0}, "backlash"),
+        ({**RING, "ring_addendum": 0.9}, "ring_addendum"),
+        ({**RING, "ring_outside": 158}, "ring_outside"),
+        ({**RING, "mate_lobes": 1}, "mate_lobes"),
+        ({"ring_hole": 4}, "ring_hole"),
     )
     variations: ClassVar = {
         "law": ["ellipse"],
         "cosines": [[3.0]],
         "sines": [[10.0]],
         "cutter": ["shaper"],
+        "internal": [False],
+        "ring_addendum": [0.5],
+        "ring_outside": [190.0],
+        "ring_holes": [5],
+        "ring_hole": [6.6],
         "shaper_radius": [12.0],
         "load_torque": [2.0],
         "lobes": [2],

@@ -1,18 +1,20 @@
 """Laws that follow from a pitch curve r1(φ) of the driver, and the centre distances at which the mate closes.
 
-With r1 in units of its own and the centre distance A in the same, d = A - r1:
+With r1 in units of its own and the centre distance A in the same, σ = 1 for two gears and -1 for a gear in a
+ring, d = A - σ r1:
 
-    i = r1/d,  i' = A r1'/d²,  i'' = A r1''/d² + 2 A r1'²/d³.
+    i = r1/d,  i' = A r1'/d²,  i'' = A r1''/d² + 2 σ A r1'²/d³.
 
-The integral of i over a lobe falls from infinity to 0 as A grows: exactly one A closes the mate.
+The integral of i over a lobe falls to 0 as A grows, from infinity, or in a ring from 2π/N1: exactly one A
+closes the mate, in a ring if N2 is above N1.
 
 | curve | r1 | A |
 | --- | --- | --- |
-| ellipse of N1 lobes | 1/(1 - e cos N1 φ) | [1 + √(1 - (1 - e²)(1 - k²))]/(1 - e²) |
-| limaçon of N1 lobes | 1 + e cos N1 φ | (1 + k)²/(1 + 2k) [1 + √(1 - (1 + 2k)(1 - e²)/(1 + k)²)] |
+| ellipse of N1 lobes | 1/(1 - e cos N1 φ) | [σ + √(1 - (1 - e²)(1 - k²))]/(1 - e²) |
+| limaçon of N1 lobes | 1 + e cos N1 φ | σ q²/(q² - 1) [1 + √(1 - (1 - 1/q²)(1 - e²))] |
 | eccentric circle | e cos φ + √(1 - e² sin² φ) | by bisection |
 
-where k = N2/N1.
+where k = N2/N1 and q = 1 + σ/k.
 """
 
 import math
@@ -32,10 +34,11 @@ _CLOSED = 4 * float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class PitchLaw(RatioLaw):
-    """A law by a pitch curve; ``eccentricity`` is its shape, 0 for a circle about the axis."""
+    """A law by a pitch curve; ``eccentricity`` is its shape, 0 for a circle about the axis, ``side`` σ."""
 
     lobes: tuple[int, int]
     eccentricity: float
+    side: int = 1
 
     @abstractmethod
     def radius(self, phi: Array) -> tuple[Array, Array, Array]:
@@ -49,8 +52,8 @@ class PitchLaw(RatioLaw):
     def rates(self, phi: Array) -> tuple[Array, Array, Array]:
         """The formulas of the module."""
         r, first, second = self.radius(np.asarray(phi, dtype=float))
-        a, d = self.apart, self.apart - r
-        return r / d, a * first / d**2, a * second / d**2 + 2 * a * first**2 / d**3
+        a, d = self.apart, self.apart - self.side * r
+        return r / d, a * first / d**2, a * second / d**2 + 2 * self.side * a * first**2 / d**3
 
 
 class EllipseLaw(PitchLaw):
@@ -60,7 +63,7 @@ class EllipseLaw(PitchLaw):
     def apart(self) -> float:
         """In units of the semi-latus rectum."""
         e2, k = self.eccentricity**2, self.lobes[1] / self.lobes[0]
-        return (1 + math.sqrt(1 - (1 - e2) * (1 - k * k))) / (1 - e2)
+        return (self.side + math.sqrt(1 - (1 - e2) * (1 - k * k))) / (1 - e2)
 
     def radius(self, phi: Array) -> tuple[Array, Array, Array]:
         """1/(1 - e cos N1 φ) and its derivatives."""
@@ -76,8 +79,9 @@ class LimaconLaw(PitchLaw):
     @property
     def apart(self) -> float:
         """In units of the mean radius."""
-        e2, k = self.eccentricity**2, self.lobes[1] / self.lobes[0]
-        return (1 + k) ** 2 / (1 + 2 * k) * (1 + math.sqrt(1 - (1 + 2 * k) * (1 - e2) / (1 + k) ** 2))
+        e2, q = self.eccentricity**2, 1 + self.side * self.lobes[0] / self.lobes[1]
+        within = 1 - 1 / q**2
+        return self.side / within * (1 + math.sqrt(1 - within * (1 - e2)))
 
     def radius(self, phi: Array) -> tuple[Array, Array, Array]:
         """1 + e cos N1 φ and its derivatives."""
@@ -97,14 +101,14 @@ class CircleLaw(PitchLaw):
         def over(apart: float) -> float:
             def ratio(phi: Array) -> Array:
                 r: Array = self.radius(phi)[0]
-                return r / (apart - r)
+                return r / (apart - self.side * r)
 
             return Primitive.of(ratio, self.period).total - wanted
 
         # The ratio is at most that of the greatest radius all the way round, which bounds A from above; of a
         # round gear it is just that, so that the bound is put a little farther than rounding.
-        least = 1 + self.eccentricity
-        far = near = least * (1 + self.lobes[1]) * (1 + 1e-9)
+        least = max(0.0, self.side * (1 + self.eccentricity))
+        far = near = (1 + self.eccentricity) * (self.side + self.lobes[1]) * (1 + 1e-9)
         while over(near) < 0:
             near = (near + least) / 2
         return float(brentq(over, near, far, xtol=_CLOSED, rtol=_CLOSED))

@@ -1,11 +1,15 @@
 """The toothed outside of a gear as a loop of Bézier segments."""
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.fit import fit_nets
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import BSpline, Point, Segment
+from mechwright.mechanics.gearing.candidates import Ints
 from mechwright.mechanics.gearing.rack import SIDES
 from mechwright.mechanics.gearing.teeth import Teeth
 from mechwright.tolerances import TOLERANCES
@@ -13,6 +17,14 @@ from mechwright.tolerances import TOLERANCES
 FIT = 0.0001
 """Deviation of the outline from the exact curves, mm: a tenth of what an outline may have, for one degree
 more. Errors of a flank turn the driven gear; this one turns it by a few microradians."""
+
+_NEAR = 0.01
+"""Share of a curve at each end within which a jump of its curvature does not matter: some nanometres."""
+
+Chain = list[list[Array]]
+"""Per curve its Bézier nets (degree + 1, 2), mm, in order."""
+
+CurvesOf = Callable[[Ints, Array], Array]
 
 
 def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
@@ -36,16 +48,16 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
     fall, rise, at_fillets = _fillets(teeth)
     fallen, risen = teeth.curve.parameter(teeth.arc_centres).T
     roots, at_roots = _offsets(teeth, fallen, risen, -teeth.rack.dedendum)
-    _share(tips, np.roll(up[-1][:, -1], 1, axis=0), down[0][:, 0])
-    _share(fall, down[-1][:, -1], None)
-    _share(rise, None, up[0][:, 0])
-    width = np.linalg.norm(rise[0][:, 0] - fall[-1][:, -1], axis=1)
-    if width.min() > TOLERANCES.closure:
-        _share(roots, fall[-1][:, -1], rise[0][:, 0])
+    _share(tips, [up[j - 1][-1][-1] for j in range(teeth.count)], [one[0][0] for one in down])
+    _share(fall, [one[-1][-1] for one in down], None)
+    _share(rise, None, [one[0][0] for one in up])
+    fallen, risen = np.array([one[-1][-1] for one in fall]), np.array([one[0][0] for one in rise])
+    if np.linalg.norm(risen - fallen, axis=1).min() > TOLERANCES.closure:
+        _share(roots, list(fallen), list(risen))
     else:
         # A rack with a full radius leaves no land.
-        roots = []
-        _share(rise, fall[-1][:, -1], None)
+        roots = [[] for _ in roots]
+        _share(rise, list(fallen), None)
     chains = [
         (tips, "tip"),
         (down, "flank"),
@@ -55,20 +67,57 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
         (up, "flank"),
     ]
     segments: list[Segment] = [
-        BSpline.bezier(piece[j], tag)
-        for j in range(teeth.count)
-        for pieces, tag in chains
-        for piece in pieces
+        BSpline.bezier(net, tag) for j in range(teeth.count) for chain, tag in chains for net in chain[j]
     ]
     return Loop(tuple(segments)), max(at_tips, at_flanks, at_fillets, at_roots)
 
 
-def _share(pieces: list[Array], start: Array | None, end: Array | None) -> None:
-    """Give a chain its neighbours' end points, bit for bit; they agree to rounding already."""
-    if start is not None:
-        pieces[0][:, 0] = start
-    if end is not None:
-        pieces[-1][:, -1] = end
+def _share(chain: Chain, starts: list[Array] | None, ends: list[Array] | None) -> None:
+    """Give curves their neighbours' end points, bit for bit; they agree to rounding already."""
+    for j, nets in enumerate(chain):
+        if starts is not None:
+            nets[0][0] = starts[j]
+        if ends is not None:
+            nets[-1][-1] = ends[j]
+
+
+def _fitted(curves: CurvesOf, first: Array, last: Array, breaks: Array, period: float) -> tuple[Chain, float]:
+    """Fit curves from parameters (n,) to (n,), each in pieces between the breaks (m,) that lie within it.
+
+    ``curves(rows, s)`` gives points (k, l, 2), mm, of curves ``rows`` (k,) at parameters s (k, l). A fit
+    across a jump of the curvature would ripple.
+    """
+    rows, starts, ends = _divided(first, last, breaks, period)
+
+    def points(t: Array) -> Array:
+        return curves(rows, _between(starts, ends, t))
+
+    nets, error = fit_nets(points, rows.size, FIT)
+    chain: Chain = [[] for _ in range(first.size)]
+    for place, row in enumerate(rows):
+        own = [net[place] for net in nets]
+        if chain[row]:
+            own[0][0] = chain[row][-1][-1]
+        chain[row] += own
+    return chain, error
+
+
+def _divided(first: Array, last: Array, breaks: Array, period: float) -> tuple[Ints, Array, Array]:
+    """Rows (k,) and both ends (k,) of what intervals from (n,) to (n,), either way, are cut into."""
+    if not breaks.size:
+        return np.arange(first.size), first, last
+    low, high = np.minimum(first, last), np.maximum(first, last)
+    ahead = low[:, None] + np.mod(breaks - low[:, None], period) if math.isfinite(period) else breaks
+    margin = (_NEAR * (high - low))[:, None]
+    row, which = np.nonzero((ahead > low[:, None] + margin) & (ahead < high[:, None] - margin))
+    rows = np.concatenate((np.arange(first.size), row))
+    starts = np.concatenate((first, ahead[row, which]))
+    order = np.lexsort((starts * np.sign(last - first)[rows], rows))
+    rows, starts = rows[order], starts[order]
+    ends = np.append(starts[1:], 0.0)
+    final = np.append(rows[1:] != rows[:-1], True)
+    ends[final] = last
+    return rows, starts, ends
 
 
 def _between(first: Array, last: Array, t: Array) -> Array:
@@ -77,16 +126,16 @@ def _between(first: Array, last: Array, t: Array) -> Array:
     return values
 
 
-def _offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[list[Array], float]:
+def _offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[Chain, float]:
     """Tips or roots from parameters (z,) to parameters (z,), at a height, mm, over the pitch curve."""
 
-    def curves(t: Array) -> Array:
-        return teeth.curve.frame(_between(first, last, t)).offset(height)
+    def curves(rows: Ints, s: Array) -> Array:  # noqa: ARG001 - all are alike
+        return teeth.curve.frame(s).offset(height)
 
-    return fit_nets(curves, teeth.count, FIT)
+    return _fitted(curves, first, last, teeth.curve.breaks, math.tau)
 
 
-def _flanks(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
+def _flanks(teeth: Teeth) -> tuple[Chain, Chain, float]:
     """Flanks of side -1 from tip to fillet, those of side +1 from fillet to tip."""
     tip, join = teeth.tip_trim[0], teeth.curve.parameter(teeth.join_arcs)
     first = np.concatenate((tip[:, 0], join[:, 1]))
@@ -94,28 +143,32 @@ def _flanks(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
     start = np.concatenate((teeth.flank_arcs[:, 0], teeth.flank_arcs[:, 1]))[:, None]
     side = np.repeat(SIDES, teeth.count)[:, None]
 
-    def curves(t: Array) -> Array:
-        return teeth.rack.flank(teeth.curve.frame(_between(first, last, t)), start, side)
+    def curves(rows: Ints, s: Array) -> Array:
+        return teeth.rack.flank(teeth.curve.frame(s), start[rows], side[rows])
 
-    nets, error = fit_nets(curves, 2 * teeth.count, FIT)
-    z = teeth.count
-    return [net[:z] for net in nets], [net[z:] for net in nets], error
+    chain, error = _fitted(curves, first, last, teeth.curve.breaks, math.tau)
+    return chain[: teeth.count], chain[teeth.count :], error
 
 
-def _fillets(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
+def _fillets(teeth: Teeth) -> tuple[Chain, Chain, float]:
     """Fillets of side -1 from flank to root, those of side +1 from root to flank."""
     scale, reach = teeth.rack.fillet_course
-    centre = np.concatenate((teeth.arc_centres[:, 0], teeth.arc_centres[:, 1]))[:, None]
-    side = np.repeat(SIDES, teeth.count)[:, None]
-    z = teeth.count
+    centre = np.concatenate((teeth.arc_centres[:, 0], teeth.arc_centres[:, 1]))
+    side = np.repeat(SIDES, teeth.count)
+    # Over τ, with the arc x - σ c sinh τ; a break is a τ of its own of every fillet.
+    curve = teeth.curve
+    at = curve.arc(curve.breaks)
+    away = (centre[:, None] - at) % curve.perimeter
+    away -= np.where(away > curve.perimeter / 2, curve.perimeter, 0.0)
+    tau = np.arcsinh(side[:, None] * away / scale)
 
-    def curves(t: Array) -> Array:
-        tau = reach * np.where(side < 0, 1 - t, t)
-        frame = teeth.curve.frame_at(centre - side * scale * np.sinh(tau))
-        return teeth.rack.fillet(frame, centre)
+    def curves(rows: Ints, s: Array) -> Array:
+        x = centre[rows][:, None]
+        return teeth.rack.fillet(curve.frame_at(x - (side * scale)[rows][:, None] * np.sinh(s)), x)
 
-    nets, error = fit_nets(curves, 2 * z, FIT)
-    return [net[:z] for net in nets], [net[z:] for net in nets], error
+    begin, end = np.where(side < 0, reach, 0.0), np.where(side < 0, 0.0, reach)
+    chain, error = _fitted(curves, begin, end, tau, math.inf)
+    return chain[: teeth.count], chain[teeth.count :], error
 
 
 def tip_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:

@@ -41,6 +41,17 @@ def ring_of(polygon: "shapely.Polygon") -> Array:
     return ring
 
 
+def hole_of(polygon: "shapely.Polygon") -> Array:
+    """The opening (n, 2), mm, about the axis of a ring as cut, clockwise; none without points (0, 2)."""
+    import shapely
+
+    for hole in polygon.interiors:
+        if shapely.Polygon(hole).contains(shapely.Point(0, 0)):
+            points: Array = shapely.get_coordinates(hole)[:-1]
+            return points[::-1] if shapely.is_ccw(hole) else points
+    return np.empty((0, 2))
+
+
 def cut_mesh(proof: MeshProof, thickness: float) -> Finding:
     """What the mesh proof of two outlines as cut says; ``thickness`` is the face width, mm."""
     depth, overlap = float(proof.mesh.depth.max()), proof.mesh.overlap

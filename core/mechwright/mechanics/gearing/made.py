@@ -115,7 +115,7 @@ class Contacts:
         room = rack.backlash * cos / 2
         touching = turned(points + room * outward, theta1[position])
         normal = turned(outward, theta1[position])
-        arm = touching - (pair.distance, 0.0)
+        arm = touching - (pair.axis, 0.0)
         lever = arm[:, 0] * normal[:, 1] - arm[:, 1] * normal[:, 0]
         return cls(theta1, position, points, turned(arm, -theta2[position]), lever, normal, room)
 
@@ -124,18 +124,22 @@ class Contacts:
         return Gaps(self.theta, self.position, self.room - depth + 0 * self.lever, self.lever, self.normal)
 
     def between(self, driver: Array, driven: Array) -> Gaps:
-        """The gaps between two outlines (n, 2) and (k, 2), mm, counter-clockwise, each in its body frame."""
+        """The gaps between outlines (n, 2) and (k, 2), mm, material on the left, each in its body frame."""
         return self.gaps(signed_depth(driver, self.driver) + signed_depth(driven, self.driven))
 
 
 def signed_depth(outline: Array, points: Array) -> Array:
     """Distance (n,) of points from a closed outline, mm: positive in the material, negative outside.
 
+    The material lies on the left of the outline, which is an opening where it runs clockwise.
+
     Examples
     --------
     >>> square = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])
     >>> signed_depth(square, np.array([[1.0, 2.0], [5.0, 2.0]])).tolist()
     [1.0, -1.0]
+    >>> signed_depth(square[::-1], np.array([[1.0, 2.0], [5.0, 2.0]])).tolist()
+    [-1.0, 1.0]
     """
     import shapely
 
@@ -145,7 +149,7 @@ def signed_depth(outline: Array, points: Array) -> Array:
     )
     whole = shapely.Polygon(outline)
     shapely.prepare(whole)
-    inside = shapely.contains_xy(whole, points[:, 0], points[:, 1])
+    inside = shapely.contains_xy(whole, points[:, 0], points[:, 1]) == shapely.is_ccw(whole.exterior)
     signed: Array = np.where(inside, distance, -distance)
     return signed
 

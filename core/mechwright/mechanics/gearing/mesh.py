@@ -106,7 +106,8 @@ def mesh(
     Parameters
     ----------
     driver, driven
-        Corners (n, 2), mm, counter-clockwise, each in its body frame; not repeated at the end.
+        Corners (n, 2), mm, each in its body frame, material on the left: counter-clockwise, and of the teeth
+        of a ring clockwise; not repeated at the end.
     pair
         How they turn.
     teeth
@@ -125,17 +126,17 @@ def mesh(
     rims = Rim.of(one), Rim.of(two)
     envelopes = (
         Envelope.of(one, pair.driver, _REACH * pitch),
-        Envelope.of(two, pair.driven, _REACH * pitch),
+        Envelope.of(two, pair.driven, _REACH * pitch, pair.side),
     )
     parts = []
     for i in range(0, positions, _CHUNK):
         now = slice(i, i + _CHUNK)
-        near = _near(rims, envelopes, pair.distance, theta1[now], theta2[now])
+        near = _near(rims, envelopes, pair.axis, theta1[now], theta2[now])
         parts.append(contact(*near, theta1[now].size, pitch, allowance))
     ahead, behind, depth, gap = (np.concatenate(column) for column in zip(*parts, strict=True))
     deepest = np.argsort(-depth, kind="stable")[:_AREAS]
     some = deepest[depth[deepest] > allowance]
-    overlap = _overlap(driver, driven, theta1[some], theta2[some], pair.distance) if some.size else 0.0
+    overlap = _overlap(driver, driven, theta1[some], theta2[some], pair) if some.size else 0.0
     return Mesh(arc, (theta1, theta2), ahead, behind, depth, gap, overlap)
 
 
@@ -150,25 +151,28 @@ def _cut_edges(points: Array, longest: float) -> Array:
 
 
 def _near(
-    rims: tuple[Rim, Rim], envelopes: tuple[Envelope, Envelope], distance: float, theta1: Array, theta2: Array
+    rims: tuple[Rim, Rim], envelopes: tuple[Envelope, Envelope], axis: float, theta1: Array, theta2: Array
 ) -> tuple[Near, Near]:
     """What of both gears is near contact in some positions, seen from the driven gear."""
-    axis1 = -distance * np.column_stack((np.cos(theta2), -np.sin(theta2)))
-    axis2 = distance * np.column_stack((np.cos(theta1), -np.sin(theta1)))
+    axis1 = -axis * np.column_stack((np.cos(theta2), -np.sin(theta2)))
+    axis2 = axis * np.column_stack((np.cos(theta1), -np.sin(theta1)))
     return (
         rims[0].near(envelopes[1], theta1 - theta2, axis1, placed=True),
         rims[1].near(envelopes[0], theta2 - theta1, axis2, placed=False),
     )
 
 
-def _overlap(driver: Array, driven: Array, theta1: Array, theta2: Array, distance: float) -> float:
+def _overlap(driver: Array, driven: Array, theta1: Array, theta2: Array, pair: Pair) -> float:
     """Largest common area, mm², over some positions."""
     import shapely
 
     areas = []
     for angle1, angle2 in zip(theta1, theta2, strict=True):
         one = turned(driver, angle1)
-        other = turned(driven, angle2) + np.array([distance, 0.0])
+        other = turned(driven, angle2) + np.array([pair.axis, 0.0])
+        if pair.side < 0:  # what is not in the ring's opening stands in its teeth
+            areas.append(float(shapely.difference(shapely.Polygon(one), shapely.Polygon(other)).area))
+            continue
         low, high = np.maximum(one.min(0), other.min(0)), np.minimum(one.max(0), other.max(0))
         if (low < high).all():
             shapes = (shapely.clip_by_rect(shapely.Polygon(gear), *low, *high) for gear in (one, other))

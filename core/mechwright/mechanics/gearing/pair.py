@@ -1,10 +1,12 @@
 """Two pitch curves that roll on each other about fixed axes.
 
-The driver turns about O1 = (0, 0), the driven gear about O2 = (a, 0), both angles counter-clockwise. The
-pitch point lies between the axes: at -θ1 in the driver's body frame, at π - θ2 in that of the driven gear.
-With θ2 = f(θ1), f' = dθ2/dθ1 below 0 (the pair is external), rolling without slip, f' r2 = -r1, makes
+The driver turns about O1 = (0, 0), the driven gear about O2 = (σ a, 0), both angles counter-clockwise; σ is
++1 for two gears beside each other and -1 for a driver that runs in a ring. The pitch point lies at (r1, 0):
+at -θ1 in the driver's body frame, and at π - θ2 in that of a driven gear, -θ2 in that of a ring. With
+θ2 = f(θ1) and f' = dθ2/dθ1, below 0 where σ = 1 and from 0 to 1 where σ = -1, rolling without slip,
+f' r2 = -σ r1, makes
 
-    r1 = -a f'/(1 - f'),  r2 = a/(1 - f'),  r1 + r2 = a.
+    r1 = -σ a f'/(1 - f'),  r2 = a/(1 - f'),  σ r1 + r2 = a.
 """
 
 import math
@@ -19,7 +21,7 @@ from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 
 @dataclass(frozen=True)
 class Pair(ABC):
-    """An external pair.
+    """Two gears, or a gear in a ring.
 
     Parameters
     ----------
@@ -33,6 +35,16 @@ class Pair(ABC):
     driven: PitchCurve
     distance: float
 
+    @property
+    def side(self) -> int:
+        """σ: 1 of two gears beside each other, -1 of one that runs in a ring."""
+        return 1
+
+    @property
+    def axis(self) -> float:
+        """The place σ a, mm, of the driven gear's axis on the line of centres."""
+        return self.side * self.distance
+
     @abstractmethod
     def law(self, theta: Array) -> tuple[Array, Array]:
         """θ2 (...), rad, and its derivative f' (...) at angles θ1 (...), rad."""
@@ -40,7 +52,7 @@ class Pair(ABC):
     def pitch_radii(self, theta: Array) -> tuple[Array, Array]:
         """r1 and r2 (...), mm, at angles θ1 (...), rad."""
         r2 = self.distance / (1 - self.law(theta)[1])
-        return self.distance - r2, r2
+        return self.side * (self.distance - r2), r2
 
     def turns(self, teeth: int) -> int:
         """Turns of a driver with so many teeth after which the same teeth meet again."""
@@ -60,7 +72,8 @@ class Pair(ABC):
         """Distances (n,), mm, of axis O2 from the two lines of action, at arcs as in :meth:`angles`.
 
         The first belongs to the flank that stops the driven gear turning counter-clockwise, the second to the
-        other: r2 cos(ν ± α). A normal play c lets the gear turn by c over the lever.
+        other: r2 cos(ν ± σ α). A normal play c lets the gear turn by c over the lever.
         """
         r2, tilt = self.pitch_radii(self.angles(arc)[0])[1], self.tilt(arc)
-        return r2 * np.cos(tilt + pressure_angle), r2 * np.cos(tilt - pressure_angle)
+        alpha = self.side * pressure_angle
+        return r2 * np.cos(tilt + alpha), r2 * np.cos(tilt - alpha)

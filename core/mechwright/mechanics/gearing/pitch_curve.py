@@ -31,16 +31,18 @@ _NEWTON_STEPS = 3
 class Frame:
     """Moving frame of a pitch curve, counter-clockwise, in the body frame.
 
-    With n = -i t (outward) it turns as dr/ds = t, dt/ds = -n/ρ, dn/ds = t/ρ.
+    It turns as dr/ds = t, dt/ds = -n/ρ, dn/ds = t/ρ. The normal points out of the body: n = -i t of a gear,
+    and n = +i t, towards the axis, of a ring, whose body lies around its curve.
 
     Parameters
     ----------
     arc
         Arc length (...), mm.
     point, tangent, normal
-        (..., 2); the point r in mm, the tangent t and the outward normal n of unit length.
+        (..., 2); the point r in mm, the tangent t and the normal n out of the body, of unit length.
     radius
-        Radius of curvature ρ (...), mm: above 0 where the body is convex, infinite where it is straight.
+        Radius of curvature ρ (...), mm: above 0 where the body is convex, below 0 where it is hollow, as a
+        ring is all round, infinite where it is straight.
     """
 
     arc: Array
@@ -95,6 +97,11 @@ class PitchCurve(ABC):
     @abstractmethod
     def frame(self, t: Array, arc: Array | None = None) -> Frame:
         """The moving frame at parameters (...); ``arc`` is given where it is known already."""
+
+    @property
+    def breaks(self) -> Array:
+        """Parameters (n,), rad, 0 to 2π, at which the curvature jumps; none by default."""
+        return np.empty(0)
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:

@@ -71,6 +71,11 @@ class Rack:
         return math.pi * self.module
 
     @property
+    def curvature(self) -> float:
+        """Of the curve that rolls on the gear's pitch curve, 1/mm: a line has none."""
+        return 0.0
+
+    @property
     def half_space(self) -> float:
         """Half the width of a tooth space on the pitch curve, mm."""
         return (self.pitch + self.backlash) / 4

@@ -13,8 +13,9 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.as_made import MadeCurve, MadeFigure
 from mechwright.contracts.finding import Finding, Severity, Stage
-from mechwright.contracts.made_part import MadePart
+from mechwright.contracts.made_part import MadeHole, MadePart
 from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE
+from mechwright.mechanics.gearing.cut import hole_of
 from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
 from mechwright.mechanics.gearing.mesh import Mesh, mesh
 from mechwright.mechanics.gearing.pair import Pair
@@ -42,7 +43,7 @@ class MadePair:
     names
         Bodies of driver and driven gear.
     outlines
-        Their outsides as made, about the middles of their bores: (n, 2) and (m, 2), mm.
+        Their toothed walls as made, material on the left, each about its axis: (n, 2) and (m, 2), mm.
     corridor
         mm, of both outlines together.
     least
@@ -125,6 +126,18 @@ def about_bore(part: MadePart, diameter: float) -> Array:
     points = shapely.get_coordinates(outside)[:-1]
     about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - part.bore_middle(diameter)
     return about
+
+
+def about_rim(part: MadePart) -> Array:
+    """The teeth of a ring as made (n, 2), mm, clockwise, about the middle of its round outside as made."""
+    import shapely
+
+    shape = part.outline.polygon()
+    points = shapely.get_coordinates(shape.exterior)[:-1]
+    # Where tabs were, the rim stands proud by what they were filed to.
+    away = np.hypot(*points.T)
+    rim = MadeHole.of(points[np.abs(away - np.median(away)) < 2 * LEFT])
+    return hole_of(shape) - (rim.x, rim.y)
 
 
 def running_figures(pair: MadePair) -> list[MadeFigure]:

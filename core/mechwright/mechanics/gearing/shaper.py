@@ -41,6 +41,11 @@ class Shaper(Rack):
     radius: float
 
     @property
+    def curvature(self) -> float:
+        """Of its pitch circle, 1/mm."""
+        return 1 / self.radius
+
+    @property
     def _centre(self) -> float:
         """R_k, mm."""
         return self.radius + self.dedendum - self.tip_radius

@@ -87,6 +87,16 @@ class Teeth:
         return least
 
     @cached_property
+    def least_tip_regularity(self) -> Array:
+        """The same (z, 2) from the pitch curve to the tip: below 1 where the curve is hollow."""
+        start = self.flank_arcs[..., None]
+        t, end = np.linspace(0, 1, FACTOR_SAMPLES), self.curve.arc(self.tip_trim[0])[..., None]
+        frame = self.curve.frame_at(start + t * (end - start))
+        factor = self.rack.regularity(frame, start, SIDES[:, None]).min(axis=-1)
+        least: Array = factor / math.sin(self.rack.pressure_angle) ** 2
+        return least
+
+    @cached_property
     def tip_trim(self) -> tuple[Array, Array]:
         """Where flank and tip meet: two arrays (z, 2) of parameters, rad; GeometryError where they do not.
 
@@ -98,7 +108,12 @@ class Teeth:
         radius = np.clip(curve.frame_at(crossing).radius, -_STRAIGHT, _STRAIGHT)
         # On a circle of this radius the height is |u| sin α cos α + u² cos⁴α / (2 ρ) to second order.
         half, square = sin * cos, cos**4 / (2 * radius)
-        u = SIDES * 2 * rack.addendum / (half + np.sqrt(half**2 + 4 * square * rack.addendum))
+        u = (
+            SIDES
+            * 2
+            * rack.addendum
+            / (half + np.sqrt(np.maximum(half**2 + 4 * square * rack.addendum, 0.0)))
+        )
         v = curve.parameter(crossing + u)
         w = curve.parameter(crossing + u * (1 - cos * cos * radius / (radius + rack.addendum)))
         for _ in range(_TRIM_STEPS):
@@ -119,6 +134,11 @@ class Teeth:
         """Longest arc, mm, between where a flank crosses the pitch curve and the frame of its tip."""
         return float(np.abs(self.curve.arc(self.tip_trim[0]) - self.flank_arcs).max())
 
+    @property
+    def tip_height(self) -> float:
+        """Greatest height η, mm, over the rack's pitch line that makes the end of a flank."""
+        return self.tip_reach * math.sin(2 * self.rack.pressure_angle) / 2
+
     @cached_property
     def tip_lands(self) -> tuple[Array, Array]:
         """Parameters (z,), rad, below the two ends of each tooth's tip, in counter-clockwise order."""
@@ -133,9 +153,6 @@ class Teeth:
         first, last = self.tip_lands
         # The length of a parallel curve is that of the curve and the height times its turn.
         one, two = self.curve.frame(first), self.curve.frame(last)
-        turn = np.arctan2(
-            one.normal[:, 0] * two.normal[:, 1] - one.normal[:, 1] * two.normal[:, 0],
-            (one.normal * two.normal).sum(axis=1),
-        )
+        turn = np.arctan2((two.normal * one.tangent).sum(axis=1), (one.normal * two.normal).sum(axis=1))
         widths: Array = two.arc - one.arc + self.rack.addendum * turn
         return widths

@@ -3,8 +3,8 @@
 Glossary
 --------
 envelope
-    The pitch curve, moved outwards along its radii until it holds a gear; two gears touch only where both
-    envelopes overlap.
+    The pitch curve, moved along its radii, outwards or of a ring inwards, until it holds the body; two gears
+    touch only where both envelopes overlap.
 run
     Consecutive edges of an outline, looked at as one: a circle about them tells whether any can be near.
 """
@@ -36,30 +36,32 @@ class Envelope:
         Samples (m,), rad in the body frame and mm.
     steepness
         Greatest rise of :meth:`height` over the way of a point outside, 1 or more.
+    side
+        1 where the body lies within the envelope, -1 where it is a ring about it.
     """
 
     angle: Array
     radius: Array
     steepness: float
+    side: int = 1
 
     @classmethod
-    def of(cls, points: Array, curve: PitchCurve, margin: float) -> "Envelope":
-        """The envelope of an outline (n, 2), mm, wider by a margin, mm."""
+    def of(cls, points: Array, curve: PitchCurve, margin: float, side: int = 1) -> "Envelope":
+        """The envelope of an outline (n, 2), mm, that holds a margin, mm, more than its body."""
         frame = curve.frame(np.linspace(0, math.tau, _SAMPLES, endpoint=False))
         angle, radius = frame.polar_angle, frame.polar_radius
         rise = np.diff(radius, append=radius[0]) / (np.diff(angle, append=angle[0]) % math.tau)
         slope = float((np.abs(rise) / np.minimum(radius, np.roll(radius, -1))).max())
-        on_curve = cls(angle, radius, math.hypot(1, slope))
-        return cls(
-            angle, radius + max(0.0, float(on_curve.height(points).max())) + margin, on_curve.steepness
-        )
+        on_curve = cls(angle, radius, math.hypot(1, slope), side)
+        more = max(0.0, float(on_curve.height(points).max())) + margin
+        return cls(angle, radius + side * more, on_curve.steepness, side)
 
     def height(self, points: Array) -> Array:
-        """Distance (...), mm, of points (..., 2), body frame, from the envelope along their radii."""
+        """Distance (...), mm, of points (..., 2), body frame, out of the envelope along their radii."""
         x, y = points[..., 0], points[..., 1]
         angle = np.arctan2(y, x)
         height: Array = np.hypot(x, y) - np.interp(angle + math.tau * (angle < 0), *self._round)
-        return height
+        return height if self.side > 0 else -height
 
     @cached_property
     def _round(self) -> tuple[Array, Array]:

@@ -1,0 +1,99 @@
+"""Tips of teeth on hollow arcs: where a flank turns back before its tip, or the tip runs into a fillet.
+
+On a hollow arc of radius ρ the flank ends in a cusp at a height η over the rack's pitch line of |ρ| sin²α. A
+tip whose flank ends at a height η needs flanks of its mate down to the depth η, where its fillet begins; on a
+hollow arc η is more than the height of the tooth. A ring is hollow all round.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+from mechwright import Finding, GeometryError
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.gearing import Teeth
+from mechwright.tolerances import exceeds
+from mechwright_noncircular_gears.gear import NAMES, teeth_of
+from mechwright_noncircular_gears.law import extremes_of
+from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.profile import profile_of
+from mechwright_noncircular_gears.shape_checks import LEAST_REGULARITY
+
+LEAST_ADDENDUM = 0.3
+"""Modules: the least of the design table."""
+
+STEPS = 1000
+"""Addenda are sought in thousandths of a module."""
+
+
+def addendum_of(params: NoncircularParams, gear: int) -> tuple[str, float]:
+    """Field and value, modules, of the tooth height of gear 0 or 1."""
+    if gear and params.internal:
+        return "ring_addendum", params.value("ring_addendum")
+    return "addendum", profile_of(params).addendum
+
+
+def cusp_findings(params: NoncircularParams) -> Iterator[Finding]:
+    """An error for the first gear with hollow arcs whose flanks turn back before their tips."""
+    for gear, one in enumerate(teeth_of(params)):
+        if extremes_of(params).curvatures[gear].value < 0 and not _straight(one, one):
+            height = addendum_of(params, gear)[1]
+            message = (
+                f"flanks of {NAMES[gear].replace('-', ' ')} turn back before they are {height:g} modules high"
+            )
+            yield _finding(params, gear, "gear.tip-cusp", message, _straight)
+            return
+
+
+def fillet_findings(params: NoncircularParams) -> Iterator[Finding]:
+    """An error for the first gear whose tips would run into the fillets of its mate."""
+    teeth = teeth_of(params)
+    for gear, one in enumerate(teeth):
+        depth = teeth[1 - gear].rack.straight_depth
+        if exceeds(one.tip_height, depth):
+            message = (
+                f"tips of {NAMES[gear].replace('-', ' ')} ask for flanks of their mates down to "
+                f"{one.tip_height:.3f} mm, and those end at {depth:.3f} mm: tips would run into fillets"
+            )
+            yield _finding(params, gear, "gear.tip-fillet", message, _clear)
+            return
+
+
+def _straight(own: Teeth, mate: Teeth) -> bool:  # noqa: ARG001 - the same question of every finding
+    try:
+        return bool(own.least_tip_regularity.min() >= LEAST_REGULARITY)
+    except GeometryError:
+        return False
+
+
+def _clear(own: Teeth, mate: Teeth) -> bool:
+    return _straight(own, mate) and not exceeds(own.tip_height, mate.rack.straight_depth)
+
+
+def _finding(
+    params: NoncircularParams, gear: int, code: str, message: str, works: Callable[[Teeth, Teeth], bool]
+) -> Finding:
+    field, value = addendum_of(params, gear)
+    most = _most(params, gear, field, value, works)
+    changes: tuple[Change, ...] = () if most is None else ({f"parameters.{field}": most},)
+    remedy = "use more teeth, or a law that changes its ratio less"
+    if most is not None:
+        remedy = f"make {field} at most {most:g}"
+    return Finding.error(code, field, message, value, most, "", remedy, proposed=changes)
+
+
+def _most(
+    params: NoncircularParams, gear: int, field: str, value: float, works: Callable[[Teeth, Teeth], bool]
+) -> float | None:
+    """The greatest tooth height, modules, below ``value`` that works; None where none does."""
+
+    def good(step: int) -> bool:
+        teeth = teeth_of(params.model_copy(update={field: step / STEPS}))
+        return works(teeth[gear], teeth[1 - gear])
+
+    low, high = math.ceil(LEAST_ADDENDUM * STEPS), math.floor(value * STEPS)
+    if low >= high or not good(low):
+        return None
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if good(middle) else (low, middle)
+    return low / STEPS

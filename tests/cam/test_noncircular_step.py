@@ -1,0 +1,37 @@
+"""Non-circular pairs from their STEP files: the exact motion to 5 µrad."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from by_night import by_night
+from step_read import read_step_outline
+
+from mechwright_cad.exporters import StepExporter
+from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.parts import parts_of
+from mechwright_noncircular_gears.proof import prove_outlines
+
+sys.path.append(str(Path(__file__).parents[1] / "plugins"))
+from noncircular import TABLES
+
+SOUND = ("D1", "D2", "D3", "D4", "D5", "D6", "D7", "D8", "SL")
+
+CHORDS = 2.5e-5
+"""Chord error, mm: coarser chords turn the gears by microradians of their own."""
+
+
+@by_night
+@pytest.mark.parametrize("name", SOUND)
+def test_transmission_error_of_the_file(name):
+    params = NoncircularParams.model_validate({"bore": 8, **TABLES[name]})
+    one, two = (read_step_outline(StepExporter().part(part), CHORDS)[0] for part in parts_of(params))
+    wall = (
+        max(two.interiors, key=lambda hole: shapely.Polygon(hole).area) if params.internal else two.exterior
+    )
+    outlines = [np.asarray(ring.coords)[:-1] for ring in (one.exterior, wall)]
+    proof = prove_outlines(params, *outlines, 1e-3)
+    assert not proof.collides
+    assert proof.error < 5e-6
