@@ -129,7 +129,7 @@ def _tapping(tool: Tool, pitch: float, wanted: float, machine: Machine) -> Rates
             f"speed of the machine, {machine.spindle_min:g} rpm, and it feeds {machine.max_feed:g} at most; "
             "mill the thread"
         )
-    return Rates(spindle, feed, feed, feed, machine.max_feed, pitch / tool.flutes)
+    return Rates(spindle, feed, feed, feed, machine.max_feed, pitch / tool.flutes, feed)
 
 
 def _is_exact(feed: float) -> bool:
