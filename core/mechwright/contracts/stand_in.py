@@ -64,6 +64,8 @@ class StandIn:
             return found.fget(self)
         if callable(found) and hasattr(found, "__get__") and not hasattr(BaseModel, name):
             return found.__get__(self)
+        if name.startswith("__pydantic_") and found is not None:  # what isinstance asks of older pydantics
+            return found
         raise Asked
 
     __eq__ = __ne__ = __hash__ = __iter__ = __repr__ = __str__ = _asked
