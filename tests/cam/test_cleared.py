@@ -153,3 +153,16 @@ def test_the_latest_step_of_a_track_is_that_of_its_last_piece(
         ]
         expected = max(steps[0] for steps in over) if all(over) else None
         assert found == expected if expected is not None else found > len(lines)
+
+
+def test_of_many_heights_a_few_are_looked_at_and_common_ones_stay() -> None:
+    rng = np.random.default_rng(5)
+    steps, cuts = np.repeat([-3.0, -2.0, -1.0], 2000), 100_000
+    every = np.concatenate((steps, rng.uniform(-4.0, -0.1, 3000)))
+    levels = module._levels(every, cuts)
+    assert levels.size <= module.MOST_TAKEN // cuts
+    assert levels[0] < every.min()
+    for step in (-3.0, -2.0, -1.0):
+        assert np.abs(levels - (step - module.NEAR / 2)).min() < module.NEAR / 4
+    assert module._levels(every, 1000).size > 2 * levels.size
+    assert module._levels(steps, cuts).size == 3

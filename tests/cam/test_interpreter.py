@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading import Kind, modes
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
 
@@ -97,6 +97,24 @@ def test_states_follow_the_words() -> None:
     assert (cut.spindle, cut.rpm, cut.coolant) == (1, 900, "both")
     assert (after.spindle, after.coolant) == (0, "off")
     assert cut.stated == {"units", "distance", "plane", "cutter compensation", "feed mode"}
+
+
+def test_states_that_come_again_are_those_of_their_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a change makes of a state is remembered, and forgotten where there is too much of it."""
+    turns = [
+        f"G6{1 + 3 * (k % 2)}{' P0.002 Q0' * (k % 2)} S{900 + k % 3} M{3 + k % 3} G1 X{k} F9"
+        for k in range(30)
+    ]
+    often = interpret(START + "\n".join(turns))
+    found = [often.states[i] for i in often.state[often.kind == Kind.FEED]]
+    assert [state.rpm for state in found] == [900 + k % 3 for k in range(30)]
+    assert [state.spindle for state in found] == [(1, -1, 0)[k % 3] for k in range(30)]
+    assert [(state.path_mode, state.blend) for state in found] == [
+        ((610, 0), (640, 0.002))[k % 2] for k in range(30)
+    ]
+    monkeypatch.setattr(modes, "MOST_CHANGES", 1)
+    seldom = interpret(START + "\n".join(turns))
+    assert (seldom.states, seldom.state.tolist()) == (often.states, often.state.tolist())
 
 
 def test_a_tool_change_stops_the_spindle() -> None:

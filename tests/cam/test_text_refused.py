@@ -9,6 +9,8 @@ from golden_operations import made
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading import plain, read
+from mechwright_cam.controls.reading.beside import Beside
 
 START = "G17 G21 G40 G80 G90 G94\nG54\nF100.\nG0 X0. Y0. Z5.\n"
 LINE = START.count("\n") + 1
@@ -122,6 +124,19 @@ def test_a_line_is_as_long_as_it_is_written() -> None:
     """What an expression gives is shorter than the expression."""
     text = "G1 X[1" + "+1" * 130 + "]"
     assert "267 characters; LinuxCNC reads at most 255" in said(text)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_line_that_is_too_long_is_not_looked_at(control: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Patterns take a hundred bytes for each of its characters, and a line may have millions."""
+    seen = []
+    monkeypatch.setattr(plain, "Beside", lambda lines, dialect: seen.extend(lines) or Beside(lines, dialect))
+    monkeypatch.setattr(read, "uses_macros", lambda text: seen.extend(text.split("\n")) or False)
+    assert re.match(rf"line {LINE}: 500\d characters; ", said("G1 X1. Y" + "1" * 5000, control))
+    assert START.count("\n") < len(seen)
+    assert max(map(len, seen)) <= 255
+    # Behind the end it is none of the program.
+    assert interpret(f"{START}M30\n{'X' * 5000}\n", BY_NAME[control]).ended
 
 
 def test_a_feed_in_machine_coordinates_needs_a_feed() -> None:

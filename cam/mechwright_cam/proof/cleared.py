@@ -21,7 +21,10 @@ from mechwright_cam.proof.since import Cells, Tracks, taking
 FEW = 64
 """Moves that are asked about one by one sooner than all together."""
 MOST_LEVELS = 64
-"""Heights that are looked at; of more, each move counts as deep as the next lower one of these."""
+"""Heights that are looked at; of more, each move counts as deep as the next lower one of these, among which
+those stay at which many of the moves are."""
+LEAST_LEVELS, MOST_TAKEN = 8, 1_000_000
+"""Of more heights than these so many at least, and so many cuts at most, counted anew at each of them."""
 MOST_CELLS, LEAST_CELLS, ALL_CELLS = 250_000, 30_000, 2_500_000
 """Cells of one height, and of all."""
 MOST_LINES = 300_000
@@ -64,8 +67,7 @@ def left(
     if steps.size < FEW or not cuts.size:
         return suspect, where
     bottom = paths.low[steps] + lift
-    heights = np.unique(np.round(bottom / NEAR)) * NEAR
-    levels = heights[:: -(-heights.size // MOST_LEVELS)] - NEAR / 2
+    levels = _levels(bottom, cuts.size)
     level = np.searchsorted(levels, bottom + NEAR / 4, side="right") - 1
     cells = int(np.clip(ALL_CELLS // levels.size, LEAST_CELLS, MOST_CELLS))
     for index, height in enumerate(levels.tolist()):
@@ -76,6 +78,16 @@ def left(
             suspect[mine], some = one.left(steps[mine], lift[mine], radius[mine])
             where |= {int(mine[at]): lines for at, lines in some.items()}
     return suspect, where
+
+
+def _levels(bottom: Array, cuts: int) -> Array:
+    """Heights at which moves are looked at that go down to ``bottom`` (n,), just below these."""
+    heights = np.sort(np.round(bottom / NEAR)) * NEAR
+    levels = np.unique(heights)
+    if levels.size > MOST_LEVELS:
+        most = int(np.clip(MOST_TAKEN // cuts, LEAST_LEVELS, MOST_LEVELS))
+        levels = np.unique(heights[:: -(-heights.size // most)])
+    return levels - NEAR / 2
 
 
 class _Level:

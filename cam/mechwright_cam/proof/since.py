@@ -134,7 +134,8 @@ class Tracks:
     def _place(self, at: Ints) -> Ints:
         """The end (an odd number) or the gap before the next one (even) that a place is in."""
         index = np.searchsorted(self._ends, at)
-        place: Ints = index + np.searchsorted(self._ends, at, side="right")
+        is_end = np.take(self._ends, index, mode="clip") == at
+        place: Ints = 2 * index + is_end
         return place
 
 

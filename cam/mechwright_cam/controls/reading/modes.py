@@ -14,11 +14,13 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
-from mechwright_cam.controls.reading.run import Coolant, Ints, Kind, Selection, TableWrite
+from mechwright_cam.controls.reading.run import Coolant, Ints, Kind, Selection, State, TableWrite
 
 INCH = 25.4
 LARGEST_WHOLE = 99_999_999
 """Numbers of tools, offsets and turns: more than eight digits no control takes."""
+MOST_CHANGES = 10_000
+"""So many changes of states are remembered."""
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
 """G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
 AXES = "XYZ"
@@ -54,6 +56,8 @@ class Modal(Compensation):
         self.rigid = dialect.tapping == "always"
         self.offsets_are_zero = False
         self.diameters: Mapping[int, float] = {}
+        self._changed: dict[tuple[Any, ...], State] = {}
+        """What changes have made of a state: programs go to and fro between a few."""
 
     @property
     def moves_plainly(self) -> bool:
@@ -84,8 +88,14 @@ class Modal(Compensation):
         return int(value)
 
     def _set(self, **changes: Any) -> None:
-        if any(getattr(self.state, name) != value for name, value in changes.items()):
-            self.state = replace(self.state, **changes)
+        state = self.state
+        if any(getattr(state, name) != value for name, value in changes.items()):
+            key = state, *changes.items()
+            if key not in self._changed:
+                if len(self._changed) >= MOST_CHANGES:
+                    self._changed.clear()
+                self._changed[key] = replace(state, **changes)
+            self.state = self._changed[key]
 
     def _state(self, group: str) -> None:
         if group not in self.state.stated:

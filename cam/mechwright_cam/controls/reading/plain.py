@@ -192,6 +192,10 @@ class WorkedOut(Rows):
         self.words[:, ~self.plain] = np.nan
 
 
+_TOO_LONG = "?"
+"""Stands for a line that is longer than any that the control reads: it is not looked at, however long."""
+
+
 class PlainLines(Rows):
     r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
 
@@ -203,12 +207,13 @@ class PlainLines(Rows):
     """
 
     def __init__(self, text: str, dialect: Dialect) -> None:
-        beside = Beside(text.split("\n"), dialect)
+        most = dialect.line_length
+        beside = Beside([line if len(line) <= most else _TOO_LONG for line in text.split("\n")], dialect)
         data = b"\n" + beside.text.encode("utf-8", "surrogatepass") + b"\n"
         kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
         length = np.diff(ends)
-        self.plain = length <= dialect.line_length + 1  # with its end
+        self.plain = np.ones(length.size, dtype=np.bool_)
         wrong = _wrong_places(data, kind)
         self.plain[np.searchsorted(ends, wrong) - 1] = False
         kept = np.repeat(np.concatenate(([True], self.plain)), np.concatenate(([1], length)))

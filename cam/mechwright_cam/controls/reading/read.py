@@ -51,7 +51,8 @@ def interpret(
     text = text.replace("\r\n", "\n")
     lines, plain = text.split("\n"), PlainLines(text, dialect)
     source = Lines(lines)
-    if dialect.macros and uses_macros("\n".join(compress(lines, ~plain.plain))):
+    others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.line_length)
+    if dialect.macros and uses_macros("\n".join(others)):
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
     percents = 0
     faults, blocks = Faults(text, lines, dialect), Blocks(dialect)
