@@ -24,7 +24,19 @@ WANTED = {
     "three-poles": 'family = "four-bar"\n[requirement]\nkind = "poles"\n'
     "poles = [[37.7, -57.1], [120.4, 45.7], [-17.1, 122.8]]\ncrank_turns = [0, 60, 150]",
     "stops": 'family = "geneva"\n[requirement]\nkind = "indexing"',
+    "three-stops": 'family = "geneva"\n[requirement]\nkind = "indexing"\nslots = 3',
+    "twelve-stops": 'family = "geneva"\n[requirement]\nkind = "indexing"\nslots = 12',
+    "least-jerk": 'family = "elliptic-gears"\n[requirement]\nkind = "least-jerk"',
+    "five-poses": 'family = "four-bar"\n[requirement]\nkind = "poses"\n'
+    "poses = [[7, -6, -27], [14, -17, -40], [23, -24, -61], [28, -25, -72], [37, -19, -91]]",
+    "cam": 'family = "cam-follower"\n[requirement]\nkind = "size"',
+    "lever": 'family = "cam-follower"\n[requirement]\nkind = "size"\nfollower = "oscillating"',
+    "even-index": 'family = "noncircular-gears"\n[requirement]\nkind = "geneva"',
+    "even-slide": 'family = "noncircular-gears"\n[requirement]\nkind = "slider"',
+    "quick-return": 'family = "noncircular-gears"\n[requirement]\nkind = "quick-return"',
+    "approach": 'family = "noncircular-gears"\n[requirement]\nkind = "approach"',
     "stroke": 'family = "slider-crank"\n[requirement]\nkind = "stroke"\nstroke = 120\ntime_ratio = 1.5',
+    "short-stroke": 'family = "slider-crank"\n[requirement]\nkind = "stroke"\nstroke = 8',
     "two-poles": 'family = "slider-crank"\n[requirement]\nkind = "poles"\n'
     "poles = [[60, -12.6], [41.2, 41.6]]\nrotations = [47]",
     "path-on-sphere": 'family = "spherical"\n[requirement]\nkind = "four-bar-path"\nclosed = true\n'

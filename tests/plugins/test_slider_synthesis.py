@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.planar import acceleration_pole
+from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import crank_turns, least_transmission_angle, limits
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.pole_equations import PoleProblem
@@ -138,6 +140,39 @@ def test_bounds_are_findings_with_the_nearest_value(table, code, parameter, limi
     assert (finding.code, finding.parameter, finding.severity) == (code, parameter, Severity.ERROR)
     assert finding.limit == pytest.approx(limit, rel=1e-9)
     assert finding.remedy
+
+
+@pytest.mark.parametrize(
+    ("stroke", "ratio"),
+    [
+        (8, 1.6),
+        *(
+            pytest.param(*one, marks=by_night)
+            for one in (
+                (7, 1.1),
+                (10, 1.3),
+                (20, 2.0),
+                (30, 1.3),
+                (30, 1.6),
+                (45, 2.0),
+                (60, 2.0),
+                (250, 2.0),
+            )
+        ),
+    ],
+)
+def test_small_strokes_are_met_by_designs_whose_rails_stand_clear(stroke, ratio):
+    for candidate in from_stroke(StrokeRequirement(stroke=stroke, time_ratio=ratio)).candidates:
+        assert not errors(findings(candidate.params))
+        assert candidate.figures["stroke_simulated"].value == pytest.approx(stroke, rel=1e-6)
+        break
+    else:
+        raise AssertionError("none was found")
+
+
+def test_usual_rails_stay_where_they_do():
+    (one, *_) = from_stroke(StrokeRequirement(stroke=120, time_ratio=1.3)).candidates
+    assert (one.params.rail, one.params.pin) == (None, None)
 
 
 def test_what_just_turns_is_refused_with_words():
