@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from by_control import BY_NAME, asked, interpret
-from golden_cases import CORE, MORE, SHARP, hole
+from golden_case import CORE, MORE, SHARP, hole
 from golden_operations import made
 
 from mechwright.contracts.details import Thread

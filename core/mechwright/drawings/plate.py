@@ -22,6 +22,7 @@ from mechwright.drawings.strokes import FITTED
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.segments import Point
+from mechwright.standards.screw_holes import seated
 from mechwright.tolerances import TOLERANCES
 
 
@@ -75,7 +76,12 @@ class _Maker:
         """Round holes, and the openings that are not round."""
         told = self.told
         plain = Meaning("bore")
-        said = [hole for meant, some in self._of("bore") for hole in circles(meant, some, told)]
+        said = [
+            hole
+            for kind in ("bore", "screw")
+            for meant, some in self._of(kind)
+            for hole in circles(meant, some, told)
+        ]
         cut = [hole for meant, some in self.drawn.strokes.items() if meant.kind == "thread"
                for hole in threads(meant, some, told)]  # fmt: skip
         round_ = [
@@ -100,6 +106,8 @@ class _Maker:
                 size = min(hole.diameter, other.diameter)
                 bored = math.inf if other.meant.depth is None else other.meant.depth
                 found[twin] = Hole(hole.centre, size, _deep(hole.meant, other.meant), hole.name, bored)
+            elif hole.meant.kind == "screw" and hole.meant == other.meant:
+                found[twin] = min(hole, other, key=lambda one: one.diameter)  # shank and head are one hole
             elif _stepped(hole, other):
                 found.append(hole)
             elif same and (not other.meant.fit or other.meant == hole.meant):
@@ -163,7 +171,22 @@ class _Maker:
             self.cut.name, outline, deep, self.cut.material, self.cut.instances, machined=tuple(features)
         )
         details += self._details(part, plate)
-        return self._placed(outline, features, details)
+        whole = self._placed(outline, features, details)
+        for number, hole in enumerate(placed, start=1):
+            if hole.meant.kind == "screw":
+                whole = self._seated(whole, f"bore-{number}", hole)
+        return None if told.faults else whole
+
+    def _seated(self, part: Part, name: str, hole: Hole) -> Part:
+        try:
+            return seated(part, name, hole.meant.screw)
+        except GeometryError as error:
+            self.told.fault(
+                "feature",
+                f"the hole of {hole.name} at {at(hole.centre)}: {error}",
+                "say another screw, or a bore",
+            )
+            return part
 
     def _sunk(self, drilled: Bore, thread: Thread | None, floors: Sequence[float]) -> Bore:
         """The bore, from the floor of the recess that it stands in on."""
