@@ -57,3 +57,20 @@ def test_what_is_no_screw_or_does_not_fit_is_refused_by_name(draw, said):
     part, told = part_in(saved(draw))
     assert part is None
     assert said in told.faults[0].message
+
+
+@pytest.mark.parametrize(("thread", "refused"), [(10.0, True), (9.8, True), (5.0, False)])
+def test_an_external_thread_is_refused_by_name(thread, refused):
+    """Round an island it is external; a narrower one in the island is a threaded hole in a boss."""
+
+    def draw(space):
+        box(space, 0, 0, 60, 40, "OUTLINE")
+        box(space, 5, 5, 50, 35, "POCKET_3")
+        space.add_circle((25, 20), 10 / 2, dxfattribs={"layer": "POCKET_3"})
+        layer = {10.0: "M10", 9.8: "M10", 5.0: "M5"}[thread]
+        space.add_circle((25, 20), thread / 2, dxfattribs={"layer": layer})
+
+    part, told = part_in(saved(draw))
+    assert (part is None) is refused
+    if refused:
+        assert "M10 at X25.000 Y20.000 is drawn round an island, an external thread" in told.faults[0].message

@@ -25,6 +25,9 @@ from mechwright.geometry.segments import Point
 from mechwright.standards.screw_holes import seated
 from mechwright.tolerances import TOLERANCES
 
+SAME_RIM = 0.3
+"""A thread's circle that is no more than this narrower than an island is that of its rim, mm."""
+
 
 @dataclass(frozen=True)
 class Cut:
@@ -134,6 +137,7 @@ class _Maker:
             disc = shapely.Point(hole.centre).buffer(hole.diameter / 2, quad_segs=64)
             if not lies_in(disc, rim):
                 told.fault("contour", f"the hole of {hole.name} reaches out of the plate", "draw an opening")
+            self._inside(hole, found)
             made = bore(hole, f"bore-{number}", deep, told)
             if made is None:
                 continue
@@ -208,6 +212,18 @@ class _Maker:
                 "thread it by hand, and draw a bore",
             )
         return replace(drilled, top=top, depth=bottom - top)
+
+    def _inside(self, hole: Hole, found: Sequence[Recess]) -> None:
+        """A fault for the thread of a boss: its circle is the rim of an island."""
+        islands = [one.circle for recess in found for one in recess.islands]
+        rims = [arc for arc in islands if arc is not None and coaxial(hole, arc.centre)]
+        if hole.meant.kind == "thread" and any(hole.diameter >= 2 * arc.radius - SAME_RIM for arc in rims):
+            self.told.fault(
+                "feature",
+                f"{hole.meant.thread} at {at(hole.centre)} is drawn round an island, an external thread; "
+                "plates have threads in holes only",
+                "screw a stud into a threaded hole, or cut it with a die and give its layer no thread",
+            )
 
     def _floors(self, hole: Hole, holes: Sequence[Hole]) -> list[float]:
         """Depths of the wider blind bores about the axis of a hole."""
