@@ -8,7 +8,7 @@ from golden_case import CORE, MORE, SHARP, hole
 from golden_operations import made
 
 from mechwright.contracts.details import Thread
-from mechwright.contracts.part import Part
+from mechwright.contracts.part import Part, Profile
 from mechwright.errors import DesignError, ProgramError, ToolError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.controls.reading import Kind
@@ -211,3 +211,18 @@ def test_a_tap_is_as_wide_as_its_thread_above_its_chamfer() -> None:
     assert faster.cutting["aluminium"].chip_load * 3 == pytest.approx(1.0)
     with pytest.raises(DesignError, match="a tap feeds its pitch, 1 mm, in a turn"):
         MORE.cutting({"tap-m6": CuttingChange(chip_load=0.2)})
+
+
+def test_below_a_blind_thread_the_point_of_its_drill_may_stay_and_nothing_else() -> None:
+    """With mills in the program, too, which could reach what is left there."""
+    part = plate(thickness=12, deep=10.0)
+    rim = Profile("outside", SHARP, "outside", 0.0, 12.0)
+    part = replace(part, machined=(*part.features, rim))
+    cam = CamSettings.model_validate({"tools": ["drill-5", "tap-m6", "mill-8"]})
+    (job,), _ = lay_out_setups(part, cam, MORE)
+    one = machine(job, BY_NAME["linuxcnc"], 0)
+    assert one.proof.ok
+    assert "Z-10 R1" in one.text
+    for low, check in (("Z-9.5", "depth"), ("Z-10.5", "gouge"), ("Z-7", "edges")):
+        found = asked(check, one.text.replace("Z-10 R1", f"{low} R1"), one.job)
+        assert not found.passed, check
