@@ -3,8 +3,9 @@
 import pytest
 from test_drawings_read import box, part_in, saved
 
-from mechwright.contracts.details import Chamfer
+from mechwright.contracts.details import Chamfer, Thread
 from mechwright.contracts.part import Bore
+from mechwright.contracts.threads import named
 from mechwright.drawings.asked import Asked
 
 
@@ -74,3 +75,31 @@ def test_an_external_thread_is_refused_by_name(thread, refused):
     assert (part is None) is refused
     if refused:
         assert "M10 at X25.000 Y20.000 is drawn round an island, an external thread" in told.faults[0].message
+
+
+@pytest.mark.parametrize(
+    ("layer", "thread", "depth"),
+    [
+        ("M5_LH", "M5x0.8 LH", 10.0),
+        ("M5_LH_6", "M5x0.8 LH", 6.0),
+        ("1_4-20_UNC", "1/4-20 UNC", 10.0),
+        ("THREAD 1_4-20 UNC LH", "1/4-20 UNC LH", 10.0),
+        ("#10-32_UNF_6", "#10-32 UNF", 6.0),
+        ("TAP_5_16-18-UNC", "5/16-18 UNC", 10.0),
+    ],
+)
+def test_left_hand_and_inch_threads_have_layers(layer, thread, depth):
+    size = named(thread).diameter
+    part, told = part_in(saved(holes(layer, size / 2)))
+    assert told.faults == []
+    (found,) = [detail for detail in part.details if isinstance(detail, Thread)]
+    assert (found.designation, found.depth) == (thread, depth)
+
+
+@pytest.mark.parametrize(
+    ("layer", "said"), [("1_4-21_UNC", "is no thread of ASME B1.1"), ("BORE_LH", "'LH' is not understood")]
+)
+def test_threads_that_do_not_exist_are_refused(layer, said):
+    part, told = part_in(saved(holes(layer, 3)))
+    assert part is None
+    assert said in told.faults[0].message
