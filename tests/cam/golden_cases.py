@@ -1,107 +1,20 @@
 """One small part for each operation, with its cutters and the settings that bring the operation about."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 
-from by_control import CONTROLS
-from planning_parts import LIBRARY, rounded_box
+from golden_case import BORED, CORE, FLUSH, PLATE, QUARTER, Case, box, hole
+from golden_threads import THREADED
+from planning_parts import rounded_box
 
-from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.fits import hole_fit
-from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.geometry import Arc, Line, Loop, Outline, circle
+from mechwright.contracts.part import Bore, OpenProfile, Pocket, Profile
+from mechwright.geometry import Arc, Line, Loop, circle
 from mechwright.geometry.lettering import lettering
-from mechwright_cam.shop.tool import Tool
 
-_REAMED = {"aluminium": {"cutting_speed": 20, "chip_load": 0.03}}
-_TAPPED = {"aluminium": {"cutting_speed": 15}}
-_DRILLED = {"aluminium": {"cutting_speed": 70, "chip_load": 0.04}}
-MORE = LIBRARY.extended(
-    (
-        Tool(
-            name="reamer-6", number=91, kind="reamer", diameter=6, flutes=6, flute_length=20, cutting=_REAMED
-        ),
-        Tool(
-            name="thread-unc",
-            number=93,
-            kind="thread-mill",
-            diameter=4,
-            flutes=3,
-            flute_length=12,
-            neck_diameter=2.4,
-            cutting={"aluminium": {"cutting_speed": 130, "chip_load": 0.02}},
-        ),
-        *(
-            Tool(name=name, number=number, kind="tap", flutes=3, flute_length=25, cutting=_TAPPED, **shape)
-            for name, number, shape in (
-                ("tap-m6", 94, {"diameter": 6, "pitch": 1}),
-                ("tap-m6-left", 95, {"diameter": 6, "pitch": 1, "left_hand": True}),
-                ("tap-m6-floating", 96, {"diameter": 6, "pitch": 1, "chamfer_length": 2, "floating": True}),
-                ("tap-quarter", 97, {"diameter": 6.35, "pitch": 1.27}),
-            )
-        ),
-        Tool(name="drill-5.1", number=98, kind="drill", diameter=5.1, flute_length=40, cutting=_DRILLED),
-        Tool(name="drill-5.8", number=92, kind="drill", diameter=5.8, flute_length=30, cutting=_DRILLED),
-    )
-)
-"""The library, with what it does not have: a reamer and taps, and the drills for them."""
-TAPPING = ("linuxcnc", "fanuc", "haas")
-"""The controls that keep feed and spindle together."""
-WIDE, HIGH = 40.0, 30.0
-PLATE = rounded_box(WIDE, HIGH, 5)
-SHARP = Loop.polygon(
-    [(-WIDE / 2, -HIGH / 2), (WIDE / 2, -HIGH / 2), (WIDE / 2, HIGH / 2), (-WIDE / 2, HIGH / 2)]
-)
-BORED = {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}
-
-
-@dataclass(frozen=True)
-class Case:
-    """A part, its cutters, the settings that bring the operation about, and the operations expected."""
-
-    features: tuple[Feature, ...]
-    tools: tuple[str, ...]
-    expected: tuple[str, ...]
-    thickness: float = 4.0
-    settings: Mapping[str, object] = field(default_factory=dict)
-    details: tuple[Detail, ...] = ()
-    material: str = "aluminium"
-    says: str = ""
-    """What the text has to hold on LinuxCNC, beside the names of the operations: the mark of the operation."""
-    controls: tuple[str, ...] = CONTROLS
-    """Those that can do it."""
-
-    def part(self, name: str) -> Part:
-        """The plate; what goes through it is in its outline."""
-        through = [f for f in self.features if f.top == 0 and f.depth == self.thickness]
-        inner = [
-            Loop((circle(f.centre, f.diameter / 2, clockwise=True),)) for f in through if isinstance(f, Bore)
-        ]
-        inner += [f.loop.reversed() for f in through if isinstance(f, Profile) and f.side == "inside"]
-        rim = PLATE if any(isinstance(f, Profile) and f.side == "outside" for f in self.features) else SHARP
-        outline = Outline(rim, tuple(inner))
-        return Part(
-            name, outline, self.thickness, self.material, machined=self.features, details=self.details
-        )
-
-
-def box(x0: float, y0: float, x1: float, y1: float) -> Loop:
-    return Loop.polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-
-
-def hole(name: str, x: float, y: float, diameter: float, depth: float, top: float = 0.0) -> Bore:
-    return Bore(name, (x, y), diameter, top, depth)
-
-
-FLUSH = {"stock": {"margin": 0}}
-"""The plate is as large as its stock: nothing but the feature is cut."""
-
-CORE = Thread("m6", (0.0, 0.0), 6.0, 1.0, 5.0).core
-
-QUARTER = Thread("quarter", (0.0, 0.0), 6.35, 1.27, 3.0, inch="1/4-20 UNC")
-
+__all__ = ["CASES"]
 CASES: dict[str, Case] = {
+    **THREADED,
     "face": Case(
         (Pocket("face", box(-30, -25, 30, 25), (), 0, 0.5),), ("mill-16",), ("face: face",), settings=FLUSH
     ),
@@ -214,43 +127,6 @@ CASES: dict[str, Case] = {
         ("core: bore", "core: finish", "quarter: thread"),
         settings={**FLUSH, "climb": False},
         details=(QUARTER,),
-    ),
-    "tap": Case(
-        (hole("core", -8, 0, CORE, 16), hole("blind", 8, 0, CORE, 14)),
-        ("spot-6", "drill-5", "tap-m6"),
-        ("spot drill", "drill 5", "drill 5 to 12.5", "m6: tap", "blind-m6: tap"),
-        thickness=16,
-        settings=FLUSH,
-        details=(Thread("m6", (-8.0, 0.0), 6.0, 1.0, 16.0), Thread("blind-m6", (8.0, 0.0), 6.0, 1.0, 8.0)),
-        says="G33.1 Z-20 K1\n",
-        controls=TAPPING,
-    ),
-    "tap-left": Case(
-        (hole("core", 0, 0, CORE, 4),),
-        ("drill-5", "tap-m6-left"),
-        ("drill 5", "m6: tap"),
-        settings=FLUSH,
-        details=(Thread("m6", (0.0, 0.0), 6.0, 1.0, 4.0, left=True),),
-        says="M4\n",
-        controls=TAPPING,
-    ),
-    "tap-floating": Case(
-        (hole("core", -8, 0, CORE, 4), hole("core-2", 8, 0, CORE, 4)),
-        ("drill-5", "tap-m6-floating"),
-        ("drill 5", "m6: tap", "m6-2: tap"),
-        settings=FLUSH,
-        details=(Thread("m6", (-8.0, 0.0), 6.0, 1.0, 4.0), Thread("m6-2", (8.0, 0.0), 6.0, 1.0, 4.0)),
-        says="G98 G84",
-        controls=(*TAPPING, "mach3"),
-    ),
-    "tap-inch": Case(
-        (hole("core", 0, 0, QUARTER.core, 4),),
-        ("drill-5.1", "tap-quarter"),
-        ("drill 5.1", "quarter: tap"),
-        settings={**FLUSH, "post": {"units": "inch"}},
-        details=(QUARTER,),
-        says="K0.05\n",
-        controls=TAPPING,
     ),
     "chamfer": Case(
         (Profile("window", rounded_box(20, 14, 5), "inside", 0, 3),),

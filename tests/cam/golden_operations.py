@@ -8,7 +8,8 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from golden_cases import CASES, MORE
+from golden_case import MORE
+from golden_cases import CASES
 
 from mechwright.contracts.finding import errors
 from mechwright.plugins.host import host

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from by_control import BY_NAME, CONTROLS, asked, prove, read
 from by_night import NIGHT, examples, thinned
-from golden_cases import SHARP
+from golden_case import SHARP
 from line_faults import STATES
 from mutant_traces import differences, trace
 from mutants import mutant

@@ -1,14 +1,17 @@
 """Tapped threads: which tap, which hole, at what speed; and programs with a fault, each refused by its check."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from by_control import BY_NAME, asked, interpret
-from golden_cases import CORE, MORE, SHARP, hole
+from golden_case import CORE, MORE, SHARP, hole
 from golden_operations import made
+from rs274 import needs_rs274, run_rs274
+from test_rs274 import agree
 
 from mechwright.contracts.details import Thread
-from mechwright.contracts.part import Part
+from mechwright.contracts.part import Part, Profile
 from mechwright.errors import DesignError, ProgramError, ToolError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.controls.reading import Kind
@@ -211,3 +214,70 @@ def test_a_tap_is_as_wide_as_its_thread_above_its_chamfer() -> None:
     assert faster.cutting["aluminium"].chip_load * 3 == pytest.approx(1.0)
     with pytest.raises(DesignError, match="a tap feeds its pitch, 1 mm, in a turn"):
         MORE.cutting({"tap-m6": CuttingChange(chip_load=0.2)})
+
+
+def test_below_a_blind_thread_the_point_of_its_drill_may_stay_and_nothing_else() -> None:
+    """With mills in the program, too, which could reach what is left there."""
+    part = plate(thickness=12, deep=10.0)
+    rim = Profile("outside", SHARP, "outside", 0.0, 12.0)
+    part = replace(part, machined=(*part.features, rim))
+    cam = CamSettings.model_validate({"tools": ["drill-5", "tap-m6", "mill-8"]})
+    (job,), _ = lay_out_setups(part, cam, MORE)
+    one = machine(job, BY_NAME["linuxcnc"], 0)
+    assert one.proof.ok
+    assert "Z-10 R1" in one.text
+    for low, check in (("Z-9.5", "depth"), ("Z-10.5", "gouge"), ("Z-7", "edges")):
+        found = asked(check, one.text.replace("Z-10 R1", f"{low} R1"), one.job)
+        assert not found.passed, check
+
+
+START = "G17 G21 G40 G49 G80 G90 G94\nG0 X0 Y0\nG0 Z8\nS500 M3\n"
+
+
+@needs_rs274
+def test_linuxcnc_taps_where_it_is_read_to(tmp_path: Path) -> None:
+    agree(
+        START
+        + "G0 Z5\nG33.1 Z-3 K1\nZ-4 K1\nG0 Z8\nG98 G84 X1 Y1 Z-3 R2 F500\nX2 Y0\nG99 G84 X3 Z-2 R3 P0.2\nX4\nG80\n"
+        "M4\nG98 G74 X5 Y5 Z-3 R1 F500\nG80\nG0 X0\nM2\n",
+        tmp_path,
+    )
+
+
+@needs_rs274
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ("G33.1 Z-3 K1 F100", "G33.1 with F"),
+        ("G33.1 Z-3 K1\nZ-4 K1 F100", "G33.1 with F"),
+        ("G33.1 Z-3", "G33.1 needs the pitch, K"),
+        ("M5\nG33.1 Z-3 K1", "G33.1 while the spindle stands"),
+        ("M5\nG98 G84 X1 Y1 Z-3 R1 F100", "G84 needs a spindle that turns clockwise"),
+        ("M4\nG98 G84 X1 Y1 Z-3 R1 F100", "G84 needs a spindle that turns clockwise"),
+        ("G98 G74 X1 Y1 Z-3 R1 F100", "G74 needs a spindle that turns backwards"),
+        ("G98 G84 X1 Y1 Z-3 R1", "G84 without a feed"),
+    ],
+)
+def test_what_linuxcnc_refuses_of_tapping_is_refused(lines: str, said: str, tmp_path: Path) -> None:
+    text = START + lines + "\nM2\n"
+    assert not run_rs274(text, tmp_path).ok
+    with pytest.raises(ProgramError, match=said):
+        interpret(text)
+
+
+@pytest.mark.parametrize(
+    ("diameter", "check", "says"),
+    [
+        (5.16, "gouge", ""),  # the widest core that ISO 965 lets be, as nearly as a quarter of a pitch has it
+        (5.2, "gouge", "mm into the finished part"),
+        (4.78, "edges", ""),
+        (4.74, "edges", "drill the hole of its thread to 5 mm first"),
+    ],
+)
+def test_the_hole_of_a_tap_is_as_wide_as_its_core(diameter: float, check: str, says: str) -> None:
+    (one,) = made("tap-floating", "fanuc")
+    drills = {"drill-5": one.job.tools[0].model_copy(update={"diameter": diameter})}
+    job = replace(one.job, tools=tuple(drills.get(tool.name, tool) for tool in one.job.tools))
+    found = asked(check, one.text, job, BY_NAME["fanuc"])
+    assert found.passed is (not says)
+    assert says in found.message

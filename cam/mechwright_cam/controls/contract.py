@@ -159,6 +159,8 @@ class Control(Plugin):
             )
         return f"{self.title} does not turn the spindle back in step with the feed: it has no tapping cycle"
 
+    stages: ClassVar[bool] = False
+    """Whether a T word alone makes the next tool ready while the present one cuts."""
     tap_needs: ClassVar[str] = ""
     """What it needs for rigid tapping, a sentence for the setup sheet."""
 

@@ -70,6 +70,7 @@ class Fanuc(GcodeControl):
     )
     offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)
     work_offsets = (G54_TO_G59, FANUC_OFFSETS)
+    stages = True
     taps = EVERY_WAY
     tap_needs = (
         "M29 has to be the machine's code of rigid tapping (parameter 5210; the builder may have another)."

@@ -41,6 +41,9 @@ class GcodeControl(Sections):
         for place, section in enumerate(program.sections):
             if place and program.posting.optional_stops and out.lines[-1] != self.m(0):
                 out.line(self.m(1))
+            following = program.sections[(place + 1) % len(program.sections)].tool.number
+            ahead = program.posting.stage_tools and following != section.tool.number
+            out.staged = following if ahead else 0
             self.section(out, section)
         self.go_home(out)
         self.end(out)
@@ -50,6 +53,8 @@ class GcodeControl(Sections):
 
     def _check_program(self, program: Program) -> None:
         """Raise ProgramError for a program that it cannot run, or that does nothing."""
+        if program.posting.stage_tools and not self.stages:
+            raise ProgramError(f"program {program.name}: {self._stages_none}; leave post.stage_tools out")
         title, compensates = self.title, self.offsets.d is not None
         if not any(operation.moves for section in program.sections for operation in section.operations):
             raise ProgramError(f"program {program.name} has no moves; nothing is written")
@@ -85,7 +90,16 @@ class GcodeControl(Sections):
             lack = f"{self.title} has no cutter compensation (G41, G42)"
             remedy = 'use compensation = "computer"'
             found.append(Finding.error("cam.compensation", "cam.compensation", lack, remedy=remedy))
+        if settings.post.stage_tools and not self.stages:
+            remedy = "leave stage_tools out"
+            found.append(
+                Finding.error("cam.stage-tools", "cam.post.stage_tools", self._stages_none, remedy=remedy)
+            )
         return found
+
+    @property
+    def _stages_none(self) -> str:
+        return f"{self.title} has no tool made ready ahead: its tools are changed by hand or by its own macro"
 
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:  # noqa: ARG002
         """Taps that it cannot use."""

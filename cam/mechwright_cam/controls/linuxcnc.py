@@ -71,6 +71,7 @@ class LinuxCnc(GcodeControl):
     leftover = "an origin shift (G92, G52) of an earlier program: type G92.1 before zero is set"
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
+    stages = True
     taps = EVERY_WAY
     tap_needs = "G33.1 needs an encoder on the spindle, whose index is wired to spindle.0.index-enable."
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)

@@ -12,7 +12,7 @@ from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
-from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.pointed import DetailOperation, spread
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
@@ -23,6 +23,8 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 BELOW = (0.3, 0.1)
 """How far a chamfer mill's tip stands below the chamfer, mm, tried in this order: its very tip cuts badly."""
+LAYER = 1.0
+"""A chamfer mill goes so much deeper at a time, mm: wide ones, as of countersinks, take several rounds."""
 
 
 class ChamferOperation(DetailOperation):
@@ -110,10 +112,13 @@ def _beside_clamp(job: Job, detail: Chamfer, found: list[Array], tool: Tool) -> 
 
 
 def _around(pen: Pen, paths: list[Path], z: float) -> None:
-    """Each path once round at its depth, entered by a ramp along it."""
+    """Each path round at its depth, entered by a ramp along it; wide ones, as of countersinks, in layers."""
     for path in paths:
         if path.cuts:
             pen.above(path.start)
-            pen.enter(path, 0.0, z, clear=False)
-            pen.follow(path)
+            above = 0.0
+            for height in levels(0.0, z, LAYER):
+                pen.enter(path, above, height, clear=False)
+                pen.follow(path)
+                above = height
     pen.retract()

@@ -27,8 +27,7 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept, without_specks
 from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.proof.wall import on_walls
-from mechwright_cam.proof.wanted import COARSE, Wanted, recesses
-from mechwright_cam.setup.depths import makes, thread_in
+from mechwright_cam.proof.wanted import COARSE, Wanted, drilled_floors, recesses
 from mechwright_cam.setup.job import Job
 
 
@@ -109,13 +108,6 @@ def _on_floors(
     distance = Boundary(reached).distance(shapely.points(corners))
     worst = int(np.argmax(distance))
     return float(distance[worst]), (float(corners[worst, 0]), float(corners[worst, 1]))
-
-
-def drilled_floors(job: Job) -> list[tuple[Bore, float]]:
-    """The blind holes that are tapped, and where their threads end, mm: a drill's point may stay below."""
-    blind = [bore for bore in recesses(job) if isinstance(bore, Bore)]
-    threads = [(bore, thread) for bore in blind if (thread := thread_in(job, bore)) is not None]
-    return [(bore, one.depth) for bore, one in threads if any(makes(tool, one) for tool in job.tools)]
 
 
 AROUND = 64

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import shapely
 
-from mechwright.contracts.part import Feature, Profile
+from mechwright.contracts.part import Bore, Feature, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.proof.bands import Band, asked, bands, floor_of
 from mechwright_cam.proof.fillets import fillets
@@ -14,7 +14,9 @@ from mechwright_cam.proof.grooves import along, entered
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.reachable import Reach, Surroundings
+from mechwright_cam.setup.depths import makes, thread_in
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.tool import Tool
 
 PLAY = TOLERANCES.outline + TOLERANCES.flatten
@@ -47,6 +49,8 @@ class Wanted:
         self.smallest = min(tool.radius for tool in mills) + air
         self.slack = max(TAB_SLACK, *self.reach.noses) if self.reach.noses else TAB_SLACK
         extra = [z for fillet in self.fillets for z in fillet.heights] + _above_floors(job, self.reach)
+        self.pointed = drilled_floors(job)
+        extra += [-depth for _, depth in self.pointed]
         self.bands = bands(job, (*(tab.top + self.slack for tab in job.tabs), *extra))
         self.drawn = asked(job)
 
@@ -56,7 +60,7 @@ class Wanted:
 
         With round or short cutters, or round floors, every height is another question.
         """
-        return self.reach.plain and not self.fillets
+        return self.reach.plain and not self.fillets and not self.pointed
 
     def narrowest(self, band: Band) -> float:
         """Radius of the narrowest mill where a band is measured, mm."""
@@ -102,7 +106,17 @@ class Wanted:
         return replace(self._free, layers=layers)
 
     def _entered(self, band: Band, keep: Shape) -> Shape:
+        # Below the end of a tapped thread the point of its drill may stay.
+        drilled = [inside_of(bore) for bore, depth in self.pointed if band.top <= NEAR - depth]
+        keep = shapely.union_all([keep, *(grow(hole, TOLERANCES.leftover) for hole in drilled)])
         return entered(keep, self.smallest, play(self.job), self.job, band)
+
+
+def drilled_floors(job: Job) -> list[tuple[Bore, float]]:
+    """The blind holes that are tapped, and where their threads end, mm: a drill's point may stay below."""
+    blind = [bore for bore in recesses(job) if isinstance(bore, Bore)]
+    threads = [(bore, thread) for bore in blind if (thread := thread_in(job, bore)) is not None]
+    return [(bore, one.depth) for bore, one in threads if any(makes(tool, one) for tool in job.tools)]
 
 
 def recesses(job: Job) -> list[Feature]:

@@ -11,6 +11,7 @@ from mechwright.contracts.holes import fitted, threaded
 from mechwright.contracts.marking import engraved_dots, marked
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, MechwrightError
+from mechwright.standards.screw_holes import seated
 from mechwright_cam.shop.settings import CamSettings, Hole, PartSettings
 
 NAME = "{part}"
@@ -59,7 +60,9 @@ def _made(part: Part, table: CamSettings, path: Path) -> Part:
 def _hole(part: Part, name: str, hole: Hole) -> Part:
     if hole.fit is not None:
         return fitted(part, name, hole.fit)
-    assert hole.thread is not None  # noqa: S101 - a hole has one of the two
+    if hole.screw is not None:
+        return seated(part, name, hole.screw)
+    assert hole.thread is not None  # noqa: S101 - a hole has one of the three
     return threaded(part, name, hole.thread, hole.depth)
 
 

@@ -41,6 +41,10 @@ class Posting(Parameters):
     line_numbers: int = Field(0, ge=0, le=100, description="Step of the N numbers; 0 writes none.")
     restart: bool = Field(False, description="Every operation can be started from: it states all modes.")
     optional_stops: bool = Field(False, description="An M1 before every tool change.")
+    stage_tools: bool = Field(
+        False,
+        description="The next tool is made ready (T alone) behind each tool change, as arm changers want.",
+    )
     cycles: bool = Field(True, description="Drilling cycles; false writes out their moves.")
     exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
     offsets: bool = Field(False, description="Write the measured offsets into the program (G10).")

@@ -182,6 +182,13 @@ class CamSettings(Parameters):
 class Hole(Parameters):
     """A table ``[cam.part.NAME.holes.HOLE]``: what becomes of a round hole."""
 
+    screw: str | None = Field(
+        None,
+        max_length=30,
+        description="Screw whose head it takes: ISO 4762 M6 (counterbore), ISO 10642 M6 (countersink), "
+        "ASME B18.3 1/4; the hole gets the clearance of its shank.",
+    )
+
     fit: HoleClass | None = Field(None, description="ISO 286 class to whose middle the hole is made.")
     thread: str | None = Field(
         None,
@@ -194,10 +201,10 @@ class Hole(Parameters):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        if (self.fit is None) == (self.thread is None):
-            raise ValueError("give it a fit or a thread, one of the two")
+        if sum(one is not None for one in (self.fit, self.thread, self.screw)) != 1:
+            raise ValueError("give it a fit or a thread, one of the two, or a screw")
         if self.depth is not None and self.thread is None:
-            raise ValueError("depth is that of a thread; a fit goes all through the hole, so leave depth out")
+            raise ValueError("depth is that of a thread; leave depth out")
         return self
 
 

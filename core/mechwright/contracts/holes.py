@@ -35,7 +35,7 @@ def fitted(part: Part, name: str, fit: HoleClass) -> Part:
     """
     bore = hole(part, name)
     limits = hole_fit(bore.diameter if bore.fit is None else bore.fit.size, fit)
-    return _with(part, bore, replace(bore, diameter=limits.middle, fit=limits))
+    return exchanged(part, bore, replace(bore, diameter=limits.middle, fit=limits))
 
 
 def threaded(part: Part, name: str, designation: str, depth: float | None = None) -> Part:
@@ -75,14 +75,14 @@ def threaded(part: Part, name: str, designation: str, depth: float | None = None
             f"{name} of part {part.name} is {min(bore.depth, part.thickness):g} mm deep; no thread of "
             f"{max(depth, 0):g} mm goes into it"
         )
-    wall = _wall(part, bore) - nominal / 2
+    wall = wall_beside(part, bore) - nominal / 2
     if wall < pitch:
         raise GeometryError(
             f"{thread.designation} in {name} of part {part.name} leaves a wall of {max(wall, 0):.2f} mm; it "
             f"needs one pitch, {pitch:g} mm: take a smaller thread"
         )
     # Nine digits: the last of a binary fraction would stand in drawings.
-    made = _with(part, bore, replace(bore, diameter=round(thread.core, 6), fit=None))
+    made = exchanged(part, bore, replace(bore, diameter=round(thread.core, 6), fit=None))
     return replace(made, details=(*made.details, thread))
 
 
@@ -109,11 +109,11 @@ def joined(part: Part) -> Part:
         ]
         wide = max([bore.diameter, *nominal, *([bore.fit.size] if bore.fit else [])])
         if wide > bore.diameter:
-            part = _with(part, bore, replace(bore, diameter=wide))
+            part = exchanged(part, bore, replace(bore, diameter=wide))
     return part
 
 
-def _with(part: Part, old: Bore, new: Bore) -> Part:
+def exchanged(part: Part, old: Bore, new: Bore) -> Part:
     """The part with one hole for another, in its features and, if it goes through, in its outline."""
     assert part.outline is not None  # noqa: S101 - only plates have features
     features = tuple(new if feature is old else feature for feature in part.features)
@@ -135,7 +135,7 @@ def _widened(loop: Loop, old: Bore, new: Bore) -> Loop:
     return Loop((circle(new.centre, new.diameter / 2, clockwise=loop.area < 0, tag=arc.tag),))
 
 
-def _wall(part: Part, bore: Bore) -> float:
+def wall_beside(part: Part, bore: Bore) -> float:
     """Distance of a hole's axis from the nearest wall that is not its own, mm."""
     import shapely
 

@@ -108,11 +108,11 @@ def by_size(asked: Asked, told: Told) -> Mapping[float, Meaning]:
         except DesignError as error:
             told.fault("feature", f"holes, {diameter:g}: {error}", 'say a fit, a thread or "bore 5"', "holes")
             continue
-        if meant is None or meant.kind not in {"bore", "thread", "ignore"}:
+        if meant is None or meant.kind not in {"bore", "thread", "screw", "ignore"}:
             told.fault(
                 "feature",
                 f"holes, {diameter:g}: {text!r} says nothing of a hole",
-                'say "H7", "M5", "bore 5" or "ignore"',
+                'say "H7", "M5", "bore 5", "screw M6" or "ignore"',
                 "holes",
             )
         else:

@@ -8,7 +8,9 @@ Words are parted by spaces, ``_`` or ``-``; capitals do not matter. The first sa
     POCKET_3.5          a recess, its floor 3.5 below the top face; POCKET_3.5_R1: a fillet of 1 round it
     POCKET_10_FROM_7    one that begins 7 below the top face
     POCKET_3.5_OPEN     the same as POCKET_3.5: where its contour runs beyond the rim, and no wall is left
-    M5, M5X0.5_12       circles, threaded, 12 deep; also THREAD_M5
+    SCREW_M6            holes for cylinder heads of ISO 4762; SUNK_M6: for countersunk ones of ISO 10642;
+                        SCREW_1_4, SCREW_#10: for cylinder heads of ASME B18.3, of 1/4 and #10
+    M5, M5X0.5_12       circles, threaded, 12 deep; also THREAD_M5; M5_LH: left-hand; 1_4-20_UNC: in inches
     ENGRAVE_0.2         lines engraved so deep; ENGRAVE_0.2_W0.5: at most 0.5 wide
     CHAMFER_0.5         edges broken so wide: the edge itself, or the line where the chamfer ends
     IGNORE              nothing, as CENTRE, TEXT, DIM, HIDDEN and other names of what is no edge
@@ -23,9 +25,12 @@ from typing import Any, Literal
 from mechwright.contracts.limits import HOLE_CLASS
 from mechwright.contracts.threads import named
 from mechwright.errors import DesignError, GeometryError
+from mechwright.standards.screw_holes import seat
 
-Kind = Literal["outline", "through", "bore", "pocket", "thread", "engrave", "chamfer", "ignore"]
+Kind = Literal["outline", "through", "bore", "pocket", "thread", "engrave", "chamfer", "screw", "ignore"]
 
+_SUNK = ("SUNK", "CSK", "CSINK", "COUNTERSINK")
+"""Words for screws with countersunk heads."""
 _WORDS: dict[str, Kind] = {
     **dict.fromkeys(("OUTLINE", "OUTSIDE", "PERIMETER"), "outline"),
     **dict.fromkeys(("THROUGH", "OPENING", "OPENINGS", "CUT", "CUTOUT", "CUTOUTS", "EDGE.CUTS"), "through"),
@@ -34,6 +39,7 @@ _WORDS: dict[str, Kind] = {
     **dict.fromkeys(("THREAD", "TAP"), "thread"),
     **dict.fromkeys(("ENGRAVE", "ENGRAVING"), "engrave"),
     "CHAMFER": "chamfer",
+    **dict.fromkeys(("SCREW", "SCREWS", "CBORE", "COUNTERBORE", *_SUNK), "screw"),
     **dict.fromkeys(
         ("IGNORE", "CENTRE", "CENTER", "TEXT", "NOTES", "DIM", "DIMS", "DIMENSION", "DIMENSIONS", "HIDDEN",
          "DEFPOINTS", "CONSTRUCTION", "FRAME", "BORDER", "TITLE", "HATCH"), "ignore",
@@ -47,6 +53,12 @@ _NAMES = {
 """Whole names of layers of other programs."""
 _FIT = re.compile(HOLE_CLASS)
 _THREAD = re.compile(r"M\d+(?:\.\d+)?(?:X\d+(?:\.\d+)?)?")
+_UNIFIED = re.compile(r"(?<![A-Z0-9#.])(#\d+|\d+[/_]\d+|\d)[\s_\-]+(\d+)[\s_\-]+(UNC|UNF)(?![A-Z0-9])")
+"""A unified thread as layers have it: 1_4-20 UNC, for a name has no stroke."""
+_INCH_THREAD = re.compile(r"(#\d+|\d+/\d+|\d)~(\d+)~(UNC|UNF)")
+"""The same as one word."""
+_FRACTION = re.compile(r"(?<![\w.])(\d) (\d+)$")
+"""A fraction of an inch in the name of a layer, which has no stroke."""
 _NUMBER = re.compile(r"(\d+(?:\.\d*)?|\.\d+)(MM|IN)?")
 
 ENGRAVED, LINE = 0.2, 0.6
@@ -67,6 +79,7 @@ class Meaning:
     thread: str = ""
     floor_radius: float = 0.0
     width: float | None = None
+    screw: str = ""
 
     @property
     def text(self) -> str:
@@ -77,6 +90,8 @@ class Meaning:
                 return f"bores{' ' + self.fit if self.fit else ''}{deep or ' all through'}"
             case "thread":
                 return f"threads {self.thread}{deep or ' all through'}"
+            case "screw":
+                return f"holes for screws {self.screw}"
             case "pocket":
                 start = f" from {self.top:g} mm on" if self.top else ""
                 return f"recesses{deep}{start}" + (
@@ -94,16 +109,18 @@ def meaning(text: str, unit: float) -> Meaning | None:
 
     Raises DesignError for one that begins with a known word and goes on with what cannot be understood.
 
-    >>> meaning("POCKET_3.5", 1.0), meaning("Layer 1", 1.0)
-    (Meaning(kind='pocket', depth=3.5, top=None, fit='', thread='', floor_radius=0.0, width=None), None)
+    >>> meaning("POCKET_3.5", 1.0).kind, meaning("POCKET_3.5", 1.0).depth, meaning("Layer 1", 1.0)
+    ('pocket', 3.5, None)
     """
-    words = [word for word in re.split(r"[\s_\-]+", text.upper().replace(",", ".").replace("×", "X")) if word]
+    plain = text.upper().replace(",", ".").replace("×", "X").replace("_UN", " UN")
+    plain = _UNIFIED.sub(lambda of: f"{of[1].replace('_', '/')}~{of[2]}~{of[3]}", plain)
+    words = [word for word in re.split(r"[\s_\-]+", plain) if word]
     words = [_NAMES[" ".join(words)]] if " ".join(words) in _NAMES else words
     if not words:
         return None
     if words[0] in _WORDS:
         kind, words = _WORDS[words[0]], words[1:]
-    elif _THREAD.fullmatch(words[0]):
+    elif _THREAD.fullmatch(words[0]) or _INCH_THREAD.fullmatch(words[0]):
         kind = "thread"
     elif _FIT.fullmatch(words[0]):
         kind = "bore"
@@ -111,7 +128,28 @@ def meaning(text: str, unit: float) -> Meaning | None:
         return None
     if kind == "ignore":
         return Meaning("ignore")
+    if kind == "screw":
+        return Meaning("screw", screw=_screw(text, words, sunk=_first(text) in _SUNK))
     return _said(text, kind, words, unit)
+
+
+def _first(text: str) -> str:
+    return re.split(r"[\s_\-]+", text.strip().upper())[0]
+
+
+def _screw(text: str, words: list[str], *, sunk: bool) -> str:
+    """The screw that a layer names: its thread alone, or with the standard before it."""
+    said = (
+        _FRACTION.sub(r"\1/\2", " ".join(words))
+        .replace("ISO4762", "ISO 4762")
+        .replace("ISO10642", "ISO 10642")
+    )
+    if sunk and not said.startswith(("ISO", "ASME")):
+        said = f"ISO 10642 {said}" if said.startswith("M") else f"ASME B18.3.5 {said}"
+    try:
+        return seat(said).name
+    except DesignError as error:
+        raise DesignError(f"{text!r}: {error}") from error
 
 
 def _said(text: str, kind: Kind, words: list[str], unit: float) -> Meaning:
@@ -127,6 +165,10 @@ def _said(text: str, kind: Kind, words: list[str], unit: float) -> Meaning:
             _set(text, said, "fit", word)
         elif kind == "thread" and _THREAD.fullmatch(word):
             _set(text, said, "thread", "M" + word[1:].replace("X", "x"))
+        elif kind == "thread" and (inch := _INCH_THREAD.fullmatch(word)):
+            _set(text, said, "thread", f"{inch[1]}-{inch[2]} {inch[3]}")
+        elif kind == "thread" and word == "LH" and "thread" in said:
+            said["thread"] = f"{said['thread']} LH"
         elif number:
             _set(text, said, waiting or ("width" if kind == "chamfer" else "depth"), _length(word, unit))
             waiting = ""
@@ -152,6 +194,7 @@ def _length(word: str, unit: float) -> float:
 
 
 _MAY: dict[Kind, set[str]] = {
+    "screw": set(),
     "outline": set(),
     "through": set(),
     "bore": {"depth", "fit", "top"},

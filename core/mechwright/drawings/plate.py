@@ -22,7 +22,11 @@ from mechwright.drawings.strokes import FITTED
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.segments import Point
+from mechwright.standards.screw_holes import seated
 from mechwright.tolerances import TOLERANCES
+
+SAME_RIM = 0.3
+"""A thread's circle that is no more than this narrower than an island is that of its rim, mm."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +79,12 @@ class _Maker:
         """Round holes, and the openings that are not round."""
         told = self.told
         plain = Meaning("bore")
-        said = [hole for meant, some in self._of("bore") for hole in circles(meant, some, told)]
+        said = [
+            hole
+            for kind in ("bore", "screw")
+            for meant, some in self._of(kind)
+            for hole in circles(meant, some, told)
+        ]
         cut = [hole for meant, some in self.drawn.strokes.items() if meant.kind == "thread"
                for hole in threads(meant, some, told)]  # fmt: skip
         round_ = [
@@ -100,6 +109,8 @@ class _Maker:
                 size = min(hole.diameter, other.diameter)
                 bored = math.inf if other.meant.depth is None else other.meant.depth
                 found[twin] = Hole(hole.centre, size, _deep(hole.meant, other.meant), hole.name, bored)
+            elif hole.meant.kind == "screw" and hole.meant == other.meant:
+                found[twin] = min(hole, other, key=lambda one: one.diameter)  # shank and head are one hole
             elif _stepped(hole, other):
                 found.append(hole)
             elif same and (not other.meant.fit or other.meant == hole.meant):
@@ -126,6 +137,7 @@ class _Maker:
             disc = shapely.Point(hole.centre).buffer(hole.diameter / 2, quad_segs=64)
             if not lies_in(disc, rim):
                 told.fault("contour", f"the hole of {hole.name} reaches out of the plate", "draw an opening")
+            self._inside(hole, found)
             made = bore(hole, f"bore-{number}", deep, told)
             if made is None:
                 continue
@@ -163,7 +175,22 @@ class _Maker:
             self.cut.name, outline, deep, self.cut.material, self.cut.instances, machined=tuple(features)
         )
         details += self._details(part, plate)
-        return self._placed(outline, features, details)
+        whole = self._placed(outline, features, details)
+        for number, hole in enumerate(placed, start=1):
+            if hole.meant.kind == "screw":
+                whole = self._seated(whole, f"bore-{number}", hole)
+        return None if told.faults else whole
+
+    def _seated(self, part: Part, name: str, hole: Hole) -> Part:
+        try:
+            return seated(part, name, hole.meant.screw)
+        except GeometryError as error:
+            self.told.fault(
+                "feature",
+                f"the hole of {hole.name} at {at(hole.centre)}: {error}",
+                "say another screw, or a bore",
+            )
+            return part
 
     def _sunk(self, drilled: Bore, thread: Thread | None, floors: Sequence[float]) -> Bore:
         """The bore, from the floor of the recess that it stands in on."""
@@ -185,6 +212,18 @@ class _Maker:
                 "thread it by hand, and draw a bore",
             )
         return replace(drilled, top=top, depth=bottom - top)
+
+    def _inside(self, hole: Hole, found: Sequence[Recess]) -> None:
+        """A fault for the thread of a boss: its circle is the rim of an island."""
+        islands = [one.circle for recess in found for one in recess.islands]
+        rims = [arc for arc in islands if arc is not None and coaxial(hole, arc.centre)]
+        if hole.meant.kind == "thread" and any(hole.diameter >= 2 * arc.radius - SAME_RIM for arc in rims):
+            self.told.fault(
+                "feature",
+                f"{hole.meant.thread} at {at(hole.centre)} is drawn round an island, an external thread; "
+                "plates have threads in holes only",
+                "screw a stud into a threaded hole, or cut it with a die and give its layer no thread",
+            )
 
     def _floors(self, hole: Hole, holes: Sequence[Hole]) -> list[float]:
         """Depths of the wider blind bores about the axis of a hole."""

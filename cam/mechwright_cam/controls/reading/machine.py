@@ -75,6 +75,8 @@ class Machine(Moving):
             check_points(block, self.dialect)
         words, before = block.words, self.state
         self._units(block)  # first, so that every length of this line is read in the units it states
+        if "F" in words and (331 in block.g or (self.motion == 331 and "K" in words)):
+            raise fail(block.line, "G33.1 with F, which the spindle gives there; leave it out")
         self._speeds(block, words)
         self._tool(block, words)
         if block.m:

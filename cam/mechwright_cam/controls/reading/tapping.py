@@ -45,6 +45,9 @@ class Tapping(Modal):
             raise fail(line, f"{spell(code)} without a feed; write F above 0")
         if self.state.side:
             raise fail(line, f"{spell(code)} while compensation is on; write G40 before")
+        if self.dialect.taps_out and self.state.spindle != hand:
+            way = "clockwise (M3)" if hand == 1 else "backwards (M4)"
+            raise fail(line, f"{spell(code)} needs a spindle that turns {way}")
         # A control that keeps both together turns the spindle itself; others have it turning.
         turns = hand if self.rigid else self.state.spindle
         self._in_and_out(line, bottom, top, self.feed, turns, seconds, rigid=self.rigid)

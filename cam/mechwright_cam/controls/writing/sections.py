@@ -108,6 +108,9 @@ class Sections(Drilling):
         out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
         self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
         out.line(self._coolant(section))
+        if out.staged:
+            out.line(f"T{out.staged}")
+            out.staged = 0
 
     def go_home(self, out: Writer) -> None:
         """Bring the table where the machine file wants it at the end."""

@@ -36,6 +36,8 @@ class Writer:
         self.cycle: tuple[str, ...] = ()
         self.tapping: Tool
         self.speed = ""
+        self.staged = 0
+        """The tool that the next change takes, where it is to be made ready ahead; 0 for none."""
         self.corners: list[str] = []
         # By identity: the program holds its moves as long as it is written.
         self._ends: dict[tuple[int, float, float], str] = {}

@@ -24,7 +24,7 @@ def side_view(job: Job, program: Program, deepest: float, to: Lengths) -> str:
         rows.append(("top of tabs", max(tab.top for tab in job.tabs), "#8a6100"))
     rows += [("underside", -job.thickness, _INK), ("through cuts", job.floor, "#555555")]
     if deepest < job.floor:
-        rows.append(("drill points", deepest, "#555555"))
+        rows.append(("points of tools", deepest, "#555555"))
     rows.sort(key=lambda row: -row[1])
     # Equal steps, so that labels never meet; the heights are written beside them.
     step = 9.0

@@ -355,6 +355,8 @@ def _run(job: Job, offset: str, file_names: Sequence[str], to: Lengths, *, touch
         f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
         f"{offset} must be the active offset.",
     ]
+    if job.settings.post.stage_tools:
+        lines.append("Behind each tool change a T alone makes the next tool ready; the last one the first.")
     if quantity(job) > 1:
         again = (
             "touch off every tool again."
