@@ -55,7 +55,12 @@ def test_designs_are_written_best_first_with_their_residuals(command_line: Run, 
         assert settings_of(design).cam.clearance == 7
         assert command_line("check", tmp_path / "out" / one["design"])[0] == 0
     manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
-    assert set(manifest["outputs"]) == {"wanted-1.toml", "wanted-2.toml", "synthesis.json"}
+    assert set(manifest["outputs"]) == {
+        "wanted-1.toml",
+        "wanted-2.toml",
+        "gallery.html",
+        "synthesis.json",
+    }
 
 
 def test_what_nobody_asked_for_bars_no_machine_that_is_named_later(command_line: Run, tmp_path: Path) -> None:
@@ -247,6 +252,19 @@ def test_designs_are_counted_together_with_those_that_come_after() -> None:
         (4, "4 b", "first"),
         (2, "2 near another", "nearly the same as a design that was found before"),
     ]
+
+
+def test_a_number_that_is_none_is_named_once(command_line: Run, tmp_path: Path) -> None:
+    """What is wrong in a list is not counted among its items: no second line says that the list is short."""
+    asked = 'family = "four-bar"\n[requirement]\nkind = "path"\npoints = [[1, 2], [nan, 4], [5, 9]]\n'
+    code, said, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert (code, said) == (2, "")
+    assert wrong.splitlines() == [
+        f"mechwright: {tmp_path / 'wanted.toml'}: requirement.points.1.0: nan should be a finite number"
+    ]
+    asked = asked.replace("nan", "3").replace(", [5, 9]", "")
+    _, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert "at least 3 items" in wrong
 
 
 def test_angles_are_told_in_degrees() -> None:

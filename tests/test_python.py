@@ -275,7 +275,7 @@ def test_a_synthesis_gives_mechanisms_best_first(tmp_path):
         assert one.motion.scalars["stroke"].value == pytest.approx(120)
         assert one.motion.scalars["time_ratio"].value == pytest.approx(1.2)
     files = found.write(tmp_path / "out")
-    assert files == ("ram-1.toml", "ram-2.toml", "synthesis.json")
+    assert files == ("gallery.html", "ram-1.toml", "ram-2.toml", "synthesis.json")
     assert mw.load(tmp_path / "out" / "ram-1.toml").design.params == found[0].design.params
     assert "ram-2" in found._repr_html_()
 

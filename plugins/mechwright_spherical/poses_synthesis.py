@@ -120,7 +120,7 @@ def from_five(wanted: PosesRequirement, progress: Progress) -> Synthesis[Spheric
             continue
         found += _kept(design(linkage, wanted), wanted, rejected)
     progress(1.0, "designs")
-    found.sort(key=lambda one: -one.figures["transmission_min"].value)
+    found.sort(key=lambda one: -one.figures["least_transmission"].value)
     said = (
         f"five poses have {len(dyads)} real dyads of {COUNT}; {sound} linkages of them go through the poses "
         "without a defect"
@@ -188,7 +188,7 @@ def _kept(
         params,
         Scalar(float(np.sqrt(np.mean(errors_**2))), "mm"),
         {
-            "transmission_min": Scalar(angle, "rad"),
+            "least_transmission": Scalar(angle, "rad"),
             "path_error_max": Scalar(float(errors_.max()), "mm"),
         },
     )

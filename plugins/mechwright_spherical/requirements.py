@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from mechwright import Array, GeometryError, Parameters
+from mechwright.mechanics.tracing.requirement import MOST_POINTS
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 from mechwright_spherical.params import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length
@@ -199,21 +200,30 @@ class FourBarPathRequirement(Parameters):
     points: tuple[Direction, ...] = Field(
         _OVAL,
         min_length=FEWEST_POINTS,
-        max_length=MOST_POSITIONS,
-        description="The path as directions x, y, z, in the order of the motion.",
+        max_length=MOST_POINTS,
+        description="The path as directions x, y, z, in the order of the motion; closed if the first comes "
+        "again at the end.",
     )
     closed: bool = Field(
         True, description="Whether the path closes, so that the input turns all the way round."
     )
     angles: tuple[Turn, ...] = Field(
         (),
-        max_length=MOST_POSITIONS,
+        max_length=MOST_POINTS,
         description="Input angles of the points from the first one; none if the input may choose.",
     )
     atlas: int = Field(
-        1500, ge=50, le=20000, description="Random linkages that are compared with the path first."
+        3000,
+        ge=50,
+        le=20000,
+        description="Random linkages of each side and sense that are compared with the path in a round.",
     )
-    starts: int = Field(8, ge=1, le=100, description="How many of them are fitted.")
+    starts: int = Field(
+        6,
+        ge=1,
+        le=100,
+        description="Most rounds; the search ends when three have found the same best.",
+    )
     designs: int = Field(3, ge=1, le=20, description="Designs that are given at most.")
     seed: int = Field(1, ge=0, le=2**31, description="Of the random linkages.")
     least_transmission: Degrees = Field(30.0, ge=0, le=80, description="Bound of the transmission angle.")
@@ -227,7 +237,9 @@ class FourBarPathRequirement(Parameters):
     @model_validator(mode="after")
     def _together(self) -> Self:
         if self.least_arc >= self.greatest_arc:
-            raise ValueError("least_arc must be below greatest_arc")
+            raise ValueError(
+                f"least_arc must be below greatest_arc: {self.least_arc:g} and {self.greatest_arc:g} degrees"
+            )
         if all(one == self.points[0] for one in self.points):
             raise ValueError(f"points: all {len(self.points)} are the same; a path needs two places at least")
         if self.angles:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mechwright as mw
-from mechwright.sweep.moving import FRAMES, moving
+from mechwright.scripting.moving import FRAMES, moving
 
 
 def test_the_crank_of_a_picture_turns_evenly_and_the_ground_rests():

@@ -12,9 +12,9 @@ from hypothesis.extra.numpy import arrays
 
 from mechwright.contracts.evaluation import Batch
 from mechwright.plugins.host import host
+from mechwright.scripting.pareto import front_of, spread
 from mechwright.sweep.draw import drawn
 from mechwright.sweep.front import Front, around
-from mechwright.sweep.pareto import front_of, spread
 from mechwright.sweep.shard import read, shard_of
 from mechwright.sweep.study import study_of
 

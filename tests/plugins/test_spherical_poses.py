@@ -99,12 +99,12 @@ def test_designs_carry_the_body_through_its_poses():
         world = np.stack((x, np.cross(z, x), z), axis=1)
         seen = [world @ frame @ frames[0].T @ world.T for frame in frames[1:]]
         assert np.array(seen) == pytest.approx(turns(wanted.rotations), abs=1e-9)
-        assert one.figures["transmission_min"].value >= math.radians(5)
+        assert one.figures["least_transmission"].value >= math.radians(5)
 
 
 def test_limits_and_drives_are_kept_and_defects_counted():
     every = Spherical().synthesise("poses", PosesRequirement(designs=30), quiet)
-    least = max(one.figures["transmission_min"].value for one in every.candidates)
+    least = max(one.figures["least_transmission"].value for one in every.candidates)
     high = PosesRequirement(least_transmission=math.degrees(least) + 1)
     none = Spherical().synthesise("poses", high, quiet)
     assert not none.candidates

@@ -15,13 +15,11 @@ from mechwright.mechanics.planar import Turning
 from mechwright_spherical import printed, structural
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.fivebar import projected
-from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.planar_synthesis import CouplerPoses, crank_dyad, points, synthesise
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Freedom, Path, refine
-from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
-from mechwright_spherical.vectors import arc
+from mechwright_spherical.requirements import AdjustablePathRequirement
 
 ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
 DESIGN = structural.PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, np.array(printed.TABLE_2))
@@ -270,50 +268,6 @@ def test_a_sphere_too_small_for_every_candidate_says_how_large():
     assert "spherical.shafts" in {one.code for one in faults(found.findings)}
 
 
-def known_path(count, start=0.0, travel=math.tau, **shape):
-    linkage = FourBar(*np.radians((60, 25, 70, 55)), 1.0, math.radians(30), math.radians(10))
-    angles = start + travel * np.arange(count) / (count if travel == math.tau else count - 1)
-    tilt = np.linalg.qr(np.random.default_rng(8).normal(size=(3, 3)))[0]
-    tilt *= np.sign(np.linalg.det(tilt))
-    return (tilt @ linkage.loop().position(angles)).T, np.degrees(angles - angles[0])
-
-
-def residual(found):
-    return found.candidates[0].residual.value
-
-
-def test_a_closed_path_of_a_four_bar_is_found_again():
-    path, _ = known_path(9)
-    found = ask("four-bar-path", points=path.tolist(), atlas=600, starts=4)
-    assert residual(found) < 0.2
-    four_bar = found.candidates[0].params.four_bar
-    assert abs(four_bar.travel) == 360
-    steps = np.diff(four_bar.path_angles)
-    assert (np.sign(steps) == np.sign(four_bar.travel)).all()
-
-
-def test_an_open_path_with_prescribed_timing_is_found_again():
-    path, angles = known_path(6, start=0.4, travel=2.0)
-    found = ask(
-        "four-bar-path", points=path.tolist(), angles=angles.tolist(), closed=False, atlas=1500, starts=6
-    )
-    assert residual(found) < 0.05
-    assert found.candidates[0].params.four_bar.path_angles == pytest.approx(
-        np.sign(found.candidates[0].params.four_bar.travel) * angles, abs=1e-6
-    )
-
-
-def test_an_open_path_with_free_timing_is_met():
-    path, _ = known_path(6, start=0.4, travel=2.0)
-    found = ask("four-bar-path", points=path.tolist(), closed=False, atlas=600, starts=4)
-    assert residual(found) < 0.02
-
-
-def test_four_bars_respect_the_transmission_bound():
-    for one in ask("four-bar-path", atlas=300, starts=3).candidates:
-        assert one.figures["transmission_min"].value > math.radians(29)
-
-
 def test_a_point_without_direction_is_refused():
     found = ask("four-bar-path", points=[[0, 0, 0], [0, 0, 1], [0, 1, 1]], closed=False)
     assert [one.code for one in faults(found.findings)] == ["spherical.synthesis"]
@@ -332,62 +286,3 @@ def test_a_point_without_direction_is_refused():
 def test_requirements_that_do_not_go_together(kind, table):
     with pytest.raises(ValueError, match=r"path|turns|ratio|angles|points"):
         Spherical.requirements[kind].model_validate(table)
-
-
-def test_random_starts_are_the_seeds():
-    one, two = (ask("four-bar-path", atlas=200, starts=1, seed=seed) for seed in (1, 2))
-    assert one.candidates[0].params != two.candidates[0].params
-
-
-def test_the_default_oval_is_no_four_bars_own_but_met_within_a_quarter_of_a_millimetre():
-    found = ask("four-bar-path", atlas=600, starts=4)
-    assert residual(found) < 0.25
-    assert FourBarPathRequirement().radius == 100
-    assert float(arc(*(np.array(p) for p in FourBarPathRequirement().points[:2]))) > 0.05
-
-
-def test_a_path_keeps_its_limits_to_the_last_digit():
-    table = {
-        "atlas": 300,
-        "starts": 3,
-        "designs": 3,
-        "least_transmission": 45,
-        "least_arc": 20,
-        "greatest_arc": 85,
-    }
-    wanted = FourBarPathRequirement.model_validate(table)
-    result = Spherical().synthesise("four-bar-path", wanted, quiet)
-    assert result.candidates
-    for one in result.candidates:
-        four_bar = one.params.four_bar
-        arcs = [four_bar.ground, four_bar.input, four_bar.coupler, four_bar.output]
-        assert 20 - 1e-9 <= min(arcs) <= max(arcs) <= 85 + 1e-9
-        theta = Turning.of(np.linspace(0, 2 * np.pi, 1441))
-        mu = np.degrees(FourBar(*np.radians(arcs), four_bar.branch).at(theta, 0).transmission)
-        assert np.minimum(mu, 180 - mu).min() >= 45
-    # The bound holds the best design back: it lies on it.
-    assert math.degrees(result.candidates[0].figures["transmission_min"].value) == pytest.approx(45, abs=1e-3)
-
-
-def test_a_transmission_angle_that_none_keeps_is_refused_with_the_best():
-    table = {"atlas": 60, "starts": 1, "least_transmission": 80, "greatest_arc": 40}
-    result = Spherical().synthesise("four-bar-path", FourBarPathRequirement.model_validate(table), quiet)
-    assert not result.candidates
-    assert result.findings[0].parameter == "least_transmission"
-    assert "in 1 starts no four-bar was found that keeps a transmission angle of 80 degrees" in str(
-        result.findings[0]
-    )
-    assert "spherical.transmission" in {one.code for one in result.rejected}
-
-
-@pytest.mark.parametrize(
-    ("table", "said"),
-    [
-        ({"points": [[0, 0, 1]] * 5}, "all 5 are the same"),
-        ({"least_arc": 60, "greatest_arc": 50}, "least_arc must be below"),
-        ({"points": [[0, 0, 1], [0, 1, float("nan")], [1, 0, 1]]}, "finite number"),
-    ],
-)
-def test_path_requirements_that_contradict_are_refused(table, said):
-    with pytest.raises(ValueError, match=said):
-        FourBarPathRequirement.model_validate(table)

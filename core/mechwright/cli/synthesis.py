@@ -45,8 +45,8 @@ def synthesize(path: Path, folder: Path, as_json: bool) -> None:
             typer.echo(str(finding))
     typer.echo(found.told)
     _tell_reasons(found.result.rejected)
-    count = len(found)
-    typer.echo(f"{folder}: {count} design{'s' * (count != 1)} written, best first, and synthesis.json")
+    many = f"{len(found)} design{'s' * (len(found) != 1)}"
+    typer.echo(f"{folder}: {many} written, best first, gallery.html and synthesis.json")
 
 
 def _tell_reasons(reasons: Sequence[Reason], *, err: bool = False) -> None:

@@ -44,7 +44,13 @@ def read_table(model: type[T], table: object, source: str, where: str, path: Pat
 
 
 def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iterator[str]:
-    for item in error.errors(include_url=False):
+    items = error.errors(include_url=False)
+    wrong = [item["loc"] for item in items]
+    for item in items:
+        if item["type"] == "too_short" and any(
+            len(place) > len(item["loc"]) and place[: len(item["loc"])] == item["loc"] for place in wrong
+        ):
+            continue  # what is wrong in a list is not counted among its items
         keys = [str(key) for key in item["loc"]]
         place = ".".join([where, *keys])
         if item["type"] == "extra_forbidden":

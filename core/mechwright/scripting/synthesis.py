@@ -11,7 +11,7 @@ from typing import Any
 
 from mechwright.build import Build, Wanted
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, errors
+from mechwright.contracts.finding import Finding, Severity, errors
 from mechwright.contracts.part import check_name
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.shown import html_table
@@ -24,6 +24,7 @@ from mechwright.designs.text import design_text
 from mechwright.output.folder import Output, write_folder
 from mechwright.plugins.host import Host, host
 from mechwright.scripting.changes import change_of
+from mechwright.scripting.gallery import gallery, shown
 from mechwright.scripting.mechanism import Mechanism, inspections
 from mechwright.scripting.opening import opened
 from mechwright.scripting.provenance import run_facts
@@ -93,6 +94,14 @@ class Found:
         found = given + sum(reason.count for reason in rejected)
         return f"{found} found, {given} given" + (f": {why}" if why else "")
 
+    @property
+    def gallery(self) -> str:
+        """A page with a moving picture of each design and its path, and what they are compared by."""
+        family, result = self.asked.family, self.result
+        notes = [finding for finding in result.findings if finding.severity is not Severity.ERROR]
+        designs = shown(result.candidates, self.mechanisms)
+        return gallery(self.asked.name, family.title, self.told, result.rejected, notes, designs)
+
     def require(self) -> None:
         """Do nothing if designs meet the requirement, else raise RefusedError with the reason."""
         if stopping := errors(self.result.findings):
@@ -120,7 +129,7 @@ class Found:
         }
 
     def write(self, folder: str | Path) -> tuple[str, ...]:
-        """Write a design file each, and ``synthesis.json``; gives the names of the files.
+        """Write a design file each, ``gallery.html`` and ``synthesis.json``; gives the names of the files.
 
         Raises RefusedError where no design meets the requirement, OutputError where the folder cannot be
         written; nothing is written then.
@@ -132,6 +141,8 @@ class Found:
             output.add(name, read_bytes(file))
         for name, text in self.texts:
             output.add(f"{name}.toml", text)
+        if len(self):
+            output.add("gallery.html", self.gallery)
         output.add("synthesis.json", json.dumps(self.summary, indent=2) + "\n")
         facts = run_facts(asked.name, asked.family, {asked.path.name: asked.digest, **inputs}, self.host)
         write_folder(Path(folder), output, "synthesize", facts)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.scripting.pareto import front_of
 from mechwright.sweep.axis import Axis
-from mechwright.sweep.pareto import front_of
 from mechwright.sweep.shard import NUMBER
 from mechwright.sweep.study import Study
 

@@ -1,7 +1,6 @@
 """The page of a study, one file: parallel coordinates, scatter and table of its designs, with brushes."""
 
 import base64
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.output.templates import templates
+from mechwright.scripting.moving import SHOWING, for_script
 from mechwright.sweep.front import Chosen, Front
 from mechwright.sweep.shard import NUMBER, Counts, read
 from mechwright.sweep.study import Study
@@ -28,7 +28,7 @@ def page_of(
 ) -> str:
     """The page; of many designs every so-manieth is on it, and the whole front.
 
-    ``pictures`` are those of :func:`mechwright.sweep.moving.moving`, by the names of the designs.
+    ``pictures`` are those of :func:`mechwright.scripting.moving.moving`, by the names of the designs.
     """
     shown, every = _shown(study, counts, front, tables)
     best = np.isin(shown[NUMBER], front.columns[NUMBER]) if len(front) else np.zeros(len(shown[NUMBER]), bool)
@@ -43,17 +43,12 @@ def page_of(
     picked = list(chosen)
     forbidden = sorted(counts.forbidden.items(), key=lambda one: -one[1])
     return (
-        templates(Path(__file__).parent)
+        templates(Path(__file__).parent, SHOWING)
         .get_template("study.html")
         .render(study=study, counts=counts, front=len(front), chosen=picked, every=every,
-                data=_told(data), forbidden=forbidden, shown=len(best), pictures=list(pictures),
-                moving=_told(list(pictures.values())))
+                data=for_script(data), forbidden=forbidden, shown=len(best), pictures=list(pictures),
+                moving=for_script(list(pictures.values())))
     )  # fmt: skip
-
-
-def _told(data: Any) -> str:
-    """Data for a script; nothing in it may end that."""
-    return json.dumps(data).replace("<", "\\u003c")
 
 
 def _shown(

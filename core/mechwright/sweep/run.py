@@ -16,11 +16,11 @@ from mechwright.extras import optional
 from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
+from mechwright.scripting.moving import moving
+from mechwright.scripting.pareto import spread
 from mechwright.sweep.folder import SHARDS, SUFFIX, SweepFolder
 from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
-from mechwright.sweep.moving import moving
 from mechwright.sweep.page import page_of
-from mechwright.sweep.pareto import spread
 from mechwright.sweep.shard import NUMBER, Counts, read, written
 from mechwright.sweep.study import Study, design_of
 from mechwright.sweep.task import Source, Task

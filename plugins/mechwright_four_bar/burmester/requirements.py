@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
-from mechwright.mechanics.adjustable.requirement import Coordinate
+from mechwright.mechanics.adjustable.requirement import Coordinate, check_lengths
 from mechwright.units import Degrees, Millimetres, Unit
 
 Direction = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
@@ -33,8 +33,7 @@ class LinkLimits(Parameters):
 
     @model_validator(mode="after")
     def _lengths(self) -> Self:
-        if self.shortest_link >= self.longest_link:
-            raise ValueError("shortest_link must be below longest_link")
+        check_lengths(self.shortest_link, self.longest_link)
         return self
 
 

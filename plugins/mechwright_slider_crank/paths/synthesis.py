@@ -182,7 +182,7 @@ def _fitted(
     if len(chosen) == count:
         return [drawn(rooms[one.room], one) for one in traces]
     found = []
-    for one in traces[: MORE * most]:
+    for one in traces[:most]:
         room = rooms[one.room]
         theta = all_angles(chosen, one.theta, count, room.closed)
         found += [

@@ -102,7 +102,7 @@ class Phased(ABC, Generic[W, P]):
             "phase": Scalar(float(k + 1), ""),
             "phase_error": Scalar(float(np.sqrt(np.mean(misses**2))), "mm"),
             "path_error_max": Scalar(float(misses.max()), "mm"),
-            "transmission_min": Scalar(self.transmission(one, k), "rad"),
+            "least_transmission_angle": Scalar(self.transmission(one, k), "rad"),
             "chord_min": Scalar(min(one.chords, default=0.0), "mm"),
             "longest_link": Scalar(max(self.all_lengths(one)), "mm"),
         }

@@ -13,6 +13,12 @@ SAME_PLACE = 1e-6
 """mm. Points nearer to each other than this are one: so much is lost in decimals."""
 
 
+def check_lengths(shortest: float, longest: float) -> None:
+    """Raise ValueError where no length is left between the shortest and the longest link, mm."""
+    if shortest >= longest:
+        raise ValueError(f"shortest_link of {shortest:g} mm must be below longest_link of {longest:g} mm")
+
+
 class PhasedPath(Parameters):
     """The part of a table ``[requirement]`` that four-bars and five-bars share."""
 
@@ -50,6 +56,5 @@ class PhasedPath(Parameters):
         for number, points in enumerate(self.phases, start=1):
             if len(set(points)) < len(points):
                 raise ValueError(f"phases: phase {number} holds a point twice; leave one out")
-        if self.shortest_link >= self.longest_link:
-            raise ValueError("shortest_link must be below longest_link")
+        check_lengths(self.shortest_link, self.longest_link)
         return self

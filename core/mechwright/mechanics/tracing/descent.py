@@ -27,13 +27,16 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-15, 1e8
 LONGEST_STEP = 0.5
 """Most that an unknown or an angle changes in a step, rad or a part of the path's size."""
 
+STILL = 1e-11
+"""Step, rad or a part of the path's size, after which a start has arrived, or is damped to a standstill."""
+
 ARRIVED = 1e-28
 """Sum of squares, in sizes of the path, that is rounding."""
 
 WEIGHT = 30.0
 """Weight of limits that are to be kept exactly."""
 
-OUTER, KEPT, MOST_WEIGHT = 25, 1e-10, 1e4
+OUTER, KEPT, MOST_WEIGHT = 15, 1e-9, 1e4
 """Most changes of the multipliers; by how much a limit may be broken at the end; most by which the weight
 grows where changes of the multipliers alone do not bring a limit down."""
 
@@ -105,6 +108,7 @@ def descend(
         good = live[better]
         x[good], theta[good], cost[good] = new_x[better], new_theta[better], new[better]
         damping[live] = np.where(better, np.maximum(damping[live] / 5, LEAST_DAMPING), damping[live] * 4)
+        live = live[most * LONGEST_STEP > STILL]
     return x, theta
 
 

@@ -9,6 +9,9 @@ from mechwright.arrays import Array
 TURN = math.tau * (1 - 1e-9)
 """Most that the crank turns from the first point to the last."""
 
+MANY = 64
+"""Points up to which all sequences at once are the quicker way; its time grows with the square."""
+
 
 def isotonic(values: Array) -> Array:
     """The nearest sequences (..., n) that do not fall, by least squares.
@@ -36,8 +39,18 @@ def one_way(theta: Array, sense: Array, slack: float = 0.0) -> Array:
     ``slack`` is the angle by which a point may lie before the one before it.
     """
     back = slack * np.arange(theta.shape[-1])
-    found = isotonic(theta * sense + back) - back
+    along = theta * sense + back
+    found = (isotonic(along) if along.shape[-1] <= MANY else _isotonic_each(along)) - back
     return np.asarray(np.minimum(found, found[..., :1] + TURN) * sense)
+
+
+def _isotonic_each(values: Array) -> Array:
+    """The same as :func:`isotonic`, one sequence after the other, in time in proportion to its length."""
+    from scipy.optimize import isotonic_regression  # half a second: requirements are read without it
+
+    rows = values.reshape(-1, values.shape[-1])
+    found = [isotonic_regression(row).x if np.isfinite(row).all() else row for row in rows]
+    return np.asarray(found).reshape(values.shape)
 
 
 def assigned(costs: Array) -> tuple[Array, np.ndarray]:

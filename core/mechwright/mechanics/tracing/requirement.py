@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.mechanics.adjustable.requirement import Coordinate
+from mechwright.mechanics.adjustable.requirement import Coordinate, check_lengths
 from mechwright.units import Degrees, Millimetres, Unit
 
 Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
@@ -87,11 +87,7 @@ class PlanePath(Parameters):
             for key in ("closed", "sense", "order_tolerance"):
                 if getattr(self, key) != type(self).model_fields[key].default:
                     raise ValueError(f"{key} and crank_turns contradict: leave {key} out")
-        if self.shortest_link >= self.longest_link:
-            raise ValueError(
-                f"shortest_link of {self.shortest_link:g} mm must be below longest_link of "
-                f"{self.longest_link:g} mm"
-            )
+        check_lengths(self.shortest_link, self.longest_link)
         if self.frame is not None and (self.frame[0] >= self.frame[2] or self.frame[1] >= self.frame[3]):
             raise ValueError(
                 "frame is [least x, least y, greatest x, greatest y], the least below the greatest"

@@ -19,7 +19,7 @@ from mechwright.mechanics.tracing.descent import Traced, descend, excess, settle
 STAGES = ((96, 12, 1.0), (32, 24, 10.0), (12, 40, 30.0))
 """How many of the best go on, for how many steps, and the weight of the limits meanwhile."""
 
-SETTLED, LAST_STEPS = 40, 200
+SETTLED, LAST_STEPS = 15, 200
 """Most steps between two changes of the multipliers, and of those that come close in the end."""
 
 CLOSE, FINISHED = 1e-3, 2

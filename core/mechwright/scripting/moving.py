@@ -1,5 +1,7 @@
 """Small moving pictures of designs: what a page needs to draw a mechanism at some moments of its period."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,9 @@ from mechwright.contracts.motion import Motion, Poses
 from mechwright.contracts.part import Part
 from mechwright.errors import MechwrightError
 from mechwright.scripting.mechanism import Mechanism
+
+SHOWING = Path(__file__).parent
+"""Folder of the style and the script of pages with such pictures: ``shown.css`` and ``moving.js``."""
 
 FRAMES = 72
 """Moments of a period: steps of five degrees of a turn look smooth at this size."""
@@ -59,6 +64,11 @@ def moving(mechanism: Mechanism) -> dict[str, Any] | None:
         "shapes": shapes,
         "traces": [_path([points]) for points in seen],
     }
+
+
+def for_script(data: Any) -> str:
+    """Data for a script on a page; nothing in it may end that."""
+    return json.dumps(data).replace("<", "\\u003c")
 
 
 def _plates(parts: Any, motion: Motion) -> list[tuple[tuple[list[Array], str], Poses, Array]]:
