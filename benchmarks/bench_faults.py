@@ -3,8 +3,9 @@
     python benchmarks/bench_faults.py --runs 200 --log faults.json
 
 A run of ``build`` of a plate is stopped by the keyboard, ended, or killed at a random moment between its start
-and a little after its end; what stands in the folder is then the files of before or of now, whole. What a killed
-run leaves beside it has to be gone after the next run. Then each call that changes a file fails once, in five ways.
+and a little after its end; what stands in the folder is then the files of before or of now, whole. What a
+killed run leaves beside it has to be gone after the next run. Then each call that changes a file fails once,
+in five ways.
 """
 
 import argparse
@@ -12,6 +13,7 @@ import hashlib
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -62,7 +64,7 @@ def members(session: int) -> list[str]:
 def interrupted(folder: Path, how: str, rng: random.Random, length: float, states: dict[str, str]) -> str:
     """What comes of one run that is stopped at a random moment."""
     out = folder / "out"
-    process = started(folder / "b.toml", out)
+    process = started(folder / "designs" / "b.toml", out)
     time.sleep(rng.uniform(0.0, length))
     process.send_signal(SIGNALS[how])
     _, err = process.communicate(timeout=120)
@@ -70,7 +72,7 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     while (alive := members(process.pid)) and time.monotonic() < end:
         time.sleep(0.1)
     stands = states.get(digest(out), "mixed")
-    left = [path.name for path in folder.iterdir() if path.name not in {"out", "a.toml", "b.toml"}]
+    left = [path.name for path in folder.iterdir() if path.name not in {"out", "designs"}]
     if alive:
         return "processes left"
     if process.returncode not in CODES[how]:
@@ -86,12 +88,15 @@ def interruptions(runs: int, seed: int) -> tuple[dict[str, int], int]:
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place).resolve()
         text = EXAMPLE.read_text(encoding="utf-8")
-        (folder / "a.toml").write_text(text, encoding="utf-8")
-        (folder / "b.toml").write_text(text.replace("thickness = 6", "thickness = 8"), encoding="utf-8")
+        designs = folder / "designs"
+        designs.mkdir()
+        shutil.copy(EXAMPLE.with_suffix(".dxf"), designs)
+        (designs / "a.toml").write_text(text, encoding="utf-8")
+        (designs / "b.toml").write_text(text.replace("thickness = 6", "thickness = 8"), encoding="utf-8")
         out, states = folder / "out", {"": "no"}
         begun = time.monotonic()
         for name, design in (("new", "b.toml"), ("old", "a.toml")):
-            done = started(folder / design, out)
+            done = started(designs / design, out)
             done.communicate(timeout=300)
             assert done.returncode == 0, design
             states[digest(out)] = name
@@ -102,9 +107,9 @@ def interruptions(runs: int, seed: int) -> tuple[dict[str, int], int]:
             what = interrupted(folder, how, rng, length, states)
             counts[f"{how}: {what}"] += 1
             if what.startswith("new"):
-                started(folder / "a.toml", out).communicate(timeout=300)
-        started(folder / "a.toml", out).communicate(timeout=300)
-        left = len([path for path in folder.iterdir() if path.name not in {"out", "a.toml", "b.toml"}])
+                started(designs / "a.toml", out).communicate(timeout=300)
+        started(designs / "a.toml", out).communicate(timeout=300)
+        left = len([path for path in folder.iterdir() if path.name not in {"out", "designs"}])
     return dict(sorted(counts.items())), left
 
 
