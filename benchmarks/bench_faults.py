@@ -2,10 +2,10 @@
 
     python benchmarks/bench_faults.py --runs 200 --log faults.json
 
-A run of ``build`` of a plate is stopped by the keyboard, ended, or killed at a random moment between its start
-and a little after its end; what stands in the folder is then the files of before or of now, whole. What a
-killed run leaves beside it has to be gone after the next run. Then each call that changes a file fails once,
-in five ways.
+A run of ``build`` of a plate is stopped by the keyboard, ended, or killed at a random moment between its
+start and a little after its end; what stands in the folder is then the files of before or of now, whole. What a
+killed run leaves beside it has to be gone after the next run. Then each call that changes a file fails once, in
+five ways.
 """
 
 import argparse

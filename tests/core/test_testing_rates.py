@@ -37,7 +37,7 @@ def test_a_wrong_rate_fails_in_every_piece(at: int) -> None:
     wrong = motion.channels["velocity"].values.copy()
     wrong[at] += 1e-3 * np.abs(wrong).max()
     channels = {**motion.channels, "velocity": replace(motion.channels["velocity"], values=wrong)}
-    with pytest.raises(AssertionError, match="channel (velocity|acceleration) from sample"):
+    with pytest.raises(AssertionError, match=r"channel (velocity|acceleration) from sample"):
         assert_rates(replace(motion, channels=channels), PAIRS, "omega1", breaks)
 
 
