@@ -2,9 +2,10 @@
 
     python benchmarks/bench_faults.py --runs 200 --log faults.json
 
-A run of ``build`` of a plate is stopped by the keyboard, ended, or killed at a random moment between its start
-and a little after its end; what stands in the folder is then the files of before or of now, whole. What a killed
-run leaves beside it has to be gone after the next run. Then each call that changes a file fails once, in five ways.
+A run of ``solve`` is stopped by the keyboard, ended, or killed at a random moment between its start and
+a little after its end; the folder then holds the files of before or of now, whole. What a killed run
+leaves beside it has to be gone after the next one. Then each call that changes a file fails once, in
+five ways.
 """
 
 import argparse
@@ -27,7 +28,7 @@ from writing_faults import built, counted  # noqa: E402
 
 SIGNALS = {"keyboard": signal.SIGINT, "ended": signal.SIGTERM, "killed": signal.SIGKILL}
 CODES = {"keyboard": {0, 130}, "ended": {0, 143}, "killed": {0, -9}}
-EXAMPLE = ROOT / "examples" / "nema-17-plate.toml"
+EXAMPLE = ROOT / "examples" / "slider-crank-quick-return.toml"
 
 
 def digest(folder: Path) -> str:
@@ -43,7 +44,7 @@ def digest(folder: Path) -> str:
 def started(design: Path, out: Path) -> "subprocess.Popen[str]":
     """A run that the keyboard can stop, in a session of its own."""
     return subprocess.Popen(
-        [sys.executable, "-m", "mechwright", "build", str(design), "-o", str(out)],
+        [sys.executable, "-m", "mechwright", "solve", str(design), "-o", str(out)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -62,7 +63,7 @@ def members(session: int) -> list[str]:
 def interrupted(folder: Path, how: str, rng: random.Random, length: float, states: dict[str, str]) -> str:
     """What comes of one run that is stopped at a random moment."""
     out = folder / "out"
-    process = started(folder / "b.toml", out)
+    process = started(folder / "designs" / "b.toml", out)
     time.sleep(rng.uniform(0.0, length))
     process.send_signal(SIGNALS[how])
     _, err = process.communicate(timeout=120)
@@ -70,7 +71,7 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     while (alive := members(process.pid)) and time.monotonic() < end:
         time.sleep(0.1)
     stands = states.get(digest(out), "mixed")
-    left = [path.name for path in folder.iterdir() if path.name not in {"out", "a.toml", "b.toml"}]
+    left = [path.name for path in folder.iterdir() if path.name not in {"out", "designs"}]
     if alive:
         return "processes left"
     if process.returncode not in CODES[how]:
@@ -80,18 +81,22 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     return f"{stands} files" + (", a folder left for the next run" if left else "")
 
 
-def interruptions(runs: int, seed: int) -> tuple[dict[str, int], int]:
+def interruptions(runs: int, seed: int, log: Path | None = None) -> tuple[dict[str, int], int]:
     """Counts by how a run was stopped and what stands; and how many folders are left after one more run."""
     rng, counts = random.Random(seed), Counter[str]()
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place).resolve()
         text = EXAMPLE.read_text(encoding="utf-8")
-        (folder / "a.toml").write_text(text, encoding="utf-8")
-        (folder / "b.toml").write_text(text.replace("thickness = 6", "thickness = 8"), encoding="utf-8")
+        designs = folder / "designs"
+        designs.mkdir()
+        (designs / "a.toml").write_text(text, encoding="utf-8")
+        (designs / "b.toml").write_text(
+            text.replace("speed = 60", "speed = 61"), encoding="utf-8"
+        )
         out, states = folder / "out", {"": "no"}
         begun = time.monotonic()
         for name, design in (("new", "b.toml"), ("old", "a.toml")):
-            done = started(folder / design, out)
+            done = started(designs / design, out)
             done.communicate(timeout=300)
             assert done.returncode == 0, design
             states[digest(out)] = name
@@ -101,10 +106,12 @@ def interruptions(runs: int, seed: int) -> tuple[dict[str, int], int]:
             how = list(SIGNALS)[number % 3]
             what = interrupted(folder, how, rng, length, states)
             counts[f"{how}: {what}"] += 1
+            if log is not None:
+                log.write_text(json.dumps(counts, indent=1) + "\n", encoding="utf-8")
             if what.startswith("new"):
-                started(folder / "a.toml", out).communicate(timeout=300)
-        started(folder / "a.toml", out).communicate(timeout=300)
-        left = len([path for path in folder.iterdir() if path.name not in {"out", "a.toml", "b.toml"}])
+                started(designs / "a.toml", out).communicate(timeout=300)
+        started(designs / "a.toml", out).communicate(timeout=300)
+        left = len([path for path in folder.iterdir() if path.name not in {"out", "designs"}])
     return dict(sorted(counts.items())), left
 
 
@@ -118,7 +125,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         shim = built(Path(place).resolve())
         faults = {} if shim is None else {name: dict(found) for name, found in counted(shim).items()}
-    stopped, left = interruptions(asked.runs, asked.seed)
+    stopped, left = interruptions(asked.runs, asked.seed, asked.log)
     told = {"faults": faults, "interruptions": stopped, "left after the next run": left}
     said = json.dumps(told, indent=1)
     if asked.log:

@@ -72,6 +72,11 @@ class Cycle:
         """Angles of the cam where segments begin, rad."""
         return np.array([one.start for one in self.segments])
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Angles of the cam, rad, between which all rates are smooth, both ends of the turn included."""
+        return tuple(one.start + one.width * cut for one in self.segments for cut in one.cuts)
+
     def at(self, theta: Array) -> Rates:
         """Lift and its derivatives at angles (n,), rad, in [0, 2π]; where segments meet, of the later one."""
         theta = np.asarray(theta, dtype=float)

@@ -40,6 +40,12 @@ class CamFollower(Family[CamParams]):
 
         return in_stretches(partial(motion_of, params), samples)
 
+    def breaks(self, params: CamParams) -> Sequence[float]:
+        """Where segments meet, and where their laws are put together."""
+        from mechwright_cam_follower.cycle import cycle_of
+
+        return tuple(params.sense * angle for angle in cycle_of(params).breaks)
+
     def parts(self, params: CamParams) -> "Sequence[Part]":
         """Cams, follower, rollers, rails."""
         from mechwright_cam_follower.checks import findings

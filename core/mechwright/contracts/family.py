@@ -111,6 +111,15 @@ class Family(Plugin, Generic[P]):
         """
         yield self.solve(params, samples)
 
+    def breaks(self, params: P) -> "Sequence[float]":  # noqa: ARG002 - used by families with such laws
+        """Where a rate of some channel jumps, or one of its rates does: where one law meets the next.
+
+        Values of the channel that goes one way all along (:attr:`Motion.over`), in its unit. Between them all
+        channels are smooth, and the contract tests compare rates with difference quotients there, not across.
+        The default says that there are none.
+        """
+        return ()
+
     @abstractmethod
     def parts(self, params: P) -> "Sequence[Part]":
         """The parts to make.

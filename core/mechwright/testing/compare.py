@@ -18,6 +18,8 @@ over a thousand samples stays a hundred times below."""
 
 _SIXTH = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60
 _FOURTH = np.array([0, 1, -8, 0, 8, -1, 0]) / 12
+STENCIL = _SIXTH.size
+"""Samples that a difference quotient takes together."""
 
 
 def assert_points_close(
@@ -109,6 +111,7 @@ def assert_derivative(
     factor: Array | float = 1.0,
     tolerance: float = DERIVATIVE,
     what: str = "rate",
+    largest: float = 0.0,
 ) -> None:
     """Check that ``rate`` is ``factor`` times the derivative of ``quantity`` with respect to ``variable``.
 
@@ -122,6 +125,8 @@ def assert_derivative(
         Allowed deviation as a part of the largest rate.
     what
         Name for the message.
+    largest
+        The largest rate, where these are some samples of more.
 
     Notes
     -----
@@ -151,7 +156,7 @@ def assert_derivative(
     # What a quotient loses by rounding of the quantity itself, which may be large and vary little.
     step = np.abs(differ(variable, _SIXTH)).min()
     rounding = 4 * np.finfo(float).eps * np.abs(quantity).max() * np.abs(scale).max() / step
-    limit = np.abs(fine - rough) + tolerance * np.abs(rate).max() + rounding
+    limit = np.abs(fine - rough) + tolerance * max(largest, np.abs(rate).max()) + rounding
     bad = np.flatnonzero(~(np.abs(rate[inside] - fine) <= limit))
     if bad.size:
         i = int(bad[0])

@@ -35,12 +35,13 @@ from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
-from mechwright.testing.compare import assert_derivative, assert_rotations
+from mechwright.testing.compare import assert_rotations
 from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.limits import limits_broken
+from mechwright.testing.rates import assert_rates
 from mechwright.testing.results import Results
 from mechwright.testing.stretches import StretchTests
 from mechwright.testing.targets import TargetTests
@@ -168,17 +169,11 @@ class FamilyContract(
         assert bodies <= motion.poses.keys(), f"no poses of {sorted(bodies - motion.poses.keys())}"
 
     def test_derivatives(self, design: Mapping[str, Any]) -> None:
-        """Each rate is the derivative of its quantity over time, and has the unit of one."""
+        """Each rate is the derivative of its quantity over time between breaks, and has the unit of one."""
         if not self.derivatives:
             pytest.skip("the attribute derivatives is empty")
-        motion = self._motion(design)
-        drive = motion.channels[motion.over].values
-        one_way = self.input_rate and motion.over == motion.input_name
-        factor = motion.channels[self.input_rate].values if one_way else 1.0
-        for name, rate in self.derivatives:
-            one, two = motion.channels[name], motion.channels[rate]
-            assert_derivative(two.values, one.values, drive, factor, what=f"channel {rate}")
-            assert rules.is_rate(two.unit, one.unit), f"{rate} [{two.unit}] is no rate of {name} [{one.unit}]"
+        breaks = self.family().breaks(self.params(design))
+        assert_rates(self._motion(design), self.derivatives, self.input_rate, breaks)
 
     def test_parts(self, design: Mapping[str, Any]) -> None:
         """Parts have names of their own, known materials, and outlines that close and hold material."""
