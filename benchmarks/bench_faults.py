@@ -90,9 +90,7 @@ def interruptions(runs: int, seed: int, log: Path | None = None) -> tuple[dict[s
         designs = folder / "designs"
         designs.mkdir()
         (designs / "a.toml").write_text(text, encoding="utf-8")
-        (designs / "b.toml").write_text(
-            text.replace("speed = 60", "speed = 61"), encoding="utf-8"
-        )
+        (designs / "b.toml").write_text(text.replace("speed = 60", "speed = 61"), encoding="utf-8")
         out, states = folder / "out", {"": "no"}
         begun = time.monotonic()
         for name, design in (("new", "b.toml"), ("old", "a.toml")):
