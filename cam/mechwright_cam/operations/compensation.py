@@ -322,8 +322,7 @@ class CompensatedFinishing:
         if len(parts) > 1 and not self.tool.centre_cutting:
             raise ToolError(
                 f"cam.compensation: {self.tool.name} is not centre-cutting, and goes down beside every tab "
-                f"of {self.zone.name}; list one that is, hold the part by its bore, or use "
-                '"computer"'
+                f'of {self.zone.name}; list one that is, use method = "bore", or use "computer"'
             )
         return [(part, lifted) for part, lifted in parts if part.cuts]
 

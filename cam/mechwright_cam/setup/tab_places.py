@@ -55,10 +55,10 @@ def tab_width(feature: Profile, count: int, slopes: float) -> float:
     if len(widest) < count or widest[count - 1] < LEAST_TAB_WIDTH:
         fit = sum(longest >= LEAST_TAB_WIDTH for longest in widest)
         ramps = f" and two slopes of {slopes / 2:.1f} mm" if slopes else ""
-        instead = 'use tab_shape = "rectangular", or hold' if slopes else "hold"
+        instead = 'tab_shape = "rectangular" or ' if slopes else ""
         raise DesignError(
             f"cam.hold.tabs: {feature.name} has room for {fit} tabs of at least {LEAST_TAB_WIDTH:g} mm{ramps}"
-            f", not for {count}; {instead} the part by its bore"
+            f', not for {count}; use {instead}method = "bore"'
         )
     return min(TAB_WIDTH, widest[count - 1])
 
