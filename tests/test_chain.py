@@ -26,6 +26,9 @@ EVEN = {"eccentricity": 0.0, "teeth": 24, "module": 2, "semi_major": None}
 
 CIRCLES = {"law": "ellipse", "eccentricity": 0.0, "teeth": 24, "module": 2}
 
+RING = {"law": "ellipse", "internal": True, "mate_lobes": 3, "eccentricity": 0.15, "teeth": 24}
+"""A ring, which has no shaft."""
+
 
 def chain(*stages: tuple[str, Table] | tuple[str, Table, Table], **tables: Any) -> Design:
     """A design of stages: family, parameters, and what the stage itself says."""
@@ -132,6 +135,22 @@ def test_geneva_behind_round_gears_has_the_constant_of_its_slots() -> None:
     assert motion.scalars["2.index_time"].value == pytest.approx(0.25, abs=1e-9)
 
 
+def test_five_bar_runs_along_its_own_curve_at_the_speed_of_its_crank() -> None:
+    """The same places of the coupler's point for the same angles of the crank, over two of its turns."""
+    links = linked(chain(("noncircular-gears", D1), ("five-bar", {})))
+    assert turns_of(links) == 2
+    angle = np.linspace(0.0, 2 * math.tau, 13)
+    *_, own = inputs_of(links, Turning.of(angle, 1.0))
+    moved = links[1].transmission.motion(own, angle)
+    plain = links[1].transmission.motion(Turning.of(own.theta, 1.0), angle)
+    # The driven gear turns against its driver, and 1.3 times as fast where it begins.
+    assert own.omega[0] == pytest.approx(-1.3)
+    for axis in "xy":
+        np.testing.assert_allclose(moved[f"{axis}P"], plain[f"{axis}P"], atol=1e-9)
+        np.testing.assert_allclose(moved[f"v{axis}P"], own.omega * plain[f"v{axis}P"], atol=1e-9)
+    assert moved["xP"][0] == pytest.approx(moved["xP"][-1], abs=1e-9)
+
+
 # Periods and places
 
 
@@ -218,6 +237,18 @@ def test_a_head_with_a_family_is_refused() -> None:
     ("stages", "code", "parameter"),
     [
         ([("slider-crank", {}), ("geneva", {})], "chain.output", "stage.1.family"),
+        ([("five-bar", {}), ("geneva", {})], "chain.output", "stage.1.family"),
+        (
+            [("elliptic-gears", {}), ("five-bar", {"swing_from": 10, "swing_to": 50})],
+            "chain.stage",
+            "stage.2.parameters.crank",
+        ),
+        ([("noncircular-gears", RING), ("geneva", {})], "chain.stage", "stage.1.parameters.internal"),
+        (
+            [("noncircular-gears", {**D1, "bore": 8}), ("five-bar", {})],
+            "chain.assembly",
+            "stage.2.parameters.screw_hole",
+        ),
         ([("elliptic-gears", {}), ("spherical", {})], "chain.family", "stage.2.family"),
         ([("elliptic-gears", {}), ("geneva", {"speed": 30})], "chain.driven", "stage.2.parameters.speed"),
         (

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         Synthesis,
         ToleranceModel,
         Tolerances,
+        Transmission,
     )
     from mechwright.contracts.evaluation import Batch, Columns
 
@@ -75,6 +76,12 @@ class FiveBars(Family[FiveBarParams]):
         from mechwright_five_bar.phases import in_phase
 
         return mounting_of(in_phase(params))
+
+    def transmission(self, params: FiveBarParams) -> "Transmission":
+        """Crank in; nothing behind."""
+        from mechwright_five_bar.stage import CouplerStage
+
+        return CouplerStage(params)
 
     def settings(self, params: FiveBarParams) -> Mapping[str, FiveBarParams]:
         """The other phases that the pivots of the coupler and the arm's gear are set to."""

@@ -1,11 +1,12 @@
 """The motion of a design: channels, poses and figures over one period of the crank."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Channel, Finding, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar.channels import point_channels, rate_channels, turning_channels
@@ -13,7 +14,7 @@ from mechwright_five_bar.checks import findings
 from mechwright_five_bar.frames import frames_of, held_by, pivot_of
 from mechwright_five_bar.masses import MILLI, masses_of
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import JOINTS, carried, peaks_of, period_of, rate_peaks
+from mechwright_five_bar.peaks import JOINTS, Period, carried, peaks_of, period_of, rate_peaks
 from mechwright_five_bar.reach import bar_of, course_of, is_lever, transmission_of
 
 
@@ -27,17 +28,28 @@ def motion_of(params: FiveBarParams, samples: Samples) -> Motion:
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
+    check_moves(params)
+    return motion_over(params, period_of(params, samples), varies=is_lever(params))
+
+
+def check_moves(params: FiveBarParams) -> Sequence[Finding]:
+    """What is found of a design that moves; raises as :func:`motion_of`."""
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    period = period_of(params, samples)
+    return found
+
+
+def motion_over(params: FiveBarParams, period: Period, *, varies: bool = True) -> Motion:
+    """The motion over samples of the crank; ``varies``: its speed is not constant."""
+    found = check_moves(params)
     drive, bodies, loop = period.drive, period.bodies, period.loop
     channels = {
         "theta": Channel(drive.theta, "rad", "angle of the crank"),
         "time": Channel(period.time, "s", "time"),
     }
     driven = rate_channels(drive, "_a", "the crank")
-    channels |= driven if is_lever(params) else {"omega_a": driven["omega_a"]}
+    channels |= driven if varies else {"omega_a": driven["omega_a"]}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("rocker", "psi", "_r"), ("arm", "phi", "_b")):
         channels |= turning_channels(bodies[name].turning, angle, suffix, f"the {name}")
     cosine = (loop.coupler.direction * np.conj(loop.rocker.direction)).real

@@ -32,10 +32,16 @@ class Period:
 
 def period_of(params: FiveBarParams, samples: Samples | None = None) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
-    bar, course = bar_of(params), course_of(params)
+    course = course_of(params)
     if samples is None:
         samples = math.ceil(PEAK_SAMPLES * max(1.0, abs(course.travel) / math.tau))
     time, drive = course.period(samples, params.speed * math.tau / 60)
+    return driven_by(params, drive, time)
+
+
+def driven_by(params: FiveBarParams, drive: Turning, time: Array) -> Period:
+    """The links for any motion of the crank, at times (n,), s."""
+    bar = bar_of(params)
     loop = close(bar, drive.theta)
     return Period(time, drive, loop, loop.bodies(bar, drive))
 

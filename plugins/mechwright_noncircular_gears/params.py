@@ -1,7 +1,6 @@
 """The design table of a pair of gears by a law."""
 
 import math
-from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +8,7 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_noncircular_gears.nodes import check_nodes
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
@@ -21,9 +21,6 @@ MOST_LOBES = 8
 
 MOST_HARMONICS = 16
 """Of a law: with more, the pitch curve is a gear by itself."""
-
-LEAST_STEP = 1.0
-"""Degrees between the angles of a table: closer ones ask for a ratio that the teeth cannot follow."""
 
 MOST_HALF_TURN = 178.0
 """Degrees from the middle of an index to the end of its blend: some are left for the constant ratio."""
@@ -340,7 +337,7 @@ class NoncircularParams(Parameters):
         if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
             raise ValueError("stroke_end is to be above stroke_start")
         if self.law == "table":
-            self._nodes()
+            check_nodes(self.nodes, self.lobes, self.mate_lobes)
         if self.law in {"ratio", "angle"}:
             self._formula(getattr(self, self.law))
 
@@ -351,29 +348,6 @@ class NoncircularParams(Parameters):
             Formula(text, "phi")
         except FormulaError as error:
             raise ValueError(f"{self.law}: {error}") from None
-
-    def _nodes(self) -> None:
-        if self.nodes is None:
-            raise ValueError('law = "table" needs nodes, pairs of angles from [0, 0]')
-        if self.nodes[0] != (0.0, 0.0):
-            raise ValueError(f"nodes begin at {list(self.nodes[0])}; a lobe begins at [0, 0]")
-        ends = (360.0 / self.lobes, 360.0 / self.mate_lobes)
-        if self.nodes[-1][0] >= ends[0]:
-            raise ValueError(
-                f"nodes reach {self.nodes[-1][0]:g} degrees of the driver, and a lobe ends at "
-                f"[{ends[0]:g}, {ends[1]:g}], which is no node; leave out what lies there and beyond"
-            )
-        for one, other in pairwise((*self.nodes, ends)):
-            if other[0] - one[0] < LEAST_STEP:
-                raise ValueError(
-                    f"nodes {list(one)} and {list(other)} stand less than {LEAST_STEP:g} degree apart, or go "
-                    "back; give the driver's angles in rising order"
-                )
-            if other[1] <= one[1]:
-                raise ValueError(
-                    f"nodes {list(one)} and {list(other)} hold the driven gear or turn it back, which teeth "
-                    "cannot; make the second angles rise"
-                )
 
     def value(self, name: str) -> Any:
         """A field of the law or the ring, or what it is where it is left out; in the units of the table."""

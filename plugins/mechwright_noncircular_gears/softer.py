@@ -10,13 +10,16 @@ from mechwright import MechwrightError
 from mechwright.contracts.finding import Change
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.formula import RatioFormula
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.params import MOST_HALF_TURN, NoncircularParams
 
 _STEPS = 12
 """Halvings: to a four-thousandth of the change."""
 
 _DIGITS = 3
 """Of a value that is named."""
+
+EASY_INDEX, EASY_RAMP = 200.0, 0.45
+"""Degrees of the driver for a move of a Geneva wheel, and the ramp, with which the ratio changes little."""
 
 
 def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
@@ -44,9 +47,19 @@ def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
         mean = params.lobes / params.mate_lobes
         turning = "phi" if mean == 1 else f"{params.lobes}/{params.mate_lobes}*phi"
         return {"angle": f"{turning} + {share:.4g}*({params.angle} - {turning})"}
-    if params.law in {"slider", "geneva"}:
+    if params.law == "slider":
         return None
+    if params.law == "geneva":
+        return _longer(params, share)
     return {"eccentricity": _down(share * params.value("eccentricity"))}
+
+
+def _longer(params: NoncircularParams, share: float) -> dict[str, Any]:
+    """A longer index with a longer ramp, and the blends that it leaves room for."""
+    window = round(EASY_INDEX + share * (params.value("window") - EASY_INDEX), 1)
+    fields = {"ramp": round(EASY_RAMP + share * (params.value("ramp") - EASY_RAMP), 3), "window": window}
+    room = math.floor(MOST_HALF_TURN - window / 2)
+    return fields if params.value("blend") <= room else {**fields, "blend": room}
 
 
 def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool]) -> dict[str, Any] | None:

@@ -10,9 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plugins.noncircular import REFERENCE
 
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing import FIT
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.straight import StraightSlot
+from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
 from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
@@ -143,3 +145,17 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
                 assert one.derivative(1.0) / np.linalg.norm(one.derivative(1.0)) == pytest.approx(
                     two.derivative(0.0) / np.linalg.norm(two.derivative(0.0)), abs=0.02
                 )
+
+
+def test_the_nearest_index_that_works_is_named() -> None:
+    """A longer move and a longer ramp, as little as the shaper needs, with the blends that fit beside it."""
+    params = NoncircularParams.model_validate(
+        {"law": "geneva", "slots": 3, "ramp": 0.337, "window": 164, "teeth": 37}
+    )
+    (wrong,) = errors(NoncircularGears().judge(params))
+    assert wrong.code == "gear.convexity"
+    change = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
+    assert 164 < change["window"] < 190
+    assert 0.337 < change["ramp"] < 0.42
+    nearest = NoncircularParams.model_validate({**params.model_dump(), **change})
+    assert wrong.code not in [one.code for one in errors(NoncircularGears().judge(nearest))]

@@ -156,3 +156,18 @@ def test_a_corner_is_integrated_wherever_it_lies():
 def test_a_pole_and_a_jump_are_refused(function):
     with pytest.raises(GeometryError, match=r"jumps, has no bound"):
         Primitive.of(function, math.tau)
+
+
+@pytest.mark.parametrize(
+    ("nodes", "said"),
+    [
+        ([[0, 0], [400, 350]], "of several turns it is no plane gear"),
+        ([[0, 0], [360, 350]], "which is no node; leave out"),
+        ([[0, 0], [90, 80], [90.5, 81]], "less than 1 degree apart"),
+        ([[0, 0], [90, 80], [180, 80]], "hold the driven gear"),
+        ([[10, 0], [90, 80]], "begins at"),
+    ],
+)
+def test_tables_that_are_no_lobe_are_refused(nodes, said):
+    with pytest.raises(ValueError, match=said):
+        design("D7", nodes=nodes)

@@ -3,11 +3,11 @@
 from dataclasses import dataclass, replace
 
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.mounting import GroundPlate, Mounting
+from mechwright.contracts.mounting import GroundPlate, Mounting, MountingError
 from mechwright.contracts.parameters import kept
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, MechwrightError
-from mechwright.mechanics.chain.links import Link, links_of
+from mechwright.mechanics.chain.links import Link, key_of, links_of
 from mechwright.mechanics.chain.motion import motion_of
 from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed, in_plan
@@ -38,13 +38,26 @@ def assembly_of(params: ChainParams, families: Families) -> Assembly:
 def _plane(link: Link, parts: tuple[Part, ...]) -> Plane:
     motion = link.family.solve(link.params, 2)
     levels = {name: float(poses.position[0, 2]) for name, poses in motion.poses.items()}
-    mounting = link.family.mounting(link.params)
+    mounting = _mounting(link)
     if not isinstance(mounting, Mounting | GroundPlate):
         raise DesignError(
             f"stage.{link.number}.family: the family {link.family.name} does not say where its shafts stand, "
             "so that none can be joined to it; take another family there"
         )
     return plane_of(parts, levels, mounting)
+
+
+def _mounting(link: Link) -> object:
+    """Of a stage; raises MountingError with the stage's own keys."""
+    try:
+        return link.family.mounting(link.params)
+    except MountingError as error:
+        key, _, said = str(error).partition(": ")
+        changes = tuple(
+            {key_of(link.number, name): value for name, value in change.items()} for change in error.proposed
+        )
+        message = f"{key_of(link.number, key)}: stage {link.number}, {link.family.name}: {said}"
+        raise MountingError(message, changes) from None
 
 
 def parts_of(params: ChainParams, families: Families) -> tuple[Part, ...]:

@@ -10,6 +10,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain.asked import asked_findings
@@ -64,7 +65,8 @@ def _joined(params: ChainParams, families: Families) -> Iterator[Finding]:
     except MechwrightError as error:
         key, _, rest = str(error).partition(": ")
         said, _, cure = rest.partition("; ")
-        yield Finding.error("chain.assembly", key, said, remedy=cure, stage=Stage.PARTS)
+        changes = error.proposed if isinstance(error, MountingError) else ()
+        yield Finding.error("chain.assembly", key, said, remedy=cure, stage=Stage.PARTS, proposed=changes)
         return
     yield from shaft_findings(whole.places, whole.planes)
 

@@ -4,6 +4,7 @@ Stages are stacked upwards, each over all of the one before. A stage with a grou
 input's shaft below it: the hub that turns it sits on that shaft's end.
 """
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Prism, Shape
 from mechwright.errors import GeometryError
 from mechwright.mechanics.chain.links import Link
+from mechwright.tolerances import TOLERANCES
 
 AIR = 1.0
 """Between the planes of two stages, mm, where the design says nothing: room for chips and a little wobble."""
@@ -27,11 +29,14 @@ class Plane:
         Of all its parts.
     mounting
         As its family says; None where it says nothing.
+    bottom
+        Of what comes over the stage before: a shaft of its own, which stands out into it, does not count.
     """
 
     low: float
     high: float
     mounting: Mounting | GroundPlate | None
+    bottom: float
 
     def hub(self, body: str) -> Hub | None:
         """The hub on the shaft of a body; None where no shaft goes through it."""
@@ -69,14 +74,19 @@ def plane_of(
     parts: Iterable[Part], levels: Mapping[str, float], mounting: Mounting | GroundPlate | None
 ) -> Plane:
     """The plane of a stage with its parts; ``levels`` are the heights of its bodies, mm."""
-    lows, highs = [], []
+    lows, highs, bottom = [], [], math.inf
+    plate = mounting if isinstance(mounting, GroundPlate) else None
     for part in parts:
         low, high = part_heights(part)
         for one in part.instances:
             at = one.z + levels[one.body]
             lows.append(low + at)
             highs.append(high + at)
-    return Plane(min(lows), max(highs), mounting)
+            if plate is None or one.body != plate.shaft or low + at > plate.end + TOLERANCES.closure:
+                bottom = min(bottom, low + at)
+    if plate is not None:
+        bottom = min(bottom, plate.bare)
+    return Plane(min(lows), max(highs), mounting, bottom)
 
 
 def levels_of(links: tuple[Link, ...], planes: tuple[Plane, ...]) -> tuple[float, ...]:
@@ -85,8 +95,5 @@ def levels_of(links: tuple[Link, ...], planes: tuple[Plane, ...]) -> tuple[float
     for link, below, plane in zip(links[1:], planes, planes[1:], strict=False):
         air = AIR if link.table.gap is None else link.table.gap
         top = found[-1] + below.high + air
-        if isinstance(plane.mounting, GroundPlate):
-            found.append(top - plane.mounting.bare)
-        else:
-            found.append(top - plane.low)
+        found.append(top - plane.bottom)
     return tuple(found)

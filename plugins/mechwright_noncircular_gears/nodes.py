@@ -1,0 +1,35 @@
+"""What the nodes of a law by table have to be."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+LEAST_STEP = 1.0
+"""Degrees between the angles of a table: closer ones ask for a ratio that the teeth cannot follow."""
+
+
+def check_nodes(nodes: Sequence[tuple[float, float]] | None, lobes: int, mate_lobes: int) -> None:
+    """Raise ValueError unless pairs [φ, ψ], degrees, make a lobe of gears with so many lobes."""
+    if nodes is None:
+        raise ValueError('law = "table" needs nodes, pairs of angles from [0, 0]')
+    if nodes[0] != (0.0, 0.0):
+        raise ValueError(f"nodes begin at {list(nodes[0])}; a lobe begins at [0, 0]")
+    ends = (360.0 / lobes, 360.0 / mate_lobes)
+    if nodes[-1][0] >= ends[0]:
+        turns = ""
+        if nodes[-1][0] > 360:
+            turns = ": of several turns it is no plane gear, for its own body stands in the way of its mate"
+        raise ValueError(
+            f"nodes reach {nodes[-1][0]:g} degrees of the driver, and a lobe ends at "
+            f"[{ends[0]:g}, {ends[1]:g}], which is no node{turns}; leave out what lies there and beyond"
+        )
+    for one, other in pairwise((*nodes, ends)):
+        if other[0] - one[0] < LEAST_STEP:
+            raise ValueError(
+                f"nodes {list(one)} and {list(other)} stand less than {LEAST_STEP:g} degree apart, or go "
+                "back; give the driver's angles in rising order"
+            )
+        if other[1] <= one[1]:
+            raise ValueError(
+                f"nodes {list(one)} and {list(other)} hold the driven gear or turn it back, which teeth "
+                "cannot; make the second angles rise"
+            )
