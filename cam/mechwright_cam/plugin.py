@@ -17,7 +17,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.pages.blanks import MilledPlates
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.proof.rules import BUILT_IN
-    from mechwright_cam.results import Programs
+    from mechwright_cam.results import Minutes, Programs
     from mechwright_cam.shop.shop_table import ShopTable
     from mechwright_cam.shop.table import CamTable
 
@@ -34,4 +34,5 @@ def mechwright_register() -> list[type[Plugin]]:
         InHand,
         Running,
         Programs,
+        Minutes,
     ]

@@ -61,3 +61,13 @@ def test_the_page_escapes_what_it_is_told_and_needs_no_other_file():
     assert "error 0 mm, size 50 mm, angle 40.11°" in page
     assert not re.search(r'(src|href)="(http|//)', page)
     assert in_words(Scalar(math.pi / 6, "rad")) == "30°"
+
+
+def test_minutes_are_those_of_all_programs():
+    """A plate of which nothing is asked but to be there; two of a part take twice as long."""
+    plate = mw.design("plate")
+    times = {one.name: one.proof.as_dict()["time_estimate_s"] for one in plate.programs}
+    (part,) = plate.parts
+    count = max(1, len(part.instances))
+    assert plate.result("minutes") == pytest.approx(count * sum(times.values()) / 60)
+    assert plate.result("minutes") > 0

@@ -261,14 +261,19 @@ class Synthesize(Command):
         ],
         output: OutputFolder,
         as_json: AsJson = False,
+        minutes: Annotated[
+            bool,
+            typer.Option("--minutes", help="Compare the designs by their minutes on the mill as well."),
+        ] = False,
     ) -> None:
         """Find designs that meet a requirement.
 
-        One design file each, best first. The exit code is 1 if none meets it.
+        One design file each, best first, and a page on which they move and are compared. The exit code is 1
+        if none meets it.
         """
         from mechwright.cli import synthesis
 
-        synthesis.synthesize(requirement, output, as_json)
+        synthesis.synthesize(requirement, output, as_json, minutes)
 
 
 class Sweep(Command):

@@ -18,7 +18,7 @@ FIGURES = 3
 """Figures of a candidate on its line of the listing; synthesis.json has all of them."""
 
 
-def synthesize(path: Path, folder: Path, as_json: bool) -> None:
+def synthesize(path: Path, folder: Path, as_json: bool, minutes: bool) -> None:
     """Write the designs that meet a requirement, best first; the exit code is 1 if none meets it."""
     installed = open_host()
     asked = load_requirement(path, installed)
@@ -26,7 +26,7 @@ def synthesize(path: Path, folder: Path, as_json: bool) -> None:
     with standing(folder), fraction() as progress:
         found = sought(asked, installed, progress)
         failed = bool(errors(found.result.findings))
-        files = () if failed else found.write(folder)
+        files = () if failed else found.write(folder, minutes)
     if as_json:
         said = {"ok": not failed, **found.summary, "folder": str(folder), "files": list(files)}
         typer.echo(json.dumps(said, indent=2))

@@ -23,9 +23,11 @@ class Shown:
     picture: Mapping[str, Any] | None
 
 
-def shown(candidates: Sequence[Candidate[Any]], mechanisms: Sequence[Mechanism]) -> list[Shown]:
-    """The designs with their figures and pictures."""
-    rows = [merits(one, mechanism) for one, mechanism in zip(candidates, mechanisms, strict=True)]
+def shown(
+    candidates: Sequence[Candidate[Any]], mechanisms: Sequence[Mechanism], minutes: bool = False
+) -> list[Shown]:
+    """The designs with their figures and pictures; with ``minutes`` those on the mill as well."""
+    rows = [merits(one, mechanism, minutes) for one, mechanism in zip(candidates, mechanisms, strict=True)]
     best = set(best_of(rows).tolist())
     return [
         Shown(mechanism.design.name, row, number in best, moving(mechanism))

@@ -18,6 +18,7 @@ SENSES = {
     "least_transmission_angle": -1,
     "peak_acceleration": 1,
     "drive_torque": 1,
+    "minutes": 1,
 }
 """Objectives: 1 where less is better, -1 where more is."""
 
@@ -32,12 +33,12 @@ SAME_MERIT, ROUNDING = 1e-9, 1e-9
 designs."""
 
 
-def merits(candidate: Candidate[Any], mechanism: Mechanism) -> dict[str, Scalar]:
+def merits(candidate: Candidate[Any], mechanism: Mechanism, minutes: bool = False) -> dict[str, Scalar]:
     """Objective to figure of a design; those that its family does not tell are left out.
 
     ``error`` is the residual; ``size`` the longest link, or the greatest length of an outline, mm;
     ``peak_acceleration`` that of the traced points, mm/s² at the design's speed; ``drive_torque`` the
-    greatest, N m.
+    greatest, N m. With ``minutes`` those on the mill are told as well: its programs are made and proven.
     """
     motion = mechanism.design.solve(SAMPLES)
     told = {**motion.scalars, **candidate.figures}
@@ -53,6 +54,8 @@ def merits(candidate: Candidate[Any], mechanism: Mechanism) -> dict[str, Scalar]
         found["peak_acceleration"] = peak
     if "drive_torque_max" in told:
         found["drive_torque"] = told["drive_torque_max"]
+    if minutes:
+        found["minutes"] = Scalar(float(mechanism.result("minutes")), "min")
     return found
 
 

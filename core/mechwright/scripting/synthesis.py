@@ -94,12 +94,14 @@ class Found:
         found = given + sum(reason.count for reason in rejected)
         return f"{found} found, {given} given" + (f": {why}" if why else "")
 
-    @property
-    def gallery(self) -> str:
-        """A page with a moving picture of each design and its path, and what they are compared by."""
+    def gallery(self, minutes: bool = False) -> str:
+        """A page with a moving picture of each design and its path, and what they are compared by.
+
+        With ``minutes`` these are those on the mill as well: programs of all designs are made and proven.
+        """
         family, result = self.asked.family, self.result
         notes = [finding for finding in result.findings if finding.severity is not Severity.ERROR]
-        designs = shown(result.candidates, self.mechanisms)
+        designs = shown(result.candidates, self.mechanisms, minutes)
         return gallery(self.asked.name, family.title, self.told, result.rejected, notes, designs)
 
     def require(self) -> None:
@@ -128,8 +130,10 @@ class Found:
             "candidates": listing,
         }
 
-    def write(self, folder: str | Path) -> tuple[str, ...]:
+    def write(self, folder: str | Path, minutes: bool = False) -> tuple[str, ...]:
         """Write a design file each, ``gallery.html`` and ``synthesis.json``; gives the names of the files.
+
+        With ``minutes`` the gallery compares the minutes on the mill as well.
 
         Raises RefusedError where no design meets the requirement, OutputError where the folder cannot be
         written; nothing is written then.
@@ -142,7 +146,7 @@ class Found:
         for name, text in self.texts:
             output.add(f"{name}.toml", text)
         if len(self):
-            output.add("gallery.html", self.gallery)
+            output.add("gallery.html", self.gallery(minutes))
         output.add("synthesis.json", json.dumps(self.summary, indent=2) + "\n")
         facts = run_facts(asked.name, asked.family, {asked.path.name: asked.digest, **inputs}, self.host)
         write_folder(Path(folder), output, "synthesize", facts)
