@@ -74,7 +74,9 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     left = [path.name for path in folder.iterdir() if path.name not in {"out", "designs"}]
     if alive:
         return "processes left"
-    if process.returncode not in CODES[how]:
+    if process.returncode == -SIGNALS[how] and not err and how != "killed":
+        how = ""  # before the first line of the program, or behind its last
+    elif process.returncode not in CODES[how]:
         return f"exit code {process.returncode}: {err.strip()[-200:]}"
     if "Traceback" in err or (process.returncode in {130, 143} and len(err.splitlines()) != 1):
         return f"words: {err.strip()[-200:]}"
@@ -90,9 +92,7 @@ def interruptions(runs: int, seed: int, log: Path | None = None) -> tuple[dict[s
         designs = folder / "designs"
         designs.mkdir()
         (designs / "a.toml").write_text(text, encoding="utf-8")
-        (designs / "b.toml").write_text(
-            text.replace("speed = 60", "speed = 61"), encoding="utf-8"
-        )
+        (designs / "b.toml").write_text(text.replace("speed = 60", "speed = 61"), encoding="utf-8")
         out, states = folder / "out", {"": "no"}
         begun = time.monotonic()
         for name, design in (("new", "b.toml"), ("old", "a.toml")):
