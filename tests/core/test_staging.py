@@ -153,6 +153,14 @@ def test_a_stop_that_a_module_takes_for_an_error_of_its_own_is_one(tmp_path: Pat
     assert imported_by_main(tmp_path) == (143, "mechwright: stopped; nothing was written\n")
 
 
+def test_a_stop_that_somebody_makes_an_exit_of_is_told(tmp_path: Path) -> None:
+    (tmp_path / "stops.py").write_text(
+        "import os, signal, sys\ntry:\n    os.kill(os.getpid(), signal.SIGTERM)\n    [0 for _ in range(10**6)]\n"
+        "except KeyboardInterrupt:\n    sys.exit(1)\n"
+    )
+    assert imported_by_main(tmp_path) == (143, "mechwright: stopped; nothing was written\n")
+
+
 def test_the_exit_code_holds_where_the_keyboard_comes_while_a_text_is_executed(tmp_path: Path) -> None:
     (tmp_path / "stops.py").write_text("exec('import _thread; _thread.interrupt_main()')\n")
     assert imported_by_main(tmp_path) == (130, "mechwright: stopped; nothing was written\n")

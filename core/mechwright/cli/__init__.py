@@ -36,6 +36,10 @@ def _run() -> None:
             make_app()()
         finally:
             _flush()
+    except SystemExit as error:
+        if error.code and stopped():  # typer ends without a word what is stopped between its commands
+            raise KeyboardInterrupt from error
+        raise
     except Exception as error:
         if stopped():
             raise KeyboardInterrupt from error
