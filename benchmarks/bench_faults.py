@@ -74,7 +74,9 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     left = [path.name for path in folder.iterdir() if path.name not in {"out", "designs"}]
     if alive:
         return "processes left"
-    if process.returncode not in CODES[how]:
+    if process.returncode == -SIGNALS[how] and not err and how != "killed":
+        how = ""  # before the first line of the program, or behind its last
+    elif process.returncode not in CODES[how]:
         return f"exit code {process.returncode}: {err.strip()[-200:]}"
     if "Traceback" in err or (process.returncode in {130, 143} and len(err.splitlines()) != 1):
         return f"words: {err.strip()[-200:]}"

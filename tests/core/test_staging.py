@@ -145,6 +145,39 @@ def test_a_signal_is_one_line_and_its_exit_code(tmp_path: Path, number: int, cod
     assert names(tmp_path) == set()
 
 
+def test_a_stop_that_a_module_takes_for_an_error_of_its_own_is_one(tmp_path: Path) -> None:
+    (tmp_path / "stops.py").write_text(
+        "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGTERM)\n    [0 for _ in range(10**6)]\n"
+        "except KeyboardInterrupt:\n    raise ImportError('initialization failed') from None\n"
+    )
+    assert imported_by_main(tmp_path) == (143, "mechwright: stopped; nothing was written\n")
+
+
+def test_a_stop_that_somebody_makes_an_exit_of_is_told(tmp_path: Path) -> None:
+    (tmp_path / "stops.py").write_text(
+        "import os, signal, sys\ntry:\n    os.kill(os.getpid(), signal.SIGTERM)\n    [0 for _ in range(10**6)]\n"
+        "except KeyboardInterrupt:\n    sys.exit(1)\n"
+    )
+    assert imported_by_main(tmp_path) == (143, "mechwright: stopped; nothing was written\n")
+
+
+def test_the_exit_code_holds_where_the_keyboard_comes_while_a_text_is_executed(tmp_path: Path) -> None:
+    (tmp_path / "stops.py").write_text("exec('import _thread; _thread.interrupt_main()')\n")
+    assert imported_by_main(tmp_path) == (130, "mechwright: stopped; nothing was written\n")
+
+
+def imported_by_main(folder: Path) -> tuple[int, str]:
+    """Exit code and standard error of a command line that imports the module ``stops`` of a folder."""
+    code = (
+        "import mechwright.cli.app as app; import importlib; "
+        "app.make_app = lambda: importlib.import_module('stops'); from mechwright.cli import main; main()"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(folder)}
+    call = [sys.executable, "-c", code]
+    done = subprocess.run(call, capture_output=True, text=True, env=environment, check=False)
+    return done.returncode, done.stderr
+
+
 def test_the_second_process_ends_with_the_first_even_while_it_imports(tmp_path: Path) -> None:
     (tmp_path / "heavy.py").write_text("import time; time.sleep(60)")
     code = (

@@ -9,13 +9,16 @@ def main() -> None:
 
     What is stopped ends with 128 and the number of the signal: 130 by the keyboard, 143 where it is ended.
     """
-    from mechwright.cli.stopping import NOTHING, StoppedError, exit_code, hear
+    from mechwright.cli.stopping import NOTHING, StoppedError, exit_code, heard
 
     try:
-        hear()
-        _run()
+        with heard():
+            _run()
     except (KeyboardInterrupt, StoppedError) as stop:
         print(f"mechwright: stopped; {str(stop) or NOTHING}", file=sys.stderr)  # noqa: T201 - as below
+        # Python would end by the signal, whatever the code, if the keyboard came while a text was executed,
+        # as dataclasses do; it forgets that with the next text.
+        exec("")  # noqa: S102
         sys.exit(exit_code())
 
 
@@ -24,6 +27,7 @@ def _run() -> None:
 
     from mechwright.cli import failure
     from mechwright.cli.app import make_app
+    from mechwright.cli.stopping import stopped
     from mechwright.errors import ProofError
 
     warnings.showwarning = failure.warned
@@ -32,7 +36,14 @@ def _run() -> None:
             make_app()()
         finally:
             _flush()
-    except Exception as error:  # noqa: BLE001,RUF100 - a traceback is of no use to a machinist
+    except SystemExit as error:
+        if error.code and stopped():  # typer ends without a word what is stopped between its commands
+            raise KeyboardInterrupt from error
+        raise
+    except Exception as error:
+        if stopped():
+            raise KeyboardInterrupt from error
+        # A traceback is of no use to a machinist.
         for line in failure.lines(error):
             print(f"mechwright: {line}", file=sys.stderr)  # noqa: T201 - this is the program's own output
         sys.exit(1 if isinstance(error, ProofError) else 2)

@@ -2,6 +2,8 @@
 
 import signal
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 
 NOTHING = "nothing was written"
@@ -17,15 +19,29 @@ class StoppedError(BaseException):
     """A command has been stopped; it says what stands. As the keyboard's it is no fault that some catch."""
 
 
-def hear() -> None:
-    """Have signals that end a program stop it as the keyboard does."""
-    if threading.current_thread() is not threading.main_thread():
-        return
-    for name in ("SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)
+@contextmanager
+def heard() -> Iterator[None]:
+    """Have signals that end a program stop it as the keyboard does, as long as the block lasts."""
+    _heard.clear()
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        known = (getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP"))
         # Whoever ignores the end of a terminal, as nohup does, goes on doing so.
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, _stop)
+        usual = (signal.SIG_DFL, signal.default_int_handler)
+        before = {one: signal.getsignal(one) for one in known if one is not None}
+        before = {one: handler for one, handler in before.items() if handler in usual}
+    for number in before:
+        signal.signal(number, _stop)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def stopped() -> bool:
+    """Whether a signal has come: compiled modules that it stops while they load raise errors of their own."""
+    return bool(_heard)
 
 
 def _stop(number: int, _: FrameType | None) -> None:

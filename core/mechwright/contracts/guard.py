@@ -106,8 +106,9 @@ def _guarded(
     plugin: "Called", method: str, contract: "type[Called]", arguments: tuple[Any, ...]
 ) -> Iterator[None]:
     who = f"{who_of(plugin)}: {method}()"
-    seconds = _seconds() if contract.limited and method not in contract.unlimited else 0.0
-    before = repr(arguments[0]) if contract.limited and arguments and not _inside else ""
+    limited = contract.limited and method not in contract.unlimited
+    seconds = _seconds() if limited else 0.0
+    before = repr(arguments[0]) if limited and arguments and not _inside else ""
     try:
         with _aside(who), _in_time(seconds):
             yield
