@@ -26,6 +26,7 @@ LENGTHS = (
     "corner_radius",
     "tip_diameter",
     "neck_diameter",
+    "pitch",
     "shank_diameter",
     "stick_out",
     "holder_diameter",
@@ -34,8 +35,13 @@ LENGTHS = (
     "wear_length",
     "wear_diameter",
 )
-OTHERS = ("flutes", "point_angle", "ramp_angle", "life", "diameter_offset", "centre_cutting", "substrate")
-"""Keys that a remark may say besides lengths, which are in the units of the table."""
+SWITCHES = ("centre_cutting", "left_hand", "floating")
+"""Keys that are true or false."""
+OF_TAPS = ("chamfer_length", "left_hand", "floating")
+_LAST = ("diameter_offset", "centre_cutting", "substrate", "life")
+OTHERS = ("flutes", "point_angle", "ramp_angle", *OF_TAPS, *_LAST)
+"""Keys that a remark may say besides lengths, which are in the units of the table; the last go first where
+the line ends."""
 TEXTS = ("holder", "purpose", "coating")
 """Keys whose blanks are written as %20."""
 ROW_OF = "d-of"
@@ -130,7 +136,7 @@ def _remark(said: Said, words: list[str], scale: float) -> None:
     for key, value in named.items():
         if key in LENGTHS:
             said.keys[key] = scaled(number(value) or 0.0, scale) if number(value) is not None else value
-        elif key == "centre_cutting":
+        elif key in SWITCHES:
             said.keys[key] = {"true": True, "false": False}.get(value, value)
         elif key in OTHERS:
             said.keys[key] = value
