@@ -46,7 +46,10 @@ def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
     for wider, share, shape in product(_RAIL_SHARES, _PIN_SHARES, ("disc", "arm")):
         thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * sizes.pin, 1))}
         wide = {} if wider == 1 else {"rail": round(wider * sizes.rail, 1)}
-        params = Design.model_validate({**lengths, **thinner, **wide, "crank_shape": shape})
+        try:
+            params = Design.model_validate({**lengths, **thinner, **wide, "crank_shape": shape})
+        except ValidationError:
+            continue  # a rail wider than there is
         found = errors(findings(params))
         if not found:
             return params, ""

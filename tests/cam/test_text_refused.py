@@ -165,7 +165,8 @@ STATES = {
     "G92.1": ("fanuc", "haas"),
     "G92.2": ("fanuc", "haas", "mach3", "grbl"),
     "G43.2 G28.1 G30.1 G7 G8 M48 M50 M60 M61 M62 M64 M66 M70 M72 M73 M100": ("linuxcnc",),
-    "G10.6 G43.1 G50.1 G66 G107 M97 M98 M99 M29 M61": ("fanuc", "haas"),
+    "G10.6 G43.1 G50.1 G66 G107 M97 M98 M99 M61": ("fanuc", "haas"),
+    "M29": ("haas",),
     "G59.3 G54.1 G154 G43 G41 G42 G81 G73 G98 M6 M19": ("grbl",),
 }  # fmt: skip
 """Words that change the machine's state, and controls whose reader does not model them."""

@@ -39,7 +39,8 @@ def read_table(model: type[T], table: object, source: str, where: str, path: Pat
     except ValidationError as error:
         # What nobody reads is not worked out: looking for what was meant takes a while for each key.
         lines = [f"{source}: {line}" for line in islice(_explain(error, model, where), MOST_LINES)]
-        lines += [f"{source}: {where}: another mistake"] * (error.error_count() - len(lines))
+        if len(lines) == MOST_LINES:
+            lines += [f"{source}: {where}: another mistake"] * (error.error_count() - len(lines))
         raise DesignError("\n".join(lines)) from None
 
 
