@@ -1,11 +1,12 @@
 """What an earlier program has left in force: the program says it anew, or is refused, or sheet and proof tell it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from by_control import BY_NAME, interpret, prove
-from by_control import CONTROLS
+from by_control import BY_NAME, CONTROLS, asked, interpret, prove
 from golden_operations import made
+from machine_programs import at_the_end, job_of, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright_cam.controls.reading import stretch
@@ -85,3 +86,36 @@ def test_shifts_that_no_program_shows_are_told(control: str, word: str) -> None:
     first = steps(one.job, BY_NAME[control], [23], file_names=["a.nc"], deepest=-4)[0]
     assert first.title == BEFORE
     assert any(word in line and "earlier program" in line for line in first.lines)
+
+
+@pytest.mark.parametrize("control", [name for name in CONTROLS if name != "grbl"])
+def test_the_length_of_a_tool_that_is_none_of_the_job_is_refused_though_nothing_moves(control: str) -> None:
+    """LinuxCNC stops there, as its table has no such tool."""
+    text, line = at_the_end(text_of(control), "G43 H99")
+    found = asked("length-offset", text, job_of(control), BY_NAME[control])
+    assert not found.passed
+    assert found.message.startswith(
+        f"line {line + 1}: H99 is in force here, the length of no tool of this job"
+    )
+    for number in (1, 3):
+        assert asked(
+            "length-offset", text.replace("H99", f"H{number}"), job_of(control), BY_NAME[control]
+        ).passed
+
+
+@pytest.mark.parametrize("length", [1.0, -1.0, 77.0])
+def test_a_length_in_the_program_of_a_tool_that_is_touched_off_is_refused(length: float) -> None:
+    """Touched off with no length in force, the tool goes by so much too high or too deep."""
+    (one,) = made("profile-outside", "grbl")
+    head, after = one.text.split("(operation: bore: finish)\n", 1)
+    text = f"{head}G43.1 Z{length}\n{after}"
+    found = asked("length-offset", text, one.job, BY_NAME["grbl"])
+    line = head.count("\n") + 2
+    assert not found.passed
+    assert found.message.startswith(
+        f"line {line}: G43.1 Z{length:g} while the length of T23 is not known; set"
+    )
+    assert asked("length-offset", text.replace(f"Z{length}\n", "Z0.\n"), one.job, BY_NAME["grbl"]).passed
+    known = tuple(tool.model_copy(update={"length": 77.0}) for tool in one.job.tools)
+    measured = asked("length-offset", text, replace(one.job, tools=known), BY_NAME["grbl"])
+    assert measured.passed == (length == 77.0)

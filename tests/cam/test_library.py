@@ -30,8 +30,9 @@ def file(tmp_path, text):
 def test_built_in_tools_know_every_material_and_have_sensible_data():
     library = built_in()
     assert {tool.kind for tool in library} == set(ToolKind) - {
-        ToolKind.REAMER
-    }  # reamers are made for one hole each
+        ToolKind.REAMER,
+        ToolKind.TAP,
+    }  # which are made for one hole each
     for tool in library:
         assert set(tool.cutting) == set(MATERIALS), tool.name
         for data in tool.cutting.values():

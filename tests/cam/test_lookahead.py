@@ -122,6 +122,19 @@ def test_an_arc_after_a_line_is_bounded_by_speed_and_acceleration_not_by_p() -> 
     assert claimed(0.5, feed=600.0) < 0.005
 
 
+def test_two_small_arcs_overlap_as_fast_as_their_radius_allows_whatever_is_asked() -> None:
+    """Of 0.84 mm at 0.5 m/s² that are 19 mm/s; the real planner was 3.6 µm off there (tests of the witness)."""
+
+    def claimed(feed: float) -> float:
+        arcs = "G3 X39.7326 Y22.2994 Z-.0046 I.3609 J-.7621\nX40.4635 Y22.3917 Z-.0063 I.2669 J.8269"
+        run, motion = moved(f"G64 P0.02 Q0\nG0 X65 Y40 Z0\nG1 X39.6453 Y23.8592 F{feed}\n{arcs}\nG0 Z5", 0.5)
+        return float(motion.off[run.cutting][-1])
+
+    assert 0.0036 < claimed(1440.0) < 0.005
+    assert claimed(3000.0) == pytest.approx(claimed(1440.0), rel=1e-6)
+    assert claimed(1000.0) > claimed(1440.0)
+
+
 def test_a_helix_that_levels_out_is_off_by_its_climb() -> None:
     helix = "G3 X0 Y0 Z-2 I4 J0 F{0}\nG1 Y-20"
     assert off(P + helix.format(1500), 0.5) > 0.003

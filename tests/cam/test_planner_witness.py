@@ -71,6 +71,19 @@ G1 X40
 G0 Z5
 M2
 """
+SMALL_ARCS = f"""{HEAD}G64 P0.02 Q0
+G0 X68.7736 Y40.6764 Z5
+G1 Z-1 F1000
+X39.6453 Y23.8592 F1440
+G3 X39.7326 Y22.2994 Z-1.0046 I0.3609 J-0.7621
+X40.4635 Y22.3917 Z-1.0063 I0.2669 J0.8269
+G1 X69.6136 Y39.2215
+G2 X74.0713 Y37.8903 I1.5963 J-2.7837
+G1 X85
+G0 Z5
+M2
+"""
+"""Arcs that are asked for faster than their radius allows."""
 
 
 @cache
@@ -93,10 +106,10 @@ def real(text: str, acceleration: float) -> Sampled:
 
 @pytest.mark.parametrize(
     ("name", "acceleration"),
-    [("corners", 2.0), ("corners", 0.5), ("arcs", 2.0), ("arcs", 0.5), ("planned", 0.5)],
+    [("corners", 2.0), ("corners", 0.5), ("arcs", 2.0), ("arcs", 0.5), ("small", 0.5), ("planned", 0.5)],
 )
 def test_time_and_path_are_as_claimed(name: str, acceleration: float) -> None:
-    text = {"corners": CORNERS, "arcs": ARCS, "planned": planned()}[name]
+    text = {"corners": CORNERS, "arcs": ARCS, "small": SMALL_ARCS, "planned": planned()}[name]
     control, sampled = LinuxCnc(), real(text, acceleration)
     run = control.read(text)
     motion = control.lookahead.motion(run, Machine(acceleration=acceleration))

@@ -1,6 +1,7 @@
 """Bull noses and balls: what they leave, what is planned with them, and what the proof finds."""
 
 import math
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -336,7 +337,7 @@ class TestRemarks:
     def test_shallow_cuts_of_a_round_corner_are_fed_faster(self) -> None:
         shallow = Pocket("pocket", box(14, 9, 4), (), 0.0, 0.3)
         fast, slow = (
-            max(
+            Counter(
                 m.feed
                 for m in read(
                     made(laid(shallow, tools=("bull-6-r1",), chip_thinning=thin, floor_to_leave=0))[0]
@@ -344,5 +345,7 @@ class TestRemarks:
             )
             for thin in (True, False)
         )
-        # The fastest is finishing, whose engagement makes chips half as thick once more.
-        assert fast / slow == pytest.approx(2 / math.sqrt(1 - 0.7**2), rel=2e-3)
+        # Most moves are of clearing; those of finishing have an engagement that makes chips half as thick once more.
+        roughing, usual = (feeds.most_common(1)[0][0] for feeds in (fast, slow))
+        assert roughing / usual == pytest.approx(1 / math.sqrt(1 - 0.7**2), rel=2e-3)
+        assert max(fast) == 2 * roughing

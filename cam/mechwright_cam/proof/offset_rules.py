@@ -33,6 +33,9 @@ def length_offset(scene: Scene) -> Check:
             found = f"Z is moved with H{active}"
         message = f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}"
         return scene.bad(step, message, active, tool)
+    if (step := first((offset > 0) & ~np.isin(offset, list(scene.tools)))) is not None:
+        message = f"H{offset[step]} is in force here, the length of no tool of this job; take its G43 out"
+        return scene.bad(step, message)
     return Check(True, "every tool moves Z under its own G43 H")
 
 
@@ -49,6 +52,12 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
             f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm"
         )
         return scene.bad(step, message, float(given[step]), float(measured[step]), "mm")
+    if (step := first(stated & (np.abs(given) > LAST_DECIMAL) & np.isnan(measured))) is not None:
+        message = (
+            f"{word} Z{given[step]:g} while the length of T{run.tool[step]} is not known; set its length in "
+            f"the tool library, or take {word} out and touch it off"
+        )
+        return scene.bad(step, message)
     # Where the operator could touch off: at a stop, or before a file starts.
     chances = np.flatnonzero(run.kind == Kind.STOP)
     changes = np.flatnonzero(run.kind == Kind.TOOL)

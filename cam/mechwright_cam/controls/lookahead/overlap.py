@@ -100,14 +100,15 @@ class Overlaps:
 def half_sine(row: Segments) -> Array:
     """Sine (p,) of half the turn in each kind of junction, as the planner sees it.
 
-    It sees directions of acceleration: an arc that begins is bent inwards, and helices do not climb.
+    It sees directions of acceleration: an arc that begins is bent inwards, by half the speed that it is asked
+    for, which the control keeps to what its radius allows; and helices do not climb.
     """
     one, two = row.before, row.after
     before, after = row.last[one], row.first[two]
     begins = row.arc[two]
     before[row.arc[one], 2] = 0.0
     after[begins, 2] = 0.0
-    pull = (row.asked / 2) ** 2 / row.radius / (row.acceleration / 2) * np.sign(row.signed)
+    pull = (row.speed / 2) ** 2 / row.radius / (row.acceleration / 2) * np.sign(row.signed)
     bent = after[begins]
     after[begins, :2] += np.column_stack((-bent[:, 1], bent[:, 0])) * pull[two][begins, None]
     for vectors in (before, after):
