@@ -221,6 +221,15 @@ def test_designs_that_the_tables_do_not_let_build_are_named_and_not_given(
     assert [(one["code"], one["count"]) for one in some["rejected"]] == [("cam.travel", 1)]
 
 
+def test_tables_are_blamed_in_words_of_what_they_do_not_let_build(command_line: Run, tmp_path: Path) -> None:
+    """And not in those of the designs that were not looked at, of which there are more."""
+    asked = 'family = "four-bar"\n[requirement]\nkind = "poses"\ndesigns = 1\n[cam.machine]\ntravel_x = 10\n'
+    code, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert code == 1
+    assert re.search(r"synthesis.unbuildable.* as its tables say: error \[cam.travel\]", wrong)
+    assert re.search(r"beyond the number, .*1 travel", wrong)
+
+
 def test_the_terminal_says_how_many_were_found_of_how_many(command_line: Run, tmp_path: Path) -> None:
     """Notes stand below the designs; of each reason the words of the first design stand there too."""
     asked = 'family = "four-bar"\n[requirement]\nkind = "poses"\ndesigns = 1\n'

@@ -325,6 +325,11 @@ class NoncircularParams(Parameters):
                     raise ValueError(f'{name} is for law = "{law}"; leave it out, or set that law')
         if self.law in {"slider", "geneva", "eccentric-circle"} and self.lobes != 1:
             raise ValueError(f'law = "{self.law}" has one lobe on the driver; set lobes = 1')
+        if self.law in {"slider", "geneva"} and self.internal:
+            raise ValueError(
+                f'law = "{self.law}" turns its crank once a turn, and a ring goes round slower; '
+                "set internal = false and mate_lobes = 1"
+            )
         if self.law in {"slider", "geneva"} and self.mate_lobes != 1:
             raise ValueError(f'law = "{self.law}" turns its crank once a turn; set mate_lobes = 1')
         if self.law == "geneva" and self.value("window") / 2 + self.value("blend") > MOST_HALF_TURN:

@@ -18,6 +18,7 @@ from mechwright_cam.controls.reading import Kind
 from mechwright_cam.machining import machine
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.library import Library
@@ -172,6 +173,10 @@ def test_what_a_control_cannot_do_is_refused_by_name(control: str, change: dict[
     assert why in said
     (finding, *_) = BY_NAME[control].check_tools(CamSettings(), [tap])
     assert why in finding.message
+    unmilled = Library(tuple(tool for tool in MORE.tools if not tool.name.startswith(("thread", "tap"))))
+    unmilled = unmilled.extended((tap,))
+    with pytest.raises(ToolError, match=f"no tap {thread.designation} that the control can use"):
+        choose_tools(plate(thread=thread), CamSettings(), unmilled, Assignments((), BY_NAME[control]))
     jobs, _ = lay_out_setups(
         plate(thread=thread),
         CamSettings.model_validate({"tools": ["drill-5", "tap-m6"], "stock": {"margin": 0}}),

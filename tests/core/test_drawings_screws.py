@@ -7,6 +7,7 @@ from mechwright.contracts.details import Chamfer, Thread
 from mechwright.contracts.part import Bore
 from mechwright.contracts.threads import named
 from mechwright.drawings.asked import Asked
+from mechwright_cad.exporters import dxf
 
 
 def holes(layer: str, *radii: float, at: tuple[float, float] = (20, 20)):
@@ -94,6 +95,8 @@ def test_left_hand_and_inch_threads_have_layers(layer, thread, depth):
     assert told.faults == []
     (found,) = [detail for detail in part.details if isinstance(detail, Thread)]
     assert (found.designation, found.depth) == (thread, depth)
+    drawn_again, _ = part_in(dxf.part(part))
+    assert drawn_again.details == part.details
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,16 @@ def test_a_geneva_wheel_accelerates_hardly_more_than_any_wheel_has_to(slots: int
     assert not profile_of(params).round
 
 
+def test_the_better_law_has_hollow_curves_and_teeth_low_enough_for_them() -> None:
+    """Teeth of 0.8 modules, as a shaper's usually are, would run into the fillets of their mates."""
+    params, told = best("geneva", slots=4, index_angle=180, teeth=60, harmonics=10)
+    assert told["curvature_min"] < 0
+    assert 4 < told["residual"] < 4.04
+    assert profile_of(params).addendum < 0.8
+    usual = params.model_copy(update={"addendum": None})
+    assert [one.code for one in findings(usual) if one.severity == "error"] == ["gear.tip-fillet"]
+
+
 def test_a_slider_keeps_its_speed() -> None:
     params, told = best("slider", rod_ratio=4.0, pressure_limit=40, harmonics=8, hollow=False)
     law, window = law_of(params), math.radians(150)

@@ -154,6 +154,7 @@ def test_heights_are_those_of_each_gear():
     ("changes", "words"),
     [
         ({"mate_lobes": 1}, "set mate_lobes to 2 or more"),
+        ({"law": "geneva", "eccentricity": None}, "set internal = false and mate_lobes = 1"),
         ({"cutter": "rack"}, "no rack goes into a ring"),
         ({"ring_holes": 0, "ring_hole": 5.0}, "leave it out, or set ring_holes"),
         ({"internal": False, "ring_outside": 200.0}, "set internal = true"),

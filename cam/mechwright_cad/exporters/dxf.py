@@ -97,7 +97,7 @@ def detail_layer(detail: Detail, thickness: float) -> str:
             return f"ENGRAVE_{detail.depth:g}_W{detail.width:g}"
         case Thread():
             deep = "" if detail.depth >= thickness - TOLERANCES.closure else f"_{detail.depth:g}"
-            return f"THREAD_{detail.designation.upper()}{deep}"
+            return f"THREAD_{detail.designation.upper().replace('/', '_')}{deep}"  # no name has a stroke
 
 
 def _in_outline(feature: Feature, outlines: Sequence[Outline]) -> bool:

@@ -136,7 +136,7 @@ def lacks(job: Job, thread: Thread) -> str:
     hole = core_of(job, thread)
     taps = [tap for tap in job.tools_of(ToolKind.TAP) if makes(tap, thread)]
     if not taps or hole is None:
-        return f"there is no tap {thread.designation}"
+        return f"there is no tap {thread.designation} that the control can use"
     return "; ".join(f"{tap.name}: {_misses(job, tap, thread, hole)}" for tap in taps)
 
 

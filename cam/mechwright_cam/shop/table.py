@@ -25,7 +25,7 @@ _OF_ONE_PART = (
     "# Any of these for one part only, by the part's name:",
     "# [cam.part.NAME]",
     '# origin = "corner"',
-    '# holes.bore-1.thread = "M6"  # or fit = "H7"',
+    '# holes.bore-1.thread = "M6"  # or fit = "H7", or screw = "ISO 4762 M5"',
 )
 S = TypeVar("S", bound=CamSettings)
 

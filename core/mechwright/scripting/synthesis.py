@@ -207,16 +207,18 @@ def synthesize(
 def sought(asked: Requirement, installed: Host, progress: Progress = unheard) -> Found:
     """What the family finds, without the designs that cannot be built as the requirement's tables say."""
     result = asked.family.synthesise(asked.kind, asked.table, progress)
-    rejected = Rejected(result.rejected)
+    rejected, unbuilt = Rejected(result.rejected), Rejected()
     kept: list[Candidate[Any]] = []
     for number, candidate in enumerate(result.candidates):
         progress(number / len(result.candidates), "checking the designs")
         with Build(asked.design(asked.name, candidate.params), installed, Wanted("check")) as build:
-            if not rejected.by((*build.findings, *inspections(build))):
+            if not unbuilt.by((*build.findings, *inspections(build))):
                 kept.append(candidate)
+    for reason in unbuilt.reasons:
+        rejected.because(reason.code, reason.message, reason.count)
     said = result.findings
     if result.candidates and not kept:
-        said = (*said, _unbuildable(rejected.reasons[0]))
+        said = (*said, _unbuildable(unbuilt.reasons[0]))
     return Found(asked, Synthesis(tuple(kept), said, rejected.reasons), installed)
 
 

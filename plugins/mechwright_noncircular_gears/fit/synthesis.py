@@ -21,6 +21,9 @@ DIGITS = 5
 ALIKE = 1e-3
 """Share by which two laws of one wish differ at least."""
 
+TIPS = ("gear.tip-cusp", "gear.tip-fillet")
+"""Findings that say how high the teeth may be, in the order in which they are asked for."""
+
 HALVINGS = 8
 """Of the way from what is asked to what a constant ratio meets, where no law is found."""
 
@@ -35,7 +38,7 @@ def from_wish(wanted: FitRequirement, progress: Progress) -> Synthesis[Noncircul
         law = fitted(goal, wanted, hollow)
         if not law.holds:
             continue
-        params = _params(wanted, law)
+        params = _with_room(_params(wanted, law))
         if rejected.by(findings(params)):
             continue
         candidate = Candidate(params, goal.residual(reached(goal, params, law)), _figures(goal, params, law))
@@ -59,6 +62,16 @@ def _params(wanted: FitRequirement, law: Fitted) -> NoncircularParams:
     return NoncircularParams.model_validate(
         {**wanted.model_dump(include=same), "law": "fourier", **amplitudes}
     )
+
+
+def _with_room(params: NoncircularParams) -> NoncircularParams:
+    """The pair with teeth as high as usual, or lower where the tips of hollow arcs ask for that."""
+    for _ in TIPS:
+        heights = [one.limit for one in findings(params) if one.code in TIPS and one.proposed]
+        if not heights:
+            break
+        params = params.model_copy(update={"addendum": heights[0]})
+    return params
 
 
 def reached(goal: Goal, params: NoncircularParams, law: Fitted) -> float:
