@@ -8,7 +8,7 @@ arithmetic.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ from flint import acb, arb, ctx
 from mechwright import Array
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright.mechanics.planar import Plane
+from mechwright_slider_crank.all_poles import Linkage
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.pole_equations import PoleProblem
 
@@ -125,7 +126,48 @@ def through_poles(
             if solution.residual <= ACCURACY:
                 found.append(solution)
     heard(1.0, f"{len(found)} solutions")
-    return sorted(found, key=lambda one: (-one.transmission, one.crank)), best
+    return _in_order(found), best
+
+
+def _in_order(found: Iterable[Found]) -> list[Found]:
+    return sorted(found, key=lambda one: (-one.transmission, one.crank))
+
+
+def completed(
+    found: list[Found], all_of_them: Iterable[Linkage], poles: Plane, rotations: Array
+) -> list[Found]:
+    """Linkages that starts led to, with those of a complete solution that they missed.
+
+    Parameters
+    ----------
+    found
+        Through poles (2,), mm, with a rotation (1,), rad, at constant speed.
+    all_of_them
+        Linkages whose crank turns.
+    """
+    scale = float(np.abs(poles).max())
+    turns = np.concatenate(([0.0], rotations))
+    answer = list(found)
+    for one in all_of_them:
+        problem = PoleProblem(poles / scale, turns, one.branch)
+        row = _unknowns(one.crank, one.rod, one.offset, one.angle, scale)
+        known = [
+            _unknowns(other.crank, other.rod, other.offset, other.angles[0], scale)
+            for other in found
+            if other.branch == one.branch
+        ]
+        features = _features(problem, np.array([*known, row]))
+        if distinct(features, _SAME)[-1] == len(known):
+            solution = _certified(problem, row, scale)
+            if solution.residual <= ACCURACY:
+                answer.append(solution)
+    return _in_order(answer)
+
+
+def _unknowns(crank: float, rod: float, offset: float, angle: float, scale: float) -> Array:
+    """The unknowns of :class:`PoleProblem` of a linkage in mm."""
+    room = (crank, rod - offset - crank, rod + offset - crank)
+    return np.array([*(math.log(length / scale) for length in room), angle])
 
 
 def _features(problem: PoleProblem, x: Array) -> Array:

@@ -11,10 +11,11 @@ from pydantic import ValidationError
 from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
+from mechwright_slider_crank.all_poles import AllPoles, all_linkages
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, through_poles
+from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, completed, through_poles
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.sizes import sizes_of
@@ -110,13 +111,20 @@ def _transmission(params: Design) -> float:
 
 
 def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design]:
-    """Slider-cranks through the poles, by transmission angle."""
+    """Slider-cranks through the poles, by transmission angle.
+
+    Two poles at constant speed are also solved completely, and the first finding says how many solutions of
+    how many are known; of other poles it says in how many starts linkages were sought.
+    """
     turn = np.exp(-1j * math.radians(wanted.slide_direction))
     places = np.array([complex(x, y) for x, y in wanted.poles]) * turn
     rotations = np.radians(np.array(wanted.rotations, dtype=float))
     ratios = np.array(wanted.acceleration_ratios)
     solutions, best = through_poles(places, rotations, wanted.starts, wanted.seed, progress, ratios)
     common = common_ratio(wanted.acceleration_ratios)
+    every = _every(wanted)
+    if every is not None:
+        solutions = completed(solutions, every.turning, places, rotations)
     candidates: list[Candidate[Design]] = []
     notes: list[Finding] = []
     rejected = Rejected()
@@ -149,9 +157,30 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
         candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
     if common is None and candidates:
         notes.append(of_several_ratios("slider-crank.ratios", wanted.acceleration_ratios))
-    if not candidates:
-        notes.insert(0, _none_found(notes, best, wanted))
+    if candidates:
+        notes.insert(0, _count(len(solutions), every, wanted))
+    else:
+        notes.insert(0, _none_found(notes, best, wanted, every))
     return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
+
+
+def _every(wanted: PolesRequirement) -> AllPoles | None:
+    """All slider-cranks through two poles at constant speed; None for other poles."""
+    if not wanted.rotations or any(wanted.acceleration_ratios):
+        return None
+    return all_linkages(wanted.poles, wanted.rotations[0], wanted.slide_direction)
+
+
+def _count(found: int, every: AllPoles | None, wanted: PolesRequirement) -> Finding:
+    if every is not None:
+        lost = len(every.turning) - found
+        rounded = f"; {lost} of them turn so barely that rounded lengths miss the poles" if lost > 0 else ""
+        return Finding.note("slider-crank.count", every.count + rounded, float(found))
+    return Finding.note(
+        "slider-crank.count",
+        f"{found} found in {2 * wanted.starts} starts; whether there are more is not known",
+        float(found),
+    )
 
 
 def _side(found: Found) -> str:
@@ -168,7 +197,9 @@ def _left_out(found: Found, why: str) -> Finding:
     )
 
 
-def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequirement) -> Finding:
+def _none_found(
+    left_out: Sequence[Finding], best: float, wanted: PolesRequirement, every: AllPoles | None
+) -> Finding:
     if left_out:
         return Finding.error(
             "slider-crank.not-buildable",
@@ -181,7 +212,7 @@ def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequireme
         "slider-crank.no-solution",
         "poles",
         f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; "
-        f"{nearest}",
+        f"{nearest}" + (f"; {every.count}" if every is not None else ""),
         best if math.isfinite(best) else None,
         ACCURACY,
         "mm",

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mechwright import Array
+from mechwright.mechanics.continuation import Balls
+from mechwright.mechanics.continuation.certificate import BITS
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.nine.precise import BITS, Balls, Certified, certificate, followed, points_of
+from mechwright_four_bar.nine.precise import Certified, certificate, followed, points_of
 from mechwright_four_bar.nine.start import any_points, start
 from mechwright_four_bar.nine.tracking import ARRIVED, FAR, LOST, SINGULAR, Paths, settle, tracked
 from mechwright_four_bar.nine.triples import SAME, TRIPLES, keys, members
