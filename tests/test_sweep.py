@@ -42,7 +42,7 @@ def test_a_full_disk_is_one_line_and_the_sweep_goes_on_from_there(tmp_path, monk
     stored, fsync = [], os.fsync
 
     def full(number):
-        if os.readlink(f"/proc/self/fd/{number}").endswith("part"):
+        if Path(f"/proc/self/fd/{number}").readlink().suffix == ".part":
             stored.append(number)
         if len(stored) == 2:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))

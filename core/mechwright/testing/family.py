@@ -158,8 +158,11 @@ class FamilyContract(
             )
 
     def test_poses(self, design: Mapping[str, Any]) -> None:
-        """Joints hold their bodies, and every instance of a part belongs to a body."""
+        """Bodies move rigidly, joints hold them so, and every instance of a part belongs to a body."""
         motion = self._motion(design)
+        for body, poses in motion.poses.items():
+            assert np.isfinite(poses.position).all(), f"body {body}"
+            assert_rotations(poses.rotation, f"body {body}")
         _none(joint_faults(motion))
         bodies = {instance.body for part in self._parts(design) for instance in part.instances}
         assert bodies <= motion.poses.keys(), f"no poses of {sorted(bodies - motion.poses.keys())}"
