@@ -35,6 +35,7 @@ from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
+from mechwright.testing.compare import assert_rotations
 from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
