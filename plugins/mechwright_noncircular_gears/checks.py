@@ -45,6 +45,9 @@ from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
 from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
 
+ON_AXIS = 0.0005
+"""A middle nearer to its axis is said to be on it, mm: half of the last digit that is told."""
+
 
 @kept
 def findings(params: NoncircularParams) -> tuple[Finding, ...]:
@@ -196,10 +199,11 @@ def _figures(params: NoncircularParams) -> Iterator[Finding]:
         _, x, y, *_ = outline.moments
         away = math.hypot(x, y) / outline.area
         unbalance = mass * away * 1e3
+        middle = f"{away:.3f} mm from it: {unbalance:.4g} g·mm of unbalance" if away >= ON_AXIS else "on it"
         yield Finding.note(
             "gear.balance",
             f"{name.replace('-', ' ')}: {mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis, its middle "
-            f"{away:.3f} mm from it: {unbalance:.4g} g·mm of unbalance",
+            f"{middle}",
             unbalance,
             "g*mm",
         )

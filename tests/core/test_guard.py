@@ -16,9 +16,10 @@ import pytest
 
 from mechwright.cli import failure
 from mechwright.contracts import guard
+from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
@@ -254,6 +255,24 @@ def test_warnings_are_a_line_that_says_whose_they_are(
     assert said.startswith("mechwright: warning: plugin bad of bad-mechanisms: family bad: check(): ")
     assert "RuntimeWarning: divide by \\x1b[31mzero (test_guard.py, line " in said
     assert len(said.splitlines()) == 1
+
+
+def test_a_study_is_stopped_by_a_fault_and_not_by_a_refusal() -> None:
+    """A fault of the plugin is no property of a design; the design that showed it is told."""
+    family = Registered(Bad(), "bad-mechanisms", "bad").item
+    batch = Batch(Size, {}, {"size": np.array([1.0, 2.0])})
+
+    def does(params: Size, samples: int = 0) -> Any:
+        if not samples or params.size < 2:
+            return moved(samples) if samples else []
+        raise wrong
+
+    family.does = does
+    wrong: Exception = KinematicsError("does not reach")
+    assert family.evaluate(batch, ["x.least"], Stage.MOTION).counts == {"motion": 1}
+    wrong = ZeroDivisionError("by nothing")
+    with pytest.raises(PluginFaultError, match=r"solve\(\): ZeroDivisionError: by nothing .* for size = 2.0"):
+        family.evaluate(batch, ["x.least"], Stage.MOTION)
 
 
 PLUGIN = """

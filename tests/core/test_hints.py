@@ -1,10 +1,13 @@
 """Mistakes in files are told with their line, and the table to which a key belongs."""
 
+import time
+
 import pytest
 
 from mechwright.designs.design import load
 from mechwright.designs.hints import line_of
 from mechwright.designs.requirement import load_requirement
+from mechwright.designs.toml_hints import toml_hint
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
 
@@ -33,6 +36,9 @@ TOLD = {
     "quotes of print": ("[parameters]\nbranch = “open”\n", 'quotes as in print; write branch = "open"'),
     "a colon": ("[parameters]\ncrank: 30\n", "line 4 has a colon; write crank = 30"),
     "a semicolon": ("[parameters]\ncrank = 30;\n", "that does not belong there; write crank = 30"),
+    "a semicolon behind a word": ("[parameters]\ncrank = Yes;\n", "true or false; write crank = true"),
+    "a comment behind a value": ("[parameters]\ncrank = 30 // long\n", "begins with //; write # before it"),
+    "a comment behind a unit": ("[parameters]\ncrank = 3 mm  -- long\n", 'write crank = "3 mm"'),
     "a comma at the end": ("[parameters]\ncrank = 30,\n", "write crank = 30"),
     "no equals sign": ("[parameters]\ncrank 30\n", "line 4 lacks an equals sign; write crank = 30"),
     "a fraction": ("[parameters]\ncrank = 81/2\n", "line 4 has a fraction; write crank = 40.5"),
@@ -114,3 +120,11 @@ def test_lines_are_found_under_dotted_quoted_and_spaced_keys():
     assert line_of(text, "cam.part.crank", "origin") == 4
     assert line_of(text, "", "cam") == 0
     assert line_of(text, "nowhere", "name") == 0
+
+
+@pytest.mark.parametrize("line", [" " * 200_000 + "x", "a = 1" + " // " * 50_000 + '"'])
+def test_a_line_that_nobody_typed_takes_no_time(line):
+    """The time of the search for what was meant grows with the square of the blanks."""
+    begun = time.process_time()
+    assert not toml_hint(line, "Invalid value (at line 1, column 2)")
+    assert time.process_time() - begun < 1

@@ -168,3 +168,9 @@ def test_tables_that_contradict_themselves(changes, words):
 def test_a_ring_has_no_shaft():
     with pytest.raises((MountingError, DesignError), match="screwed to what turns with it"):
         FAMILY.mounting(ring())
+
+
+def test_a_ring_is_in_balance_and_the_gear_in_it_is_not():
+    gear, outer = (one for one in FAMILY.check(ring()) if one.code == "gear.balance")
+    assert "mm of unbalance" in gear.message
+    assert outer.message.endswith("about its axis, its middle on it")

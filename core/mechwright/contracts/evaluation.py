@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.parameters import Parameters
-from mechwright.errors import MechwrightError
+from mechwright.errors import MechwrightError, PluginFaultError
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
@@ -169,5 +169,8 @@ def _one(
         return stopping[0].code, {}
     try:
         return "", {} if solve is None else figures(solve(params, SAMPLES))
+    except PluginFaultError as error:  # no figure of the family's can be trusted then
+        values = ", ".join(f"{name} = {values[place]}" for name, values in batch.varied.items())
+        raise PluginFaultError(f"{error}; it was asked for {values}") from error
     except MechwrightError:
         return MOTION, {}

@@ -9,6 +9,7 @@ _QUOTES = "“”„‟«»‘’‚"
 """Quotation marks of print, which word processors set."""
 _MARKS = re.compile(rf"=\s*[{_QUOTES}]([^{_QUOTES}]*)[{_QUOTES}]?\s*(?:#.*)?$")
 _COMMENT = re.compile(r"\s*(//|;|%|\(|\*|--|/\*)")
+_BEHIND = re.compile(r"\s(//|/\*|--)")
 _COLON = re.compile(r"^\s*([\w.-]+)\s*:=?\s*([^=#]*?)\s*(?:#.*)?$")
 _END = re.compile(r"^([^#]*?)\s*[;,]\s*(?:#.*)?$")
 _BLANK = re.compile(r"^\s*([\w.-]+)\s+([+-]?[\d.]+)\s*(?:#.*)?$")
@@ -20,6 +21,8 @@ _POINT = re.compile(r"=\s*([+-]?)(\d*)\.(\d*)\s*(?:#.*)?$")
 _WORD = re.compile(r"=\s*([A-Za-z][\w.-]*(?: [\w.-]+)*)\s*(?:#.*)?$")
 _TRUTHS = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _NO_TEXT = {"true", "false", "inf", "nan"}
+_LONGEST = 1000
+"""Characters of a line that somebody typed: blanks by the thousand are sought through again and again."""
 _UNITS = {'"': "in", "°": "deg"}
 """Signs of units as a text in TOML says them."""
 
@@ -40,11 +43,15 @@ def toml_hint(text: str, reason: str) -> str:
         return ""
     number = int(found[1])
     line = lines[number - 1]
+    if len(line) > _LONGEST:
+        return ""
     if "overwrite" in reason and (twice := _twice(lines, number)):
         return twice
-    for hint in _HINTS:
-        if said := hint(line):
-            return f"line {number} {said}"
+    # What else is wrong is told first, and the line written without its end.
+    for one in dict.fromkeys((_uncommented(line).rstrip().rstrip(";,").rstrip(), line)):
+        for hint in _HINTS:
+            if said := hint(one):
+                return f"line {number} {said}"
     return ""
 
 
@@ -66,9 +73,19 @@ def _start(line: str) -> str:
     return f"{line.partition('=')[0].strip()} ="
 
 
+def _uncommented(line: str) -> str:
+    """A line without a comment of another language behind its last text."""
+    text = line.rfind('"') + 1
+    behind = _BEHIND.search(line, text)
+    return line[: behind.start()] if behind else line
+
+
 def _comment(line: str) -> str:
     found = _COMMENT.match(line)
-    return f"begins with {found[1]}; a comment begins with #" if found else ""
+    if found:
+        return f"begins with {found[1]}; a comment begins with #"
+    end = line[len(_uncommented(line)) :].strip()
+    return f"has a comment that begins with {end[:2]}; write # before it" if end else ""
 
 
 def _marks(line: str) -> str:
