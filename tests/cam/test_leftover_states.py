@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
-from by_control import BY_NAME, interpret, prove
-from golden_operations import CONTROLS, made
+from by_control import BY_NAME, CONTROLS, interpret, prove
+from golden_operations import made
 from rs274 import needs_rs274, run_rs274
 
 from mechwright_cam.controls.reading import stretch

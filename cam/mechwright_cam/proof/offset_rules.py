@@ -33,7 +33,7 @@ def length_offset(scene: Scene) -> Check:
             found = f"Z is moved with H{active}"
         message = f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}"
         return scene.bad(step, message, active, tool)
-    return Check(True, "every tool moves Z under its own G43 H")
+    return Check(True, f"every tool moves Z under its own {scene.control.length_words('')}")
 
 
 def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
