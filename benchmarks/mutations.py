@@ -34,7 +34,7 @@ import height_map
 import random_outcomes
 import random_parts
 from block_mutants import PLACES, faults, inserted, kinds, wrong
-from by_control import BY_NAME, CONTROLS, prove, read
+from by_control import BY_NAME, EVERY, prove, read
 from line_faults import STATES
 from mutant_traces import differences, trace
 from mutants import FAULTS, Mutant, mutant
@@ -90,8 +90,10 @@ class Verdict:
 def golden() -> tuple[Source, ...]:
     """The kept programs, each of one file."""
     found = []
-    for control in CONTROLS:
-        for operation in golden_cases.CASES:
+    for control in EVERY:
+        for operation, case in golden_cases.CASES.items():
+            if control not in case.controls:
+                continue
             for one in golden_operations.made(operation, control):
                 found.append(Source(f"{one.program.name} {control}", control, one.job, one.text))
     for way in golden_compensation.WAYS:
@@ -303,7 +305,7 @@ def block_cases(share: float, seed: int) -> list[tuple[Source, Mutant]]:
     """Every fault of every kind of block of each control, and every state at every kind of place."""
     rng = np.random.default_rng(seed)
     found = []
-    for control in CONTROLS:
+    for control in EVERY:
         mine = [source for source in golden() if source.control == control]
         homes: dict[str, list[Source]] = {}
         for source in mine:

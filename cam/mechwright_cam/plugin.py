@@ -12,6 +12,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.haas import Haas
     from mechwright_cam.controls.linuxcnc import LinuxCnc
     from mechwright_cam.controls.mach3 import Mach3
+    from mechwright_cam.controls.siemens_840d import Siemens840D
     from mechwright_cam.inspection import InHand, Machinable, Running
     from mechwright_cam.pages.as_made import AsMadeFiles
     from mechwright_cam.pages.blanks import MilledPlates
@@ -21,7 +22,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.shop.shop_table import ShopTable
     from mechwright_cam.shop.table import CamTable
 
-    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
+    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl, Siemens840D]
     pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, AsMadeFiles]
     return [
         *controls,

@@ -26,7 +26,9 @@ BY_NAME: dict[str, GcodeControl] = {
     for name, registered in host().of(Control).items()
     if registered.distribution == "mechwright" and isinstance(registered.item, GcodeControl)
 }
-CONTROLS = tuple(BY_NAME)
+EVERY = tuple(BY_NAME)
+CONTROLS = tuple(name for name, control in BY_NAME.items() if control.dialect.translate is None)
+"""Those whose own words are RS274's; of the others test_siemens.py tells what their words are."""
 LINUXCNC = BY_NAME["linuxcnc"]
 
 

@@ -43,6 +43,10 @@ SMALL = {
     "G83 X8. Z-3. R2. Q1.\nG80\nG4 P500\nG41 D1 G1 X20. Y20.\nG1 Y40.\nG40 X0.\nM9\nM5\nM0\nM30\n",
 }
 SMALL["haas"] = SMALL["fanuc"]
+SMALL["siemens-840d"] = (
+    "G17 G710 G40 G90 G94 COMPOF\nG64\nG0 SUPA Z0 D0\nT1\nM6\nG54 S900 M3\nG0 X1 Y2\nD1 Z5\nM8\nG1 Z-1 F90\n"
+    "X9\nG2 X9 Y8 I0 J3\nG3 Y2 CR=3\nG4 F0.5\nG0 Z5\nM9\nM5\nG0 SUPA Z0 D0\nM0\nM30\n"
+)
 
 
 @dataclass(frozen=True)
@@ -97,7 +101,7 @@ def _plain(control: str) -> tuple[list[str], bytes, bytes]:
 
 
 MODAL = re.compile(
-    r"[FST].*|G(17|18|19|20|21|40|43|49|61|64|80|8[123]|9[0148]|98|99|90\.1|91\.1|5\d|[0123])|M.*"
+    r"[FST].*|D[01]|G(17|18|19|20|21|40|43|49|60|61|64|80|8[123]|9[0148]|98|99|90\.1|91\.1|5\d|[0123])|M.*"
 )
 """Words that hold until another of their group: one that is said again before it counts shows nowhere."""
 SAYS_NOTHING = re.compile(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from by_control import CONTROLS
+from by_control import EVERY
 from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Detail, Thread
@@ -66,7 +66,7 @@ class Case:
     material: str = "aluminium"
     says: str = ""
     """What the text has to hold on LinuxCNC, beside the names of the operations: the mark of the operation."""
-    controls: tuple[str, ...] = CONTROLS
+    controls: tuple[str, ...] = EVERY
     """Those that can do it."""
     whole: Part | None = None
     """The part itself, where more is done to it than its features show."""

@@ -42,9 +42,9 @@ def texts(operation: str, control: str) -> dict[str, str]:
     kept = {}
     for place, one in enumerate(made(operation, control)):
         start = f"{control}{'-underside' if place else ''}"
-        kept |= {
-            start + stem.removeprefix(one.program.name) + ".nc": text for stem, text in one.files.items()
-        }
+        for stem, text in one.files.items():
+            name = one.program.name
+            kept[start + (stem.removeprefix(name) if stem.startswith(name) else "") + ".nc"] = text
     return kept
 
 

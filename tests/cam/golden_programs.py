@@ -6,7 +6,7 @@ Every text has been read line by line as a machinist would before it was kept; r
 from dataclasses import replace
 from pathlib import Path
 
-from by_control import CONTROLS
+from by_control import EVERY
 
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
@@ -121,7 +121,7 @@ def with_options() -> Program:
 def texts() -> dict[str, str]:
     """File name to text of everything that is kept."""
     kept = {}
-    for control in CONTROLS:
+    for control in EVERY:
         post = host().get(Control, control)
         kept[f"{control}.nc"] = post.write(every_operation())
         kept[f"{control}-options.nc"] = post.write(with_options())

@@ -9,7 +9,7 @@ from program_faults import Fault, Lines, Rng, code, keeper, moves, number, pick,
 FAULTS: dict[str, Fault] = {}
 fault = keeper(FAULTS)
 
-OPERATION = re.compile(r"\(operation: (.*)\)", re.IGNORECASE)
+OPERATION = re.compile(r"[(;] ?operation: ([^()]*)", re.IGNORECASE)
 
 
 @fault("line deleted")
@@ -55,10 +55,10 @@ def _line_of(pattern: str) -> Fault:
 
 
 for name, pattern in (
-    ("retract", r"G53|G28|G30"),
+    ("retract", r"G53|G28|G30|SUPA"),
     ("lift", r"^(N\d+ )?(G0 )?Z[\d.]+$"),
     ("distances", r"^(N\d+ )?G9[01]$"),
-    ("length offset", r"G43|G49$"),
+    ("length offset", r"G43|G49$|D1"),
     ("tool change", r"T\d+"),
     ("spindle", r"M[35]$"),
     ("coolant", r"M[789]$"),
@@ -86,7 +86,7 @@ for axis in "XYZ":
                 return None
             off = amount * rng.choice((-1, 1))
             for k in range(*span):
-                if "(" in lines[k] or re.search(r"G53|G28|G30|G43\.1|G10", lines[k]):
+                if re.search(r"[(;]|G53|G28|G30|G43\.1|G10|SUPA", lines[k]):
                     continue
                 lines[k] = re.sub(
                     rf"{axis}([-+]?[\d.]+)", lambda m: axis + number(float(m[1]) + off), lines[k]

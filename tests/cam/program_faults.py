@@ -49,7 +49,7 @@ def codes(lines: Lines, *names: str) -> list[tuple[int, re.Match[str]]]:
     """All G or M words of some names."""
     found = []
     for index, line in enumerate(lines):
-        if "(" in line or line.startswith("O"):
+        if "(" in line or line.startswith(("O", ";")):
             continue
         for name in names:
             if match := re.search(rf"{re.escape(name)}(?![\d.])", line):

@@ -99,7 +99,7 @@ def test_its_own_words_are_written_read_and_advised() -> None:
         # M2 and M3 change places; spindle off is M45.
         dialect = replace(LinuxCnc.dialect, m_words=((3, 2), (2, 3), (5, 45)))
 
-        def length_words(self, tool: int) -> str:
+        def length_words(self, tool: int | str) -> str:
             return f"G43 H{tool} (LENGTH)"
 
     control = Own()
@@ -140,7 +140,7 @@ def test_nobody_asks_for_a_control_by_its_name() -> None:
     }
     assert named == {"settings.py"}
     for name in BY_NAME:
-        path = Path(mechwright_cam.__file__).parent / "controls" / f"{name}.py"
+        path = Path(mechwright_cam.__file__).parent / "controls" / f"{name.replace('-', '_')}.py"
         assert set(quoted.findall(path.read_text(encoding="utf-8"))) == {name}
 
 

@@ -1,11 +1,11 @@
-"""The five controls: kept texts, the contract, options, and what each control reads."""
+"""The built-in controls: kept texts, the contract, options, and what each control reads."""
 
 import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, CONTROLS, asked, interpret, prove
+from by_control import BY_NAME, EVERY, asked, interpret, prove
 from by_night import examples, thinned
 from golden_programs import FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
@@ -26,6 +26,7 @@ from mechwright_cam.controls.haas import Haas
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.mach3 import Mach3
 from mechwright_cam.controls.reading import Run
+from mechwright_cam.controls.siemens_840d import Siemens840D
 from mechwright_cam.machining import machine
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
@@ -71,6 +72,17 @@ class TestGrbl(ControlContract):
         return rf"T{tool.number}\nM0\n"  # touched off at the stop
 
 
+class TestSiemens840D(ControlContract):
+    control = Siemens840D
+
+    def code(self, text: str) -> list[str]:
+        """What MSG shows is no more a command than a comment."""
+        return super().code(re.sub(r'MSG\("[^"()]*"\)', "", text))
+
+    def length_offset(self, tool: Tool) -> str:
+        return rf"T{tool.number}\nM6\n[^T]*\bD1\b"
+
+
 # -- kept texts ---------------------------------------------------------------------------------------------
 
 TEXTS = texts()
@@ -101,7 +113,7 @@ def cuts(run: Run) -> np.ndarray:
 
 @pytest.mark.parametrize("program", [every_operation, with_options, sample_program], ids=lambda f: f.__name__)
 def test_all_controls_cut_the_same(program) -> None:
-    runs = {control: read(control, program()) for control in CONTROLS}
+    runs = {control: read(control, program()) for control in EVERY}
     for control, run in runs.items():
         # Grbl has no cycles: the others' expand to the same feeds.
         assert run.ended
@@ -109,7 +121,7 @@ def test_all_controls_cut_the_same(program) -> None:
         assert run.seconds.sum() == pytest.approx(runs["linuxcnc"].seconds.sum())
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", EVERY)
 def test_a_program_for_any_control_is_proven_as_that_control_reads_it(control: str) -> None:
     settings = {"control": control, "machine": {"retract_z": -2.0}}
     program = replace(plate_program(), machine=Machine(retract_z=-2))
@@ -119,7 +131,7 @@ def test_a_program_for_any_control_is_proven_as_that_control_reads_it(control: s
 
 
 def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
-    texts = {control: post_of(control).write(plate_program()) for control in CONTROLS}
+    texts = {control: post_of(control).write(plate_program()) for control in EVERY}
     job = plate_job()
     (astray,) = prove(texts["fanuc"], job, BY_NAME["linuxcnc"]).failures
     assert astray.message.startswith("line 17: nothing bounds how far LinuxCNC leaves the path")
@@ -135,7 +147,7 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
         prove(texts["mach3"], job, BY_NAME["grbl"])
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("control", EVERY)
 def test_planned_programs_are_proven_for_every_control(control: str) -> None:
     job = planned_job(control=control, machine={"retract_z": -2.0}, post={"restart": True})
     made = machine(job, post_of(control))
@@ -228,7 +240,7 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
     np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
 
 
-@pytest.mark.parametrize("control", thinned(3, CONTROLS, first=1))
+@pytest.mark.parametrize("control", thinned(3, EVERY, first=1))
 def test_a_long_program_is_read_and_proven(control: str) -> None:
     text = post_of(control).write(long_program(20_000))  # benchmarks/bench_controls.py times 100,000 moves
     assert prove(text, plate_job(), BY_NAME[control]).ok
@@ -280,7 +292,8 @@ def test_offsets_that_were_not_measured_cannot_be_written() -> None:
 @pytest.mark.parametrize(
     ("control", "offset", "has"),
     [
-        *[(control, "G59", True) for control in CONTROLS],
+        *[(control, "G57", True) for control in EVERY],
+        *[(control, "G59", control != "siemens-840d") for control in EVERY],
         ("linuxcnc", "G59.3", True),
         ("fanuc", "G59.1", False),
         ("fanuc", "G54.1 P48", True),
@@ -301,7 +314,7 @@ def test_an_offset_that_the_control_does_not_have_is_found(control: str, offset:
         assert {run.states[i].work_offset for i in run.state[run.cutting]} == {offset}
     else:
         assert offset in found[0].message
-        assert "G54 to G59" in found[0].remedy
+        assert f"G54 to G5{7 if control == 'siemens-840d' else 9}" in found[0].remedy
 
 
 def test_a_tool_number_beyond_the_control_s_table_is_refused() -> None:
@@ -322,5 +335,8 @@ def test_tool_tables() -> None:
     line = "T1 P1 Z81.5 D6 ;spot-6 spot-drill flute_length=8 point_angle=90\n"
     assert line in post_of("linuxcnc").tool_table(measured)[1]
     assert post_of("grbl").tool_table(measured) == ("", "")
+    name, text = post_of("siemens-840d").tool_table(measured)
+    assert name == "siemens-tools.csv"
+    assert text.splitlines()[:2] == ["tool,edge,description,length 1,radius", "1,D1,spot-6 spot-drill,81.5,3"]
     fanuc = interpret(post_of("fanuc").tool_table(measured)[1], BY_NAME["fanuc"])
     assert fanuc.ended

@@ -4,7 +4,7 @@ import difflib
 
 import numpy as np
 import pytest
-from by_control import CONTROLS, interpret
+from by_control import EVERY, interpret
 from by_night import by_night, thinned
 from golden_cases import CASES
 from golden_operations import FOLDER, made, texts
@@ -19,7 +19,7 @@ from mechwright_cam.controls.contract import Control
     ("operation", "control"),
     [
         case
-        for case in (*thinned(1, CASES, CONTROLS[:1]), *thinned(len(CONTROLS) - 1, CASES, CONTROLS[1:]))
+        for case in (*thinned(1, CASES, EVERY[:1]), *thinned(len(EVERY) - 1, CASES, EVERY[1:]))
         if case.values[1] in CASES[case.values[0]].controls
     ],
 )

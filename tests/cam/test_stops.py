@@ -80,9 +80,10 @@ def test_the_length_offset_is_stated_anew_after_a_stop(control: str) -> None:
 
 def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> None:
     text = "G21 G90 G17\nT1 M6\nG54 S1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\nG91 G28 Z0.\nG90\nG0 X3.\nM30\n"
-    for control, reader in BY_NAME.items():
+    for control in CONTROLS:
         if control == "grbl":
             continue
+        reader = BY_NAME[control]
         run = interpret(text, replace(reader.dialect, percent=True))
         assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)
 

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from mechwright_cam.shop.tool import Tool
 
 
+METRIC, INCH = "G21", "G20"
+"""The usual words for the units of a program."""
+
+
 class Control(Plugin):
     """Writes programs, reads them, and knows its tables, its limits and its words for the operator.
 
@@ -185,13 +189,29 @@ class Control(Plugin):
         """What changes to a tool."""
         return f"T{tool} {self.m(6)}"
 
-    def length_words(self, tool: int) -> str:
+    def length_words(self, tool: int | str) -> str:
         """What puts a tool's length offset in force."""
-        return f"G43 H{tool}"
+        return f"G43 {self.length_place(tool)}"
+
+    def length_place(self, tool: int | str) -> str:
+        """Where a tool's length stands."""
+        return f"H{tool}"
+
+    no_length: ClassVar[str] = "G49"
+    """What puts no length in force."""
+
+    @property
+    def unit_word(self) -> str:
+        """The word for the units of its programs."""
+        return INCH if self.units == "inch" else METRIC
 
     def setting_words(self, offset: str) -> str:
         """What sets a work offset, without its axes."""
         return next(row for row in self.work_offsets if row.has(offset)).setting(offset)
+
+    def height_words(self, offset: str, value: str) -> str:
+        """What sets the Z of a work offset to a value."""
+        return f"{self.setting_words(offset)} Z[{value}]"
 
     def retract_words(self, machine: "Machine") -> str:
         """What goes to the upper end of a machine."""

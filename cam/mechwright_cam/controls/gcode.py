@@ -5,7 +5,7 @@ A control is a subclass that says how it spells what differs, and how it reads (
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
@@ -20,6 +20,9 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 class GcodeControl(Sections):
     """A control that reads RS274 words."""
+
+    no_compensation: ClassVar[str] = "has no cutter compensation (G41, G42)"
+    """What is said of a control whose D offsets are none."""
 
     def write(self, program: Program) -> str:
         """The program text, lines ended by a line feed.
@@ -62,7 +65,7 @@ class GcodeControl(Sections):
             tool = section.tool
             if not compensates and tool in program.compensated:
                 raise ProgramError(
-                    f"{title} has no cutter compensation (G41, G42), and program {program.name} uses "
+                    f"{title} {self.no_compensation}, and program {program.name} uses "
                     'it; use cam.compensation = "computer"'
                 )
             if max(tool.number, tool.d_number if tool in program.compensated else 0) > self.highest_tool:
@@ -87,7 +90,7 @@ class GcodeControl(Sections):
             remedy = f"use one of: {', '.join(row.name for row in rows)}"
             found.append(Finding.error("cam.work-offset", "cam.work_offset", lack, remedy=remedy))
         if settings.compensation != "computer" and self.offsets.d is None:
-            lack = f"{self.title} has no cutter compensation (G41, G42)"
+            lack = f"{self.title} {self.no_compensation}"
             remedy = 'use compensation = "computer"'
             found.append(Finding.error("cam.compensation", "cam.compensation", lack, remedy=remedy))
         if settings.post.stage_tools and not self.stages:
@@ -140,9 +143,10 @@ class GcodeControl(Sections):
                 f"cam.post.offsets: program {program.name} is to set its offsets, and {missing[0]} is not "
                 "given; measure it, or leave the offsets to the operator"
             )
-        axes = [a.upper() + out.length(getattr(places, a)) for a in "xyz"]
         self.comment(out, "measured offsets")
-        out.line(self.setting_words(program.work_offset), *axes)
+        out.line(
+            self.write_offset(program.work_offset, {axis.upper(): getattr(places, axis) for axis in "xyz"})
+        )
         for tool in program.tools:
             for line in self.tool_words(tool):
                 out.line(line)

@@ -5,10 +5,10 @@ from dataclasses import replace
 from itertools import groupby
 
 from mechwright.contracts.finding import Finding, Severity
+from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
-from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
 from mechwright_cam.shop.machine import Machine

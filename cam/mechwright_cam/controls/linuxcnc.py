@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.lookahead.contract import Lookahead
@@ -11,7 +12,6 @@ from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
-from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Rapid, Tap

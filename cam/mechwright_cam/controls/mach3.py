@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 
 from mechwright.output.csv_text import csv_text
+from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
-from mechwright_cam.controls.writing.spelling import METRIC
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, Tap
 from mechwright_cam.shop.settings import CamSettings

@@ -7,7 +7,7 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
-SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
+SAFE_MODES = {"distance": "G90", "plane": "G17", "cutter compensation": "G40"}
 
 
 def retract(scene: Scene) -> str:
@@ -52,8 +52,7 @@ def modes(scene: Scene) -> Check:
         )
         return Check(False, message, line)
     if (step := first(scene.run.moving)) is not None:
-        inches = {"units": "G20"} if scene.control.units == "inch" else {}
-        words = {**SAFE_MODES, **inches}
+        words = {"units": scene.control.unit_word, **SAFE_MODES}
         missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")

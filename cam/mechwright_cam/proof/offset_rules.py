@@ -36,7 +36,7 @@ def length_offset(scene: Scene) -> Check:
     if (step := first((offset > 0) & ~np.isin(offset, list(scene.tools)))) is not None:
         message = f"H{offset[step]} is in force here, the length of no tool of this job; take its G43 out"
         return scene.bad(step, message)
-    return Check(True, "every tool moves Z under its own G43 H")
+    return Check(True, f"every tool moves Z under its own {scene.control.length_words('')}")
 
 
 def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:

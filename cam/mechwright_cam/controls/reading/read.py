@@ -49,6 +49,8 @@ def interpret(
         machine.x, machine.y, machine.z = start
         machine.offsets_are_zero = True
     text = text.replace("\r\n", "\n")
+    if dialect.translate is not None:
+        text = dialect.translate(text, block_delete)
     lines, plain = text.split("\n"), PlainLines(text, dialect)
     source = Lines(lines)
     others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.line_length)

@@ -120,7 +120,7 @@ class Sections(Drilling):
     def _machine_place(self, out: Writer, x: float | None, y: float | None) -> None:
         words = [f"{axis}{out.length(value)}" for axis, value in (("X", x), ("Y", y)) if value is not None]
         if words:
-            out.line("G53", "G0", *words)
+            out.line(*self.machine_words(), *words)
             out.motion = "G0"
             out.x = out.y = math.nan
 

@@ -1,9 +1,9 @@
 """What a control spells its own way: its words, its comments, and the few lines that differ."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
-from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.contract import METRIC, Control
 from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.controls.writing.text import comment_lines, number
@@ -12,8 +12,6 @@ from mechwright_cam.program.moves import ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
 
-METRIC, INCH = "G21", "G20"
-"""The words for the units of a program."""
 SHORT = {"mm": "mm", "inch": "in"}
 """Units as they stand behind a number."""
 
@@ -44,12 +42,8 @@ class Spelling(Control):
     @property
     def safe_modes(self) -> tuple[str, ...]:
         """The safe start in the units of the program."""
-        return tuple(self.unit_word if word == METRIC else word for word in self.modes)
-
-    @property
-    def unit_word(self) -> str:
-        """The word for the units of its programs."""
-        return INCH if self.units == "inch" else METRIC
+        metric = self.speaking("mm").unit_word
+        return tuple(self.unit_word if word == metric else word for word in self.modes)
 
     @property
     def corners(self) -> Corners:
@@ -79,6 +73,15 @@ class Spelling(Control):
     def retract_lines(self, z: float) -> Sequence[str]:
         """The lines that go to the machine's upper end, which is at machine Z z, mm."""
         return (f"G53 G0 Z{self.length(z)}",)
+
+    def machine_words(self) -> Sequence[str]:
+        """The words before axes that are machine coordinates, for a rapid."""
+        return ("G53", "G0")
+
+    def write_offset(self, offset: str, places: Mapping[str, float]) -> str:
+        """The line that sets a work offset, axis by axis, mm."""
+        axes = [axis + self.length(value) for axis, value in places.items()]
+        return " ".join([self.setting_words(offset), *axes])
 
     def retract(self, out: Writer) -> None:
         """Go to the machine's upper end."""

@@ -8,7 +8,7 @@ from mechwright_cam.program.moves import Feed, FeedArc, Program, ToolSection
 from mechwright_cam.shop.tool import Tool
 
 HIGHEST_NUMBER = 99999
-"""The largest N number that all five controls take."""
+"""The largest N number that all controls take."""
 AGREEING = TOLERANCES.arc_fit / 4
 """Radii at both ends of an arc that agree so well need no better centre, mm."""
 
@@ -220,4 +220,4 @@ def with_numbers(lines: list[str], step: int) -> list[str]:
 
 
 def _is_code(line: str) -> bool:
-    return not line.startswith(("%", "O", "("))
+    return not line.startswith(("%", "O", "(", ";"))

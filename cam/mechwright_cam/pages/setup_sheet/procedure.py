@@ -77,7 +77,7 @@ def steps(
         *(
             [_touch_off(job, control, tools, by_file=by_file)]
             if by_hand
-            else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools, control)]
+            else [_lengths(offset, tools, control, with_d=bool(offsets)), _check(offset, tools, control)]
         ),
         *(
             [Step("Set D, and bring the part to size", lines(offsets, control.offsets, to))]
@@ -304,9 +304,10 @@ def _height(offset: str, control: Control) -> Step:
     return Step(
         f"Set {offset} Z once, with the Z setter",
         (
-            "No length offset active: G49. Stand the setter (height h) on the clean top of the stock.",
+            f"No length offset active: {control.no_length}. Stand the setter (height h) on the clean top of "
+            "the stock.",
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
-            f"Enter {offset} Z = N − h on the offset page, or {control.setting_words(offset)} Z[N − h]. "
+            f"Enter {offset} Z = N − h on the offset page, or {control.height_words(offset, 'N − h')}. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
             "If the nose cannot reach, use the longest tool in its place for N: its H is 0, the others have "
             "negative H. Use the same one for all programs of the job, since they share the lengths.",
@@ -314,18 +315,18 @@ def _height(offset: str, control: Control) -> Step:
     )
 
 
-def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
+def _lengths(offset: str, tools: Sequence[int], control: Control, *, with_d: bool) -> Step:
     listed = ", ".join(f"T{tool}" for tool in tools)
     return Step(
         "Measure each tool's length offset",
         (
             f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
             "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
-            "Enter Hn = Zn − N as the length (Z) of that tool in the tool table"
+            f"Enter {control.length_place('n')} = Zn − N as the length (Z) of that tool in the tool table"
             + (". What goes into D comes below." if with_d else "."),
             "A tool that has its H from another program of the job keeps it.",
-            f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
-            f"{offset} Z names.",
+            f"The program calls {control.length_words('n')} after every tool change; that brings each tip to "
+            f"the surface that {offset} Z names.",
         ),
     )
 

@@ -95,6 +95,7 @@ def setup_html(
         "quantity": quantity(job),
         "control": control.name,
         "by_hand": not control.offsets.lengths,
+        "length_place": control.length_place,
         "table_words": control.table_words(tool_table) if tool_table else "",
         "design": design,
         "summary": summary,

@@ -113,7 +113,7 @@ def _tools(
                 {
                     "tool": tool,
                     "description": row.description,
-                    "length": f"H{tool.number}" if control.offsets.lengths else "–",
+                    "length": control.length_place(tool.number) if control.offsets.lengths else "–",
                     "diameter": "–",
                     "programs": [],
                     "bottom": 0.0,

@@ -1,0 +1,233 @@
+"""Programs in the language of Siemens controls, line by line in the words that the interpreter reads.
+
+What is read says one thing whatever the machine and earlier programs have set; all else is refused by its
+name. A line stays a line, so that what is found in the words is told by the line of the program.
+
+Glossary
+--------
+D
+    Cutting edge of the tool in the spindle, whose length (and radius) it puts in force; D0 takes both back.
+SUPA
+    Machine coordinates for one block: without frames. Without the tool's length it is only under D0.
+"""
+
+import re
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading.blocks import NUMBER, fail
+
+NAME = "SINUMERIK"
+LONGEST = 512
+"""Characters of a block."""
+INCHES, METRIC = "G700", "G710"
+G_WORDS = {code: code for code in ("G0", "G1", "G2", "G3", "G17", "G40", "G64", "G90", "G91", "G94")} | {
+    "G54": "G54",
+    "G55": "G55",
+    "G56": "G56",
+    "G57": "G57",
+    "G60": "G61",
+    INCHES: "G20",
+    METRIC: "G21",
+}
+"""G words, and what they are to the interpreter."""
+WORK_OFFSETS = frozenset({"G54", "G55", "G56", "G57"})
+INERT = frozenset({"COMPOF"})
+"""Words that take back what an earlier program has set, and change nothing else."""
+M_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
+_UNITS = "leaves feeds and offsets in other units; write G710, or G700 in inches"
+_SUPA = "leaves some frames in force; write SUPA"
+_NO_SIDE = "cutter compensation is not read; post the path of the tool's centre"
+_ROUNDING = "rounds corners as far as its settings let it; write G64, or G60 for exact stops"
+_FRAME = "shifts or turns the work; write G54 to G57"
+_CYCLE = "cycles are not read; post the moves of the holes"
+_JUMP = "parameters, jumps and calls are not read; post the program without them"
+REFUSED = {
+    **dict.fromkeys(("G70", "G71"), _UNITS),
+    **dict.fromkeys(("G53", "G153"), _SUPA),
+    **dict.fromkeys(("G41", "G42"), _NO_SIDE),
+    **dict.fromkeys(("G641", "G642", "G643", "G644", "G645", "CYCLE832", "CTOL", "OTOL", "ADIS"), _ROUNDING),
+    **dict.fromkeys(("COMPON", "COMPCURV", "COMPCAD", "COMPSURF"), "puts curves through lines; write COMPOF"),
+    **dict.fromkeys(("G58", "G59", "TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE"), _FRAME),
+    **dict.fromkeys(("MIRROR", "AMIRROR", "G500", "CYCLE800"), _FRAME),
+    **dict.fromkeys(("MCALL", "CYCLE"), _CYCLE),
+    **dict.fromkeys(("R", "IF", "GOTOF", "GOTOB", "WHILE", "FOR", "CALL", "DEF", "PROC"), _JUMP),
+    **dict.fromkeys(("M17", "RET"), _JUMP),
+    "T": "call tools by number, such as T3",
+    "(": "comments stand behind ;",
+    "TURN": "write a block for each turn",
+    "AC": "write places and centres as plain numbers",
+    "IC": "write places and centres as plain numbers",
+}
+"""Words that the control knows and that are not read, each with what to do instead."""
+_HEADER = re.compile(r"%_N_\w+_MPF\s*")
+_MESSAGE = re.compile(r'\s*(?:N[0-9]+\s*)?MSG\s*\(\s*(?:"([^"()]*)")?\s*\)\s*', re.IGNORECASE)
+_FRAME_SET = re.compile(
+    rf"\s*(?:N[0-9]+\s*)?\$P_UIFR\[([1-4])\]\s*=\s*CTRANS\(X,({NUMBER}),Y,({NUMBER}),Z,({NUMBER})\)\s*",
+    re.IGNORECASE,
+)
+_WORD = re.compile(rf"\s*(?:([A-Z]{{2,}})(?:=({NUMBER}))?(?![\w=.+-])|([A-Z])=?({NUMBER})(?![0-9.]*[=(]))")
+_UNKNOWN = re.compile(r"\s*([A-Z_$]+[0-9]*|.)")
+_ODD = re.compile(r"[^\t -~]")
+_AXES = frozenset("XYZ")
+
+
+def translated(text: str, block_delete: bool) -> str:
+    r"""The program in words that the interpreter reads, as many lines, up to its end.
+
+    Raises
+    ------
+    ProgramError
+        A word is not read, or says something only together with what the text does not say.
+
+    Examples
+    --------
+    >>> translated("G17 G710 G90 ; modes\nG0 SUPA Z0 D0\nG2 X5 Y5 CR=5 F90\nG4 F0.5", False)
+    'G17 G21 G90 ; modes\nG0 G53 Z0 G49\nG2 X5 Y5 R5 F90\nG4 P0.5'
+    """
+    lines, reading = text.split("\n"), _Reading()
+    for index, line in enumerate(lines):
+        if index == 0 and _HEADER.fullmatch(line):
+            lines[0] = ""
+            continue
+        lines[index] = reading.line(index + 1, line, block_delete)
+        if reading.ended:
+            break
+    return "\n".join(lines)
+
+
+class _Reading:
+    """What the words of a program say together."""
+
+    def __init__(self) -> None:
+        self.edge: int | None = None
+        """D in force; None while a setting of the machine decides."""
+        self.units = ""
+        self.shifted = False
+        """Whether a work offset has been written and not been called since."""
+        self.ended = False
+
+    def line(self, number: int, text: str, block_delete: bool) -> str:
+        """One line translated."""
+        if len(text) > LONGEST or _ODD.search(text.partition(";")[0]):
+            self.ended = True  # nobody reads the line, and none behind it
+            return text
+        if match := _MESSAGE.fullmatch(text):
+            return f"; {match[1]}" if match[1] else ""
+        code, mark, comment = text.partition(";")
+        bare = code.lstrip(" \t")
+        deleted = bare.startswith("/")
+        if deleted:
+            bare = bare[1:]
+            if bare[:1].isdigit():
+                raise fail(number, f"/{bare[0]} is a level of its own; write / for lines that may be skipped")
+            if block_delete:
+                return "/" + mark + comment
+        made = self._frame(bare) or self._block(number, bare)
+        return ("/" if deleted else "") + made + (" " + mark if made and mark else mark) + comment
+
+    def _frame(self, code: str) -> str:
+        """A work offset that is written by the program."""
+        match = _FRAME_SET.fullmatch(code)
+        if match is None:
+            return ""
+        self.shifted = True
+        return f"G10 L2 P{match[1]} X{match[2]} Y{match[3]} Z{match[4]}"
+
+    def _block(self, number: int, code: str) -> str:
+        words = self._words(number, code.upper())
+        names = {name for name, _ in words}
+        if ("G", "4") in words:
+            return self._dwell(number, words, names)
+        made = [self._word(number, name, value) for name, value in words]
+        self._together(number, words, names)
+        return " ".join(word for word in made if word)
+
+    def _words(self, number: int, code: str) -> list[tuple[str, str]]:
+        """Name and value of each word; G and M without leading zeros."""
+        words, at = [], 0
+        code = code.rstrip(" \t")
+        while at < len(code):
+            match = _WORD.match(code, at)
+            if match is None:
+                found = _UNKNOWN.match(code, at)
+                word = found[1] if found else code[at:]
+                raise self._refused(number, word)
+            name, value = match[1] or match[3], match[2] or match[4] or ""
+            if name in {"G", "M", "T", "D", "N"}:
+                if not value.isdigit():
+                    raise fail(number, f"{name}{value} is no whole number")
+                value = str(int(value)) if name != "N" else value
+            if name in {"N", "G", "M", "D"} and "=" in match[0]:
+                raise fail(number, f"{match[0].strip()} is no word of one axis or spindle; take the = out")
+            words.append((name, value))
+            at = match.end()
+        return words
+
+    def _refused(self, number: int, word: str) -> ProgramError:
+        name = word if word in REFUSED else re.sub(r"[0-9]+$", "", word)
+        what = REFUSED.get(name, "post the program without it")
+        return fail(number, f"{word} is no word that is read in programs for {NAME}; {what}")
+
+    def _dwell(self, number: int, words: list[tuple[str, str]], names: set[str]) -> str:
+        """G4 stands alone; its F is a time, and no feed."""
+        seconds = dict(words).get("F", "")
+        if names - {"N", "G", "F"} or not seconds or len(words) - ("N" in names) != 2:
+            raise fail(number, "G4 stands in a block of its own, with F, its seconds (S, turns, is not read)")
+        return f"G4 P{seconds}"
+
+    def _word(self, number: int, name: str, value: str) -> str:
+        if name == "G":
+            return self._g(number, f"G{value}")
+        if name == "M":
+            return self._m(number, int(value))
+        if name == "D":
+            if value not in {"0", "1"}:
+                raise fail(
+                    number, f"D{value} is an edge that the tools of a job do not have; write D1, or D0"
+                )
+            self.edge = int(value)
+            return "G43" if self.edge else "G49"
+        if name == "SUPA" and not value:
+            return "G53"
+        if name in INERT and not value:
+            return ""
+        if name == "CR" and value:
+            return f"R{value}"
+        if len(name) == 1 and name in "NXYZIJFST":
+            return f"{name}{value}"
+        raise self._refused(number, name)
+
+    def _g(self, number: int, word: str) -> str:
+        if word not in G_WORDS:
+            raise self._refused(number, word)
+        if word in {INCHES, METRIC}:
+            if self.units not in {"", word}:
+                raise fail(number, f"{word} in a program that has begun with {self.units}; keep to one")
+            self.units = word
+        if word in WORK_OFFSETS:
+            self.shifted = False
+        return G_WORDS[word]
+
+    def _m(self, number: int, code: int) -> str:
+        if code not in M_CODES:
+            raise self._refused(number, f"M{code}")
+        if code in {2, 30}:
+            self.ended = True
+        if code == 6:
+            self.edge = None  # which edge holds after a change, a setting of the machine says
+            return "M6 G49"
+        return f"M{code}"
+
+    def _together(self, number: int, words: list[tuple[str, str]], names: set[str]) -> None:
+        """Refuse words that mean something only with others."""
+        if "D" in names and ("M", "6") in words:
+            raise fail(number, "D beside M6; write it in a block behind the change")
+        if "SUPA" in names:
+            if self.edge != 0:
+                raise fail(
+                    number, "SUPA counts the tool's length in while an edge is in force; write D0 beside it"
+                )
+        elif self.shifted and names & _AXES:
+            raise fail(
+                number, "a work offset that is written holds from its next call on; write it, such as G54"
+            )

@@ -1,0 +1,152 @@
+"""Siemens SINUMERIK 840D sl and its kin (828D, ONE), in their own language: see docs/controls.md."""
+
+import re
+from collections.abc import Mapping, Sequence
+
+from mechwright.output.csv_text import csv_text
+from mechwright_cam.controls.dialect import EXACT, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
+from mechwright_cam.controls.reading import sinumerik
+from mechwright_cam.controls.writing.text import comment_lines, number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+G54_TO_G57 = WorkOffsets("G54 to G57", r"G(5[4-7])", "$P_UIFR[{}]", 53)
+
+
+class Siemens840D(GcodeControl):
+    """SINUMERIK 840D: tools by T and M6, lengths by D1, retracts by SUPA with D0, G710 and G700 for units.
+
+    No cycles and no cutter compensation: holes are written out, and paths are those of the tool's centre.
+    """
+
+    name = "siemens-840d"
+    title = "SINUMERIK 840D"
+    suffix = ".mpf"
+    dialect = Dialect(
+        # The codes of the interpreter that the words of the control come to.
+        g_codes=frozenset(
+            {0, 10, 20, 30, 40, 100, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 610, 640}
+            | {900, 910, 940}
+        ),
+        translate=sinumerik.translated,
+        m_codes=sinumerik.M_CODES,
+        arc_absolute=0.01,  # MD 21000; MD 21010 is the part of the radius
+        arc_chord=0.0,
+        line_length=sinumerik.LONGEST,
+        largest_n=99_999_999,
+        tables=frozenset({2}),
+        length_write=None,
+        decimals=3,
+        decimals_inch=4,
+        percent=False,
+        change_stops_coolant=True,
+        feed_mode_stays=True,
+        corners=EXACT,  # how far G64 rounds corners, machine data say
+    )
+    offsets = OffsetTables(d=None)
+    no_compensation = "is written and read here without cutter compensation (G41, G42)"
+    work_offsets = (G54_TO_G57,)
+    no_length = "D0"
+    stages = True
+    highest_tool = 32000
+    forbidden = '%;"$'
+    modes = ("G17", sinumerik.METRIC, "G40", "G90", "G94", "COMPOF")
+    leftover = (
+        "a frame (TRANS, ROT, SCALE, MIRROR, a basic or an external one) of an earlier program or of hands: "
+        "press Reset, and look that the frames but G54 to G57 are 0"
+    )
+
+    @property
+    def unit_word(self) -> str:
+        """G710 and G700, which hold for feeds and offsets as well."""
+        return sinumerik.INCHES if self.units == "inch" else sinumerik.METRIC
+
+    def files(self, program: Program) -> dict[str, str]:
+        """One file, whose name the control takes: letters, digits and _, and two letters first."""
+        # Names have no capitals: two that differ stay different.
+        name = program.name.replace("_", "_U").replace("-", "_")
+        return {name if re.match(r"[A-Za-z]{2}", name) else f"P_{name}": self.write(program)}
+
+    def retract_lines(self, z: float) -> Sequence[str]:
+        """Machine coordinates for one block, without the tool's length."""
+        return (f"G0 SUPA Z{self.length(z)} D0",)
+
+    def machine_words(self) -> Sequence[str]:
+        """The words before axes that are machine coordinates."""
+        return ("G0", "SUPA")
+
+    def change_words(self, tool: int) -> str:
+        """What changes to a tool."""
+        return f"T{tool}, then {self.m(6)}"
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """T, which may have been made ready, and the change in a block of its own."""
+        out.line(f"T{section.tool.number}")
+        out.line(self.m(6))
+
+    def length_words(self, tool: int | str) -> str:  # noqa: ARG002 - D counts the edges of the tool in the spindle
+        """What puts a tool's length in force: its first edge."""
+        return "D1"
+
+    def length_place(self, tool: int | str) -> str:  # noqa: ARG002
+        """Where a tool's length stands: its first edge."""
+        return "D1"
+
+    def tool_note(self, tool: Tool) -> str:
+        """Without an H number."""
+        return super().tool_note(tool).replace(f" H{tool.number} ", " ", 1)
+
+    def comment(self, out: Writer, text: str) -> None:
+        """Write a comment, as many lines as it takes."""
+        for line in comment_lines(text, forbidden=self.forbidden):
+            out.line(f"; {line}")
+
+    def message(self, out: Writer, text: str) -> None:
+        """Show a message on the control's screen."""
+        for line in comment_lines(text, forbidden=self.forbidden):
+            out.line(f'MSG("{line}")')
+
+    def blending(self, exact: bool) -> list[str]:
+        """G60 stops at every corner; G64 keeps moving."""
+        return ["G60" if exact else "G64"]
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """No cycles: what they do hangs on their version."""
+        self.drill_in_moves(out, hole)
+
+    def dwell(self, out: Writer, seconds: float) -> None:
+        """Wait; F is in seconds here."""
+        out.line("G4", "F" + number(seconds, 3))
+
+    def height_words(self, offset: str, value: str) -> str:
+        """What sets the Z of a work offset."""
+        return f"{self.setting_words(offset)[:-1]},Z,TR]={value}"
+
+    def write_offset(self, offset: str, places: Mapping[str, float]) -> str:
+        """A frame with all three axes; fine offset and turn become 0."""
+        axes = ",".join(f"{axis},{self.length(value)}" for axis, value in places.items())
+        return f"{self.setting_words(offset)}=CTRANS({axes})"
+
+    def tool_words(self, tool: Tool) -> list[str]:  # noqa: ARG002 - T numbers of the tool list are the machine's own
+        """Lengths are entered into the tool list."""
+        return []
+
+    def needs(self, settings: CamSettings) -> Sequence[str]:  # noqa: ARG002
+        """Tools by number, machine Z of the retract."""
+        return [
+            "Tools are called by number (T3): where the tool list has names, name each tool by its number.",
+            "G0 SUPA Z goes to machine Z, without frames and tool length: it has to be the upper end.",
+        ]
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """``siemens-tools.csv``: what to type into the tool list; D1 holds length and radius."""
+        unit = "" if self.units == "mm" else " in"
+        table: list[list[object]] = [["tool", "edge", "description", f"length 1{unit}", f"radius{unit}"]]
+        for place, tool in sorted({tool.number: tool for tool in tools}.items()):
+            length = "" if tool.length is None else self._said(tool.worn_length)
+            table.append([place, "D1", f"{tool.name} {tool.kind}", length, self._said(tool.radius)])
+        return "siemens-tools.csv", csv_text(table)

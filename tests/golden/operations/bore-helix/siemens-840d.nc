@@ -1,0 +1,81 @@
+; program bore-helix, SINUMERIK 840D
+; part bore-helix, aluminium, 4 mm thick
+; stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000
+; origin: axis of the part, Z0 on top of the stock
+; origin G54, Z0 on top of the stock, units mm and mm/min
+; T23 D 8 mm: mill-8, end mill
+G17 G710 G40 G90 G94 COMPOF
+G64
+G0 SUPA Z0 D0
+; operation: bore: bore
+T23
+M6
+G54 S8754 M3
+G0 X2.8 Y0
+D1 Z5
+M8
+Z1
+G1 Z0 F1960
+G3 X-2.8 Y0 Z-0.43 I-2.8 J0 F807
+X2.8 Y0 Z-0.86 I2.8 J0
+X-2.8 Y0 Z-1.29 I-2.8 J0
+X2.8 Y0 Z-1.72 I2.8 J0
+X-2.8 Y0 Z-2.15 I-2.8 J0
+X2.8 Y0 Z-2.58 I2.8 J0
+X-2.8 Y0 Z-3.01 I-2.8 J0
+X2.8 Y0 Z-3.44 I2.8 J0
+X-2.8 Y0 Z-3.87 I-2.8 J0
+X2.8 Y0 Z-4.3 I2.8 J0
+X-2.8 Y0 I-2.8 J0
+X2.8 Y0 I2.8 J0
+G1 X0 F1960
+G0 Z5
+; operation: bore: finish
+Z1
+G1 Z-4.3 F3503
+G3 X2.999 Y0 I1.5 J0 F1501
+X-2.999 Y0 I-2.999 J0
+X2.999 Y0 I2.999 J0
+X0 Y0 I-1.499 J0
+X2.999 Y0 I1.5 J0
+X-2.999 Y0 I-2.999 J0
+X2.999 Y0 I2.999 J0
+X0 Y0 I-1.499 J0
+G0 Z5
+; operation: seat: bore
+X3.2
+Z1
+G1 Z0 F1960
+G3 X-3.2 Y0 Z-0.5 I-3.2 J0 F871
+X3.2 Y0 Z-1 I3.2 J0
+X-3.2 Y0 Z-1.5 I-3.2 J0
+X3.2 Y0 Z-2 I3.2 J0
+X-3.2 Y0 I-3.2 J0
+X3.2 Y0 I3.2 J0
+G1 X0 F1960
+X-3.175
+G3 X4.5 Y0 I3.837 J0 F1038
+X-4.5 Y0 I-4.5 J0
+X4.5 Y0 I4.5 J0
+G1 X-4.475 F1960
+G3 X5.8 Y0 I5.137 J0 F1160
+X-5.8 Y0 I-5.8 J0
+X5.8 Y0 I5.8 J0
+G0 Z5
+; operation: seat: finish
+X0
+Z1
+G1 Z-2 F3921
+G3 X5.999 Y0 I3 J0 F2353
+X-5.999 Y0 I-5.999 J0
+X5.999 Y0 I5.999 J0
+X0 Y0 I-2.999 J0
+X5.999 Y0 I3 J0
+X-5.999 Y0 I-5.999 J0
+X5.999 Y0 I5.999 J0
+X0 Y0 I-2.999 J0
+G0 Z5
+M9
+M5
+G0 SUPA Z0 D0
+M30

@@ -1,0 +1,44 @@
+; program chip-break, SINUMERIK 840D
+; part chip-break, aluminium, 18 mm thick
+; stock 40.00 x 30.00 x 18 mm, from X-20.000 Y-15.000
+; origin: axis of the part, Z0 on top of the stock
+; drills go 1.80 mm below the stock: leave room under the holes
+; origin G54, Z0 on top of the stock, units mm and mm/min
+; T7 D 5 mm: drill-5, drill
+G17 G710 G40 G90 G94 COMPOF
+G64
+G0 SUPA Z0 D0
+; operation: drill 5
+T7
+M6
+G54 S4456 M3
+G0 X-10 Y5
+D1 Z5
+M8
+Z1
+G1 Z-4 F267
+G0 Z-3.75
+G1 Z-9
+G0 Z-8.75
+G1 Z-14
+G0 Z-13.75
+G1 Z-19
+G0 Z-18.75
+G1 Z-19.803
+G0 Z5
+X10 Y-5
+Z1
+G1 Z-4
+G0 Z-3.75
+G1 Z-9
+G0 Z-8.75
+G1 Z-14
+G0 Z-13.75
+G1 Z-19
+G0 Z-18.75
+G1 Z-19.803
+G0 Z5
+M9
+M5
+G0 SUPA Z0 D0
+M30

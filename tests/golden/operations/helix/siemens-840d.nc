@@ -1,0 +1,45 @@
+; program helix, SINUMERIK 840D
+; part helix, aluminium, 4 mm thick
+; stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000
+; origin: axis of the part, Z0 on top of the stock
+; origin G54, Z0 on top of the stock, units mm and mm/min
+; T23 D 8 mm: mill-8, end mill
+G17 G710 G40 G90 G94 COMPOF
+G64
+G0 SUPA Z0 D0
+; operation: seat: rough
+T23
+M6
+G54 S8754 M3
+G0 X3.799 Y0
+D1 Z5
+M8
+Z1
+G1 Z0 F1960
+G3 X-2.345 Y2.989 Z-0.712 I-3.801 J-0.004 F980
+X-1.068 Y-3.646 Z-1.41 I2.35 J-2.988
+X3.799 Y0 Z-2 I1.065 J3.65
+X-2.345 Y2.989 I-3.801 J-0.004 F1960
+X-1.068 Y-3.646 I2.35 J-2.988
+X3.799 Y0 I1.065 J3.65
+G0 Z5
+; operation: seat: finish
+X1.998 Y-2
+Z1
+G1 Z-2 F3921
+G3 X3.998 Y0 I0 J2 F1307
+X-2.397 Y3.2 I-3.998 J0 F1960
+X-1.125 Y-3.837 I2.397 J-3.2
+X3.998 Y0 I1.124 J3.838
+X1.998 Y2 I-2 J0 F1307
+G1 Y-2 F3921
+G3 X3.998 Y0 I0 J2 F1307
+X-2.397 Y3.2 I-3.998 J0 F1960
+X-1.125 Y-3.837 I2.397 J-3.2
+X3.998 Y0 I1.124 J3.838
+X1.998 Y2 I-2 J0 F1307
+G0 Z5
+M9
+M5
+G0 SUPA Z0 D0
+M30

@@ -1,0 +1,60 @@
+; program second-side, SINUMERIK 840D
+; part second-side, aluminium, 6 mm thick
+; stock 40.00 x 30.00 x 6 mm, from X-20.000 Y-15.000
+; origin: axis of the part, Z0 on top of the stock
+; origin G54, Z0 on top of the stock, units mm and mm/min
+; T24 D 6 mm: mill-6, end mill
+G17 G710 G40 G90 G94 COMPOF
+G64
+G0 SUPA Z0 D0
+; operation: bore: bore
+T24
+M6
+G54 S11671 M3
+G0 X1.8 Y0
+D1 Z5
+M8
+Z1
+G1 Z0 F1470
+G3 X-1.8 Y0 Z-0.287 I-1.8 J0 F551
+X1.8 Y0 Z-0.573 I1.8 J0
+X-1.8 Y0 Z-0.86 I-1.8 J0
+X1.8 Y0 Z-1.146 I1.8 J0
+X-1.8 Y0 Z-1.432 I-1.8 J0
+X1.8 Y0 Z-1.719 I1.8 J0
+X-1.8 Y0 Z-2.005 I-1.8 J0
+X1.8 Y0 Z-2.291 I1.8 J0
+X-1.8 Y0 Z-2.578 I-1.8 J0
+X1.8 Y0 Z-2.864 I1.8 J0
+X-1.8 Y0 Z-3.15 I-1.8 J0
+X1.8 Y0 Z-3.437 I1.8 J0
+X-1.8 Y0 Z-3.723 I-1.8 J0
+X1.8 Y0 Z-4.01 I1.8 J0
+X-1.8 Y0 Z-4.296 I-1.8 J0
+X1.8 Y0 Z-4.582 I1.8 J0
+X-1.8 Y0 Z-4.869 I-1.8 J0
+X1.8 Y0 Z-5.155 I1.8 J0
+X-1.8 Y0 Z-5.441 I-1.8 J0
+X1.8 Y0 Z-5.728 I1.8 J0
+X-1.8 Y0 Z-6.014 I-1.8 J0
+X1.8 Y0 Z-6.3 I1.8 J0
+X-1.8 Y0 I-1.8 J0
+X1.8 Y0 I1.8 J0
+G1 X0 F1470
+G0 Z5
+; operation: bore: finish
+Z1
+G1 Z-6.3 F2252
+G3 X1.999 Y0 I1 J0 F901
+X-1.999 Y0 I-1.999 J0
+X1.999 Y0 I1.999 J0
+X0 Y0 I-0.999 J0
+X1.999 Y0 I1 J0
+X-1.999 Y0 I-1.999 J0
+X1.999 Y0 I1.999 J0
+X0 Y0 I-0.999 J0
+G0 Z5
+M9
+M5
+G0 SUPA Z0 D0
+M30
