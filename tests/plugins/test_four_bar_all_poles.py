@@ -12,6 +12,7 @@ from mechwright.mechanics.continuation.loops import new_ones
 from mechwright.mechanics.continuation.paths import tracked
 from mechwright_four_bar.all_poles import FILE, SOLUTIONS, all_linkages
 from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import completed, search
 from mechwright_four_bar.pole_system import TWO_POLES, any_parameters, any_solution
@@ -53,8 +54,11 @@ def test_all_solutions_of_the_reference_are_there_and_proven(case):
         assert len(same) == 1, wanted
     for one in every.linkages:
         miss = np.abs(poles_of(one.bar, one.phi) - problem(case).targets)
-        assert miss[0] < 1e-6
-        assert (miss[1] < 1e-6) == one.one_branch
+        # Near a toggle rounded lengths lose digits.
+        loop = close(one.bar, one.phi)
+        room = np.abs(np.sin(np.angle(loop.coupler.direction / loop.follower.direction))).min()
+        assert miss[0] < 1e-9 / room**3
+        assert (miss[1] < 1e-9 / room**3) == one.one_branch
 
 
 def test_linkages_that_no_start_led_to_are_added():
