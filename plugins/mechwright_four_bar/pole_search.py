@@ -1,13 +1,14 @@
 """All four-bars whose coupler has its acceleration pole in prescribed places."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.multistart import distinct, least_squares
+from mechwright_four_bar.all_poles import Linkage
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
@@ -109,6 +110,22 @@ def _solutions(problem: PoleProblem, unknowns: Array) -> list[PoleSolution]:
         return []
     rows = np.array([_features(found.bar, found.phi) for found in solutions])
     return [solutions[index] for index in distinct(rows, SAME)]
+
+
+def completed(
+    problem: PoleProblem, found: Iterable[PoleSolution], all_of_them: Iterable[Linkage]
+) -> tuple[PoleSolution, ...]:
+    """Solutions that starts led to, with those of a complete solution that they missed."""
+    answer = list(found)
+    for one in all_of_them:
+        rows = [_features(other.bar, other.phi) for other in answer if other.bar.branch == one.bar.branch]
+        if distinct(np.array([*rows, _features(one.bar, one.phi)]), SAME)[-1] < len(rows):
+            continue
+        bar, phi = polished(one.bar, one.phi, problem, _free(problem))
+        residual = certain_residual(bar, phi, problem)
+        if residual <= RESIDUAL:
+            answer.append(PoleSolution(bar, phi % math.tau, residual))
+    return tuple(answer)
 
 
 def _free(problem: PoleProblem) -> list[list[int]]:

@@ -6,11 +6,12 @@ import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
+from mechwright_four_bar.all_poles import AllPoles, all_linkages
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import PoleSolution, search
+from mechwright_four_bar.pole_search import PoleSolution, completed, search
 from mechwright_four_bar.requirements import PolesRequirement
 
 
@@ -32,10 +33,16 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
 
     All places lie on one branch, hence in one circuit. The designs are sorted by their transmission angle.
     Where none is found, linkages whose crank does not turn are searched too, to say what there is.
+
+    Two poles with a given turn and ground, at constant speed, are also solved completely, and the first
+    finding says how many solutions of how many are known; of others it says in how many starts linkages were
+    sought.
     """
     problem = problem_of(wanted, full_turn=True)
     result = search(problem, wanted.starts, wanted.seed, lambda part: progress(0.5 * part, "full turns"))
-    turning = [one for one in result.solutions if one.bar.kind.full_turn]
+    every = _every(wanted)
+    solutions = completed(problem, result.solutions, every.turning) if every is not None else result.solutions
+    turning = [one for one in solutions if one.bar.kind.full_turn]
     least = math.radians(wanted.least_transmission_angle)
     good = sorted(
         (one for one in turning if one.bar.least_transmission_angle() >= least),
@@ -55,11 +62,11 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
         len(good),
     )
     if candidates:
-        notes = _notes(problem, turning, len(candidates))
+        notes = _notes(problem, turning, len(candidates), every, wanted)
         if common is None:
             notes.append(of_several_ratios("poles.ratios", wanted.acceleration_ratios))
         return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
-    refusal = _refusal(wanted, result.nearest, turning, bool(good), reason, progress)
+    refusal = _refusal(wanted, result.nearest, turning, bool(good), reason, every, progress)
     return Synthesis((), (refusal,), rejected.reasons)
 
 
@@ -75,15 +82,38 @@ def _found(one: PoleSolution, ratio: float) -> Found:
     return Found(one.bar, Scalar(one.residual, "mm"), figures, acceleration_ratio=ratio)
 
 
-def _notes(problem: PoleProblem, turning: list[PoleSolution], given: int) -> list[Finding]:
-    infinite = " of infinitely many" if problem.freedom > 0 else ""
-    return [
-        Finding.note(
-            "poles.found",
-            f"{len(turning)} linkages{infinite} with a full turn were found, {given} of them are given",
-            float(len(turning)),
+def _every(wanted: PolesRequirement) -> AllPoles | None:
+    """All four-bars through two poles with a given turn and ground, at constant speed; None for others."""
+    if len(wanted.crank_turns) != 2 or wanted.ground is None or wanted.ground_angle is None:
+        return None
+    if any(wanted.acceleration_ratios):
+        return None
+    return all_linkages(wanted.poles, wanted.crank_turns[1], wanted.ground_angle, wanted.ground)
+
+
+def _notes(
+    problem: PoleProblem,
+    turning: list[PoleSolution],
+    given: int,
+    every: AllPoles | None,
+    wanted: PolesRequirement,
+) -> list[Finding]:
+    starts = 2 * wanted.starts
+    if every is not None:
+        lost = len(every.turning) - len(turning)
+        near = f", {lost} so near to a toggle that rounded lengths miss the poles" if lost > 0 else ""
+        said = f"{every.count}{near}; {given} of them are given"
+    elif problem.freedom > 0:
+        said = (
+            f"{len(turning)} linkages of infinitely many with a full turn were found in {starts} starts, "
+            f"{given} of them are given"
         )
-    ]
+    else:
+        said = (
+            f"{len(turning)} linkages with a full turn were found in {starts} starts, {given} of them are "
+            "given; whether there are more is not known"
+        )
+    return [Finding.note("poles.found", said, float(len(turning)))]
 
 
 def _refusal(
@@ -92,6 +122,7 @@ def _refusal(
     turning: list[PoleSolution],
     good: bool,
     reason: str,
+    every: AllPoles | None,
     progress: Progress,
 ) -> Finding:
     if good:
@@ -122,8 +153,9 @@ def _refusal(
     return Finding.error(
         "poles.none",
         "crank",
-        f"no linkage with a full turn was found whose poles lie there{without}: the nearest one misses them "
-        f"by {nearest:.3g} mm in the mean",
+        f"no linkage with a full turn was found in {2 * wanted.starts} starts whose poles lie there"
+        f"{without}: the nearest one misses them by {nearest:.3g} mm in the mean"
+        + (f"; {every.count}" if every is not None else ""),
         nearest,
         0.0,
         "mm",

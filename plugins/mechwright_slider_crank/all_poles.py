@@ -11,10 +11,10 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from flint import acb, arb, ctx
+from flint import acb, ctx
 
 from mechwright.mechanics.continuation import Balls, Proven, Solutions, all_solutions, read
-from mechwright.mechanics.continuation.certificate import BITS
+from mechwright.mechanics.continuation.certificate import BITS, first_pair_conjugate, place, turned
 from mechwright_slider_crank.figures import crank_turns
 from mechwright_slider_crank.pole_system import TWO_POLES, any_parameters, lengths, rates
 
@@ -96,21 +96,11 @@ def all_linkages(poles: tuple[tuple[float, float], ...], rotation: float, direct
     """
     size = max(math.hypot(*pole) for pole in poles)
     with ctx.workprec(BITS):
-        back = _turn(-direction)
-        places = [acb(arb(repr(x)), arb(repr(y))) * back / size for x, y in poles]
-        parameters = np.array([*places, *(one.conjugate() for one in places), _turn(rotation)], dtype=object)
-    found = all_solutions(TWO_POLES, read(FILE, TWO_POLES), parameters, _conjugate, any_parameters)
+        back = turned(-direction)
+        places = [place(pole) * back / size for pole in poles]
+        parameters = np.array([*places, *(one.conjugate() for one in places), turned(rotation)], dtype=object)
+    found = all_solutions(TWO_POLES, read(FILE, TWO_POLES), parameters, first_pair_conjugate, any_parameters)
     return AllPoles(found, tuple(_linkage(one, parameters, size) for one in found.real))
-
-
-def _turn(degrees: float) -> acb:
-    half = arb(repr(degrees)) / 180
-    return acb(half.cos_pi(), half.sin_pi())
-
-
-def _conjugate(unknowns: Balls) -> Balls:
-    pin, pin_, *omegas = (one.conjugate() for one in unknowns)
-    return np.array([pin_, pin, *omegas], dtype=object)
 
 
 def _linkage(one: Proven, parameters: Balls, size: float) -> Linkage:

@@ -44,6 +44,24 @@ def middle(values: Iterable[acb]) -> Balls:
     return np.array([one.mid() for one in values], dtype=object)
 
 
+def turned(degrees: float) -> acb:
+    """exp(i φ) of an angle that stands for the decimal number that it is written as."""
+    half_turns = arb(repr(float(degrees))) / 180
+    return acb(half_turns.cos_pi(), half_turns.sin_pi())
+
+
+def place(point: tuple[float, float]) -> acb:
+    """X + i y of decimal numbers."""
+    x, y = point
+    return acb(arb(repr(float(x))), arb(repr(float(y))))
+
+
+def first_pair_conjugate(unknowns: Balls) -> Balls:
+    """The conjugate of unknowns whose first two are isotropic coordinates and whose others are numbers."""
+    first, second, *others = (one.conjugate() for one in unknowns)
+    return np.array([second, first, *others], dtype=object)
+
+
 def column(values: Balls) -> acb_mat:
     """Balls (m,) as a matrix of one column."""
     return acb_mat(len(values), 1, values.tolist())
