@@ -88,6 +88,15 @@ def test_equal_ratios_and_whole_numbers():
         ({"constraints": {"lean": {"at_most": "3 kg"}}}, "cannot be read in deg"),
         ({"columns": ["speed"]}, "study.columns: unknown column"),
         ({"refine": 1, "objectives": {}}, "needs objectives"),
+        ({"ranges": {"x": {"least": 0, "most": 1}}}, "study.ranges.x: unknown key 'most'"),
+        ({"ranges": {"x": 3}}, "study.ranges.x: is 3; write a table [study.ranges.x]"),
+        (
+            {"method": "random", "count": 10**12},
+            "1,000,000,000,000 designs in batches of 64 make 15,625,000,000 tables; at most 262,144",
+        ),
+        ({"method": "random", "count": (1 << 18) * 5 + 1, "batch": 5}, "make 262,145 tables"),
+        ({"method": "random", "count": 1 << 41}, "study.count: "),
+        ({"batch": 1 << 23}, "study.batch: "),
     ],
 )
 def test_what_a_study_cannot_ask_for_is_one_line(changed, said):
@@ -95,6 +104,12 @@ def test_what_a_study_cannot_ask_for_is_one_line(changed, said):
         study(**changed)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+    assert str(caught.value).count("bowl.toml") == 1
+
+
+def test_a_study_may_have_as_many_tables_as_can_be_listed():
+    asked = study(method="random", count=(1 << 18) * 5, batch=5)
+    assert asked.batches == 1 << 18
 
 
 def test_columns_are_those_of_solve_with_angles_in_degrees():

@@ -16,6 +16,8 @@ from mechwright.sweep.task import fingerprint
 
 COMMAND = "sweep"
 BEGUN = "study.json"
+BEGUN_LIMIT = 10_000
+"""Bytes of that file, which holds three short texts."""
 SHARDS = "tables"
 SUFFIX = ".parquet"
 
@@ -54,23 +56,32 @@ class SweepFolder:
             raise OutputError(f"{path / SHARDS}: cannot be written: {error.strerror or error}") from error
 
     def _begun(self) -> dict[str, object] | None:
-        try:
-            found = json.loads(read_bytes(self.path / BEGUN))
-        except (OutputError, ValueError, RecursionError):
+        """What is said of the study that was begun here; None where none was."""
+        path = self.path / BEGUN
+        if not os.path.lexists(path):
             return None
-        return found if isinstance(found, dict) else None
+        try:
+            found = json.loads(read_bytes(path, BEGUN_LIMIT))
+        except (OutputError, ValueError, RecursionError):
+            found = None
+        if not isinstance(found, dict):
+            raise OutputError(f"{path}: does not say which study was begun here; give a new folder with -o")
+        return found
 
     def table(self, name: str) -> Path:
         """The file of a task."""
         return self.path / SHARDS / f"{name}{SUFFIX}"
 
     def has(self, name: str) -> bool:
-        """Whether a task is done."""
-        return regular(self.table(name))
+        """Whether a task is done; raises as :meth:`counts` does where its file is no table of the study."""
+        if not regular(self.table(name)):
+            return False
+        self.counts(name)
+        return True
 
     def counts(self, name: str) -> Counts:
         """What was counted in a task that is done."""
-        return counts_of(self.table(name))
+        return counts_of(self.study, self.table(name))
 
     def store(self, name: str, content: bytes) -> None:
         """Write the table of a task: it is there as a whole, or not at all."""
@@ -96,7 +107,7 @@ class SweepFolder:
             self.study.name, self.study.family, {self.study.path.name: self.study.digest}, self.host
         )
         if BEGUN not in output.files:
-            output.add(BEGUN, read_bytes(self.path / BEGUN))
+            output.add(BEGUN, read_bytes(self.path / BEGUN, BEGUN_LIMIT))
         write_folder(self.path, output, COMMAND, facts)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.output.templates import templates
 from mechwright.scripting.moving import SHOWING, for_script
 from mechwright.sweep.front import Chosen, Front
-from mechwright.sweep.shard import NUMBER, Counts, read
+from mechwright.sweep.shard import NUMBER, Counts, read_file
 from mechwright.sweep.study import Study
 
 SHOWN = 100_000
@@ -61,7 +61,7 @@ def _shown(
     parts = [{name: front.columns[name] for name in names}] if len(front) else []
     seen = 0
     for path in tables:
-        table = read(path, names)
+        table = read_file(study, path, names)
         size = table[NUMBER].size
         some = np.arange(-seen % every, size, every)
         seen += size

@@ -18,10 +18,10 @@ from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.moving import moving
 from mechwright.scripting.pareto import spread
-from mechwright.sweep.folder import SHARDS, SUFFIX, SweepFolder
+from mechwright.sweep.folder import SUFFIX, SweepFolder
 from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
 from mechwright.sweep.page import page_of
-from mechwright.sweep.shard import NUMBER, Counts, read, written
+from mechwright.sweep.shard import NUMBER, Counts, read_file, written
 from mechwright.sweep.study import Study, design_of
 from mechwright.sweep.task import Source, Task
 from mechwright.sweep.workers import Workers
@@ -76,17 +76,18 @@ def sweep(study: Study, folder: Path, workers: Workers, host: Host, progress: Pr
     for task in tasks:
         counts = counts.plus(place.counts(task.name))
         if study.objectives:
-            front.take(_allowed(place.table(task.name)))
+            front.take(_allowed(study, place.table(task.name)))
     first = study.count
     for number in range(study.asked.refine):
         extra = _around(study, front, number, first)
         _evaluated(place, study, extra, workers, progress, study.count + number * study.batch, total)
         for task in extra:
             counts = counts.plus(place.counts(task.name))
-            front.take(_allowed(place.table(task.name)))
+            front.take(_allowed(study, place.table(task.name)))
             first += len(next(iter(task.given.values())))
+        tasks += extra
     chosen = _chosen(study, front, host, progress)
-    return _written(place, study, counts, front, chosen)
+    return _written(place, study, counts, front, chosen, [place.table(task.name) for task in tasks])
 
 
 def _evaluated(
@@ -106,9 +107,9 @@ def _evaluated(
         progress(EVALUATED * min(done / total, 1.0), f"{min(done, total):,} of {total:,} designs")
 
 
-def _allowed(path: Path) -> dict[str, NDArray[Any]]:
+def _allowed(study: Study, path: Path) -> dict[str, NDArray[Any]]:
     """The designs of a table that nothing forbids."""
-    table = read(path)
+    table = read_file(study, path)
     allowed = table.pop("forbidden", None)
     if allowed is None:
         return table
@@ -160,7 +161,12 @@ def _mechanism(study: Study, front: Front, place: int, name: str, host: Host) ->
 
 
 def _written(
-    place: SweepFolder, study: Study, counts: Counts, front: Front, chosen: Iterable[Chosen]
+    place: SweepFolder,
+    study: Study,
+    counts: Counts,
+    front: Front,
+    chosen: Iterable[Chosen],
+    tables: Sequence[Path],
 ) -> Swept:
     picked = tuple(chosen)
     output, pictures = Output(), dict[str, Any]()
@@ -181,7 +187,6 @@ def _written(
         "designs": [asdict(one) for one in picked],
     }
     output.add("summary.json", json.dumps(summary, indent=2) + "\n")
-    tables = sorted((place.path / SHARDS).glob(f"*{SUFFIX}"))
     output.add(
         "study.html", page_of(study, counts, front, picked, tables, {k: v for k, v in pictures.items() if v})
     )

@@ -1,8 +1,9 @@
 """The table of one batch as bytes of a Parquet file, with what was counted: the same for the same batch."""
 
+import contextlib
 import io
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.contracts.evaluation import Batch, Columns
-from mechwright.errors import OutputError
+from mechwright.errors import MechwrightError, OutputError
 from mechwright.extras import optional
+from mechwright.reading import read_bytes
 from mechwright.sweep.study import Study
 
 NUMBER = "design"
@@ -21,6 +23,10 @@ FORBIDDEN = "forbidden"
 """Column of the code that forbids a design, where all are kept."""
 CONSTRAINT = "constraint"
 """What comes before the column of a constraint in the code of one that is not kept."""
+FRAME_BYTES = 1 << 20
+"""Of a table: names, units and counts."""
+WIDEST = 64
+"""Bytes of a value, on average: numbers have 8, texts are codes and choices of a few words."""
 _COUNTS = b"mechwright.counts"
 _UNIT = b"unit"
 
@@ -92,18 +98,69 @@ def written(
     return buffer.getvalue()
 
 
-def counts_of(path: Path) -> Counts:
-    """What was counted for the file of a batch; raises OutputError where it is no such file."""
+def counts_of(study: Study, path: Path) -> Counts:
+    """What was counted for the file of a batch; raises OutputError where it is no table of the study.
+
+    No more is unpacked than its frame, which tells how much the rest is.
+    """
+    with _telling(path):
+        frame = optional("pyarrow.parquet").read_metadata(io.BytesIO(_content(study, path)))
+        _require(_COUNTS in (frame.metadata or {}), "it has no counts")
+        said = json.loads(frame.metadata[_COUNTS])
+        counts = Counts(said["designs"], said["feasible"], dict(said["forbidden"]))
+        numbers = (counts.designs, counts.feasible, *counts.forbidden.values())
+        _require(all(type(one) is int and one >= 0 for one in numbers), "its counts are no whole numbers")
+        _require(counts.feasible <= counts.designs <= study.batch, "its counts are those of no batch")
+        every = study.asked.keep == "all"
+        rows = counts.designs if every else counts.feasible
+        _require(frame.num_rows == rows, f"it has {frame.num_rows:,} designs, and counts {rows:,}")
+        schema = frame.schema.to_arrow_schema()
+        expected = [NUMBER, *study.units, *([FORBIDDEN] if every else ())]
+        _require(schema.names == expected, "it has other columns")
+        for name in (NUMBER, *study.objectives):
+            kind = np.dtype(schema.field(name).type.to_pandas_dtype()).kind
+            _require(kind in "biuf", f"its column {name} holds no numbers")
+        size = sum(frame.row_group(number).total_byte_size for number in range(frame.num_row_groups))
+        _require(0 <= size <= _most_bytes(study), "it is too large when it is unpacked")
+        return counts
+
+
+def read_file(study: Study, path: Path, columns: Sequence[str] | None = None) -> dict[str, NDArray[Any]]:
+    """Columns by name of the file of a batch; raises OutputError where it cannot be read."""
+    with _telling(path):
+        return read(_content(study, path), columns)
+
+
+def _content(study: Study, path: Path) -> bytes:
+    return read_bytes(path, _most_bytes(study))
+
+
+def _most_bytes(study: Study) -> int:
+    """Of the table of a batch."""
+    return FRAME_BYTES + WIDEST * study.batch * (len(study.units) + 2)
+
+
+def _require(kept: bool, what: str) -> None:
+    if not kept:
+        raise ValueError(what)
+
+
+@contextlib.contextmanager
+def _telling(path: Path) -> Iterator[None]:
+    """Errors of what reads Parquet as one line that names the file."""
     try:
-        said = json.loads(optional("pyarrow.parquet").read_schema(path).metadata[_COUNTS])
-        return Counts(said["designs"], said["feasible"], said["forbidden"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise OutputError(f"{path}: is no table of a sweep: {error}; move it away and start again") from error
+        yield
+    except MechwrightError:
+        raise
+    except (OSError, ValueError, LookupError, TypeError, RecursionError, NotImplementedError) as error:
+        said = str(error).partition("\n")[0]
+        raise OutputError(
+            f"{path}: is no table of this sweep: {said}; move it away, and the same command makes it again"
+        ) from error
 
 
-def read(content: bytes | Path, columns: Sequence[str] | None = None) -> dict[str, NDArray[Any]]:
-    """Columns of a shard by name."""
-    source = io.BytesIO(content) if isinstance(content, bytes) else content
-    table = optional("pyarrow.parquet").read_table(source, columns=columns)
+def read(content: bytes, columns: Sequence[str] | None = None) -> dict[str, NDArray[Any]]:
+    """Columns by name of a table that was written as bytes."""
+    table = optional("pyarrow.parquet").read_table(io.BytesIO(content), columns=columns)
     found = {name: table.column(name).to_numpy() for name in table.column_names}
     return {name: values.astype(str) if values.dtype == object else values for name, values in found.items()}

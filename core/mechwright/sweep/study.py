@@ -54,7 +54,13 @@ from mechwright.units import convert
 
 TABLE = "study"
 
-MOST = 1 << 40
+MOST_BATCH = 1 << 22
+"""Designs of a batch: their columns are in memory at once."""
+
+MOST_TABLES = 1 << 18
+"""Of a study, one for each batch: all of them are listed before the first one is begun."""
+
+MOST = MOST_TABLES * MOST_BATCH
 """Designs of a study: at a million a second they take two weeks."""
 
 BITS = 32
@@ -75,7 +81,7 @@ class Asked(Parameters):
     stage: Literal["motion", "parts"] = Field("parts", description="Up to which a design must have no error.")
     keep: Literal["feasible", "all"] = Field("feasible", description="Which designs get a row in the tables.")
     batch: int | None = Field(
-        None, ge=1, le=1 << 22, description="Designs that are evaluated together; by default the family's."
+        None, ge=1, le=MOST_BATCH, description="Designs that are evaluated together; by default the family's."
     )
     refine: int = Field(0, ge=0, le=50, description="Rounds of search around the best designs.")
     front: int = Field(12, ge=0, le=1000, description="Most designs of the front that become design files.")
@@ -199,14 +205,21 @@ def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
     if asked.refine and not objectives:
         raise DesignError(f"{path}: {TABLE}.refine: needs objectives; there is no best without one")
     rest = read_tables(content, path, host)
-    return Study(name, family, asked, given, axes, units, bounds, objectives, rest, path, content)
+    study = Study(name, family, asked, given, axes, units, bounds, objectives, rest, path, content)
+    if study.batches > MOST_TABLES:
+        raise DesignError(
+            f"{path}: {TABLE}.count: {study.count:,} designs in batches of {study.batch:,} make "
+            f"{study.batches:,} tables; at most {MOST_TABLES:,}: raise {TABLE}.batch or take fewer designs"
+        )
+    return study
 
 
 def _axes(family: Family[Any], asked: Asked, path: Path) -> tuple[Axis, ...]:
     found = []
     for name, table in flat(asked.ranges, RANGE).items():
-        where = f"{path}: {TABLE}.ranges.{name}"
-        found.append(axis_of(family.Params, name, read_table(Range, table, str(path), where), where))
+        key = f"{TABLE}.ranges.{name}"
+        asked_range = read_table(Range, table, str(path), key)
+        found.append(axis_of(family.Params, name, asked_range, f"{path}: {key}"))
     if not found:
         raise DesignError(f"{path}: {TABLE}.ranges: is empty; a study varies at least one parameter")
     if asked.method == "grid":
