@@ -110,6 +110,7 @@ def test_loops_from_another_linkage_close_at_the_same_number():
     assert len(every) == SOLUTIONS
 
 
+@by_night
 def test_what_is_said_of_the_count():
     (count,) = (
         one
