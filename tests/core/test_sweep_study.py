@@ -11,6 +11,8 @@ from mechwright import DesignError, Stage
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.sweep.draw import drawn
 
+SHAPES = {"ranges": {"shape": {"values": ["round", "square"]}}}
+
 
 @pytest.mark.parametrize("method", ["sobol", "latin-hypercube", "random"])
 def test_the_same_number_gives_the_same_designs(method):
@@ -96,6 +98,8 @@ def test_equal_ratios_and_whole_numbers():
         ),
         ({"method": "random", "count": (1 << 18) * 5 + 1, "batch": 5}, "make 262,145 tables"),
         ({"method": "random", "count": 1 << 41}, "study.count: "),
+        (SHAPES | {"objectives": {"shape": "least"}}, "study.objectives.shape: has no numbers"),
+        (SHAPES | {"constraints": {"shape": {"at_least": 1}}}, "study.constraints.shape: has no numbers"),
         ({"batch": 1 << 23}, "study.batch: "),
     ],
 )

@@ -58,6 +58,11 @@ class Axis:
     log: bool = False
     levels: NDArray[Any] | None = None
 
+    @property
+    def is_text(self) -> bool:
+        """Whether its values are no numbers."""
+        return self.levels is not None and self.levels.dtype.kind not in "biuf"
+
     def at(self, share: Array) -> NDArray[Any]:
         """The values (n,) at shares of the range, from 0 up to but not including 1."""
         if self.levels is not None:

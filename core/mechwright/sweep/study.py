@@ -198,6 +198,10 @@ def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
     known = _known(family, params, path) | {axis.name: unit_of(family.Params, axis.name) for axis in axes}
     bounds = _bounds(asked, known, path)
     objectives = _objectives(asked, known, path)
+    for axis in axes:
+        table = "objectives" if axis.name in objectives else "constraints"
+        if axis.is_text and axis.name in {*objectives, *(one.column for one in bounds)}:
+            raise DesignError(f"{path}: {TABLE}.{table}.{axis.name}: has no numbers; leave it out")
     for column in asked.columns:
         _require(column, known, f"{path}: {TABLE}.columns")
     wanted = dict.fromkeys([*(axis.name for axis in axes), *(one.column for one in bounds), *objectives])
