@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, interpret
+from by_control import BY_NAME, CONTROLS, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
@@ -154,7 +154,7 @@ def test_a_place_that_nothing_stated_has_no_value() -> None:
         interpret("G21 G90\nG0 X[#5420 + 1]")
 
 
-@pytest.mark.parametrize("control", [name for name in BY_NAME if name != "linuxcnc"])
+@pytest.mark.parametrize("control", [name for name in CONTROLS if name != "linuxcnc"])
 @pytest.mark.parametrize("line", ["G0 X#5", "G0 X[1+2]", "#1=5", "O<one> SUB"])
 def test_other_controls_programs_are_read_without_macros(control: str, line: str) -> None:
     with pytest.raises(ProgramError, match=r"^line 2: .*(O-words|starts no word)"):

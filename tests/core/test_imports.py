@@ -13,6 +13,7 @@ ON_DEMAND = (
     "mechwright.testing",
     "mechwright.mechanics.algebra",
     "mechwright.mechanics.compiled",
+    "mechwright.mechanics.continuation",
     "mechwright.mechanics.laws.table",
     "mechwright.geometry.prepared",
     "mechwright.machine.frame.",

@@ -169,6 +169,7 @@ def test_the_exit_code_holds_where_the_keyboard_comes_while_a_text_is_executed(t
 def imported_by_main(folder: Path) -> tuple[int, str]:
     """Exit code and standard error of a command line that imports the module ``stops`` of a folder."""
     code = (
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "  # a shell may have it ignored
         "import mechwright.cli.app as app; import importlib; "
         "app.make_app = lambda: importlib.import_module('stops'); from mechwright.cli import main; main()"
     )
