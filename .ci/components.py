@@ -12,7 +12,8 @@ import sys
 from pathlib import Path
 
 PAGE = Path(__file__).parents[1] / "docs" / "components.md"
-OWN = "mechwright"
+NONE_OF_THEM = {"mechwright", "pip", "setuptools"}
+"""The project, and what an environment comes with."""
 
 ALLOWED = {
     "0BSD", "Apache-2.0", "Apache-2.0 WITH LLVM-exception", "BSD-2-Clause", "BSD-3-Clause", "CC0-1.0", "ISC",
@@ -68,7 +69,7 @@ def main() -> int:
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
     components = json.loads(asked.sbom.read_text("utf-8"))["components"]
-    found = {item["name"]: licence(item) for item in components if item["name"].lower() != OWN}
+    found = {item["name"]: licence(item) for item in components if item["name"].lower() not in NONE_OF_THEM}
     refused = [f"{name}: {', '.join(bad)}" for name, text in found.items() if (bad := unknown(text))]
     if refused:
         print("licences that are not allowed:", *refused, sep="\n  ", file=sys.stderr)
