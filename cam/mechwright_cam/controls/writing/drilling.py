@@ -57,19 +57,34 @@ class Drilling(Spelling):
             words.append("P" + self.waiting(hole.dwell))
         # The cycle itself returns to the height it started from, so z stays what it is.
         feed = out.feed_text(hole.feed)
-        again = out.cycle == (*words, feed)
-        if again and not every_word:
-            place = out.axis_words(hole.x, hole.y, None)
-            out.line(*(place or ["X" + out.length(hole.x)]))
+        if self._goes_on(out, hole, (*words, feed), every_word=every_word):
             return
-        if not again:
-            self.end_drilling(out)
-        out.x = out.y = math.nan  # the first line of a cycle states both
         place = out.axis_words(hole.x, hole.y, None)
         stated = out.feed_word(hole.feed) or (feed if every_word else "")
         out.line("G98", code, *place, *words[1:], stated)
         out.cycle = (*words, feed)
         out.motion = ""
+
+    def _goes_on(
+        self,
+        out: Writer,
+        hole: Drill | Tap,
+        cycle: tuple[str, ...],
+        before: tuple[str, ...] = (),
+        *,
+        every_word: bool,
+    ) -> bool:
+        """Whether the cycle in force makes this hole by its place alone; ``before`` leads a new one."""
+        again = out.cycle == cycle
+        if again and not every_word:
+            place = out.axis_words(hole.x, hole.y, None)
+            out.line(*(place or ["X" + out.length(hole.x)]))
+            return True
+        if not again:
+            self.end_drilling(out)
+            out.line(*before)
+        out.x = out.y = math.nan  # the first line of a cycle states both
+        return False
 
     def tap(self, out: Writer, hole: Tap) -> None:
         """Tap one hole."""
@@ -84,15 +99,8 @@ class Drilling(Spelling):
         if hole.dwell > 0 and out.tapping.floating:
             words.append("P" + self.waiting(hole.dwell))
         feed = out.feed_text(hole.feed, exact=True)
-        again = out.cycle == (*words, feed)
-        if again and not every_word:
-            place = out.axis_words(hole.x, hole.y, None)
-            out.line(*(place or ["X" + out.length(hole.x)]))
+        if self._goes_on(out, hole, (*words, feed), before, every_word=every_word):
             return
-        if not again:
-            self.end_drilling(out)
-            out.line(*before)
-        out.x = out.y = math.nan
         place = out.axis_words(hole.x, hole.y, None)
         out.line("G98", code, *place, *words[1:], feed)
         out.cycle, out.feed = (*words, feed), ""
