@@ -265,7 +265,7 @@ def _feeds(run: Run, other: Run, reason: str) -> tuple[str, str]:
         if not a.size or b.max() > 1.2 * a.max():
             return "faster, within chips, feeds and power", told
         if b.min() < 0.8 * a.min():
-            return "slower, which no rule asks about", told
+            return "slower, but not so slowly that edges rub, which chips asks", told
     return reason, ""
 
 

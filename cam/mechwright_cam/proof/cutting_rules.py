@@ -13,6 +13,7 @@ from mechwright.contracts.materials import material
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.rubbing import rubs
 from mechwright_cam.proof.scene import Scene, in_work
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
@@ -58,7 +59,7 @@ def cutting_speed(scene: Scene) -> Check:
 
 
 def chips(scene: Scene) -> Check:
-    """Nothing is fed into material much faster than the tool library says, for as much as it takes there."""
+    """Nothing is fed into material much faster than the tool library says, nor so slowly that edges rub."""
     run, paths = scene.run, scene.paths
     full = _full_chips(scene)
     rpm = scene.run.of_states(lambda state: state.rpm)
@@ -91,7 +92,8 @@ def chips(scene: Scene) -> Check:
                 f"chip_load in [cam.cutting.{tool.name}]"
             )
             return scene.bad(step, message, tooth, float(share[index]) * data.chip_load, "mm")
-    return Check(True, "nothing is fed into material much faster than the tool library says")
+    said = "nothing is fed into material much faster than the tool library says, or so slowly that edges rub"
+    return rubs(scene, cutting_data(scene)) or Check(True, said)
 
 
 def _full_chips(scene: Scene) -> Ints:
