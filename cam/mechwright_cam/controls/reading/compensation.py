@@ -78,7 +78,7 @@ class Compensation(Recorder):
         if self.side:
             raise fail(line, "compensation is on already; turn it off with G40 first")
         if not (math.isfinite(self.x) and math.isfinite(self.y)):
-            raise fail(line, "compensation from an unknown position; move to X and Y first")
+            raise self.astray(line, "compensation", "XY")
         self.side, self.offset = (side, diameter / 2) if diameter >= 0 else (-side, -diameter / 2)
         self.contour, self.last, self.fresh = self.left or (self.x, self.y), None, True
         self.left = None

@@ -151,7 +151,7 @@ class Machine(Moving):
                 by_hand = self.dialect.tool_by_t and self.rows and self.rows[-1][0] == Kind.TOOL
                 self._row(Kind.MAYBE if code else Kind.STOP, block.line, self.x, self.y, self.z)
                 if by_hand:  # whoever has touched the tool off has left it somewhere
-                    self._lose_place()
+                    self._lose_place(block.line, f"M{code}")
                     self.z = math.nan
             elif code in {2, 30}:
                 self._row(Kind.END, block.line, self.x, self.y, self.z)

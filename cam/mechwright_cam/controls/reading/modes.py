@@ -226,7 +226,7 @@ class Modal(Compensation):
                 self._state("feed mode")
             elif code in {921, 922}:
                 self._without_compensation(block, spell(code))
-                self._lose_place()
+                self._lose_place(block.line, spell(code))
             elif code in PLANES:
                 if self.side or (before and code != self.plane):  # G40 in the same line comes too late
                     raise fail(block.line, "the plane changes while compensation is on; write G40 before")
@@ -296,6 +296,8 @@ class Modal(Compensation):
         if (offset, length) != (self.state.length_offset, self.state.length):
             self._set(length_offset=offset, length=length)
             if math.isfinite(self.z) and not self.offsets_are_zero:
+                word = next(code for code in block.g if code in GROUPS["length offset"])
+                self.lose(block.line, spell(word), "Z")
                 self.z = math.nan
 
     def _work_offset(self, block: Block, words: dict[str, float]) -> None:
@@ -309,12 +311,13 @@ class Modal(Compensation):
                 name = f"{'G54.1' if code == 540 else name} P{number}"
             if name != self.state.work_offset:
                 self._set(work_offset=name)
-                self._lose_place()
+                self._lose_place(block.line, name)
 
-    def _lose_place(self) -> None:
+    def _lose_place(self, line: int, word: str) -> None:
         """Offsets have changed: where the tool is, the text no longer says."""
         if self.offsets_are_zero:
             return
+        self.lose(line, word)
         self.x = self.y = math.nan
         if math.isfinite(self.z):
             self.z = math.nan
@@ -332,4 +335,4 @@ class Modal(Compensation):
         values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
         self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))
         self._row(Kind.TABLE, block.line, self.x, self.y, self.z)
-        self._lose_place()
+        self._lose_place(block.line, "G10")

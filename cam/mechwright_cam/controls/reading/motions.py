@@ -87,12 +87,13 @@ class Moving(Tapping):
             if any(a != b and not (math.isnan(a) and math.isnan(b)) for a, b in zip(via, here, strict=True)):
                 self._mark("X" in axes or "Y" in axes)
                 self._row(Kind.RAPID, block.line, *via)
-        self._home_axes(block.line, axes, math.inf)
+        self._home_axes(block.line, name, axes, math.inf)
         if "Z" in axes and self.dialect.home_cancels_length:
             self._set(length_offset=None, length=None)
 
-    def _home_axes(self, line: int, axes: Collection[str], z: float) -> None:
+    def _home_axes(self, line: int, name: str, axes: Collection[str], z: float) -> None:
         """Take some axes to places that the work does not know; of Z it may."""
+        self.lose(line, name, "".join(axes))
         self._mark("X" in axes or "Y" in axes)
         x, y = (math.nan if axis in axes else here for axis, here in (("X", self.x), ("Y", self.y)))
         self._row(Kind.HOME, line, x, y, z if "Z" in axes else self.z)
@@ -118,7 +119,7 @@ class Moving(Tapping):
         if self.motion == 10 and not self.feed > 0:
             raise fail(block.line, "a feed move without a feed; write F above 0")
         high = axes.get("Z", math.nan) * self.scale >= self.upper_end
-        self._home_axes(block.line, axes, math.inf if high else math.nan)
+        self._home_axes(block.line, "G53", axes, math.inf if high else math.nan)
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
         here = {"X": self.x, "Y": self.y, "Z": self.z}
@@ -137,7 +138,7 @@ class Moving(Tapping):
                 here[axis] = value
             elif value != 0:
                 if not math.isfinite(here[axis]):
-                    raise fail(block.line, f"{axis} moves by a distance (G91) from an unknown position")
+                    raise self.astray(block.line, f"{axis} moves by a distance (G91)", axis)
                 here[axis] += value
         return here["X"], here["Y"], here["Z"]
 
@@ -208,7 +209,7 @@ class Moving(Tapping):
         a, b, c = tuple(PLANES[self.plane])
         start, end = (here[a], here[b]), (target[a], target[b])
         if not all(map(math.isfinite, (*here.values(), *target.values()))):
-            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+            raise self.astray(line, "an arc")
         radius, _ = self._check_arc(line, start, end, centre)
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
@@ -250,7 +251,7 @@ class Moving(Tapping):
         if plane < bottom:
             raise fail(line, f"{name} has its R plane below the bottom of the hole")
         if math.isnan(self.initial) or math.isnan(x + y):
-            raise fail(line, f"{name} from an unknown position; move to X, Y and Z first")
+            raise self.astray(line, name)
         step = self.sticky.get("Q", math.inf) if code in {730, 830} else math.inf
         if not step > 0:
             raise fail(line, f"{name} needs Q above 0")

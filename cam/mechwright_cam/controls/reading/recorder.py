@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.controls.reading.blocks import fail
@@ -36,6 +37,8 @@ class Recorder:
     def __init__(self, dialect: Dialect) -> None:
         self.dialect = dialect
         self.x = self.y = self.z = math.nan
+        self.lost: dict[str, tuple[int, str]] = {}
+        """Axis to the line and the word that last left it where the text does not say."""
         self.feed = 0.0
         self.scale = 1.0
         """Length of a unit of the program, mm."""
@@ -74,6 +77,21 @@ class Recorder:
     ) -> None:
         self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
         self.x, self.y, self.z = x, y, z
+
+    def lose(self, line: int, word: str, axes: str = "XYZ") -> None:
+        """Remember which word of a line takes axes from known places to where the text does not say."""
+        known = [axis for axis in axes if not math.isnan(getattr(self, axis.lower()))]
+        self.lost |= dict.fromkeys(known, (line, word))
+
+    def astray(self, line: int, what: str, axes: str = "XYZ") -> ProgramError:
+        """The error of something that has to begin at a known place, with the line after which it is none."""
+        unknown = [axis for axis in axes if not math.isfinite(getattr(self, axis.lower()))]
+        since = ""
+        if unknown and self.lost.keys() >= set(unknown):
+            number, word = max(self.lost[axis] for axis in unknown)
+            since = f", unknown since {word} in line {number}"
+        places = " and ".join(filter(None, (", ".join(axes[:-1]), axes[-1])))
+        return fail(line, f"{what} from an unknown position{since}; move to {places} first")
 
     def lacks(self, line: int, word: str) -> None:
         """Tell that a line hangs on a word that the program has not said."""
@@ -118,7 +136,7 @@ class Recorder:
         if not self.feed > 0:
             raise fail(line, "a feed move without a feed; write F above 0")
         if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
-            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+            raise self.astray(line, "an arc")
         here = (self.x, self.y)
         _, error = self._check_arc(line, here, (x, y), centre)
         sweep = sweep_of(here, (x, y), centre, ccw)

@@ -33,7 +33,7 @@ class Tapping(Modal):
             raise fail(line, "G33.1 while the spindle stands; write S and M3 before")
         top = self.z
         if not math.isfinite(self.x + self.y + top):
-            raise fail(line, "G33.1 from an unknown position; move to X, Y and Z first")
+            raise self.astray(line, "G33.1")
         if bottom >= top:
             raise fail(line, "G33.1 goes down into the hole, and Z is not below the tool")
         self._in_and_out(line, bottom, top, self.state.rpm * pitch, self.state.spindle, 0.0, rigid=True)
