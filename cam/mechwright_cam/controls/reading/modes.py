@@ -91,11 +91,12 @@ class Modal(Compensation):
         state = self.state
         if any(getattr(state, name) != value for name, value in changes.items()):
             key = state, *changes.items()
-            if key not in self._changed:
+            found = self._changed.get(key)  # once: the hash of a state is that of all its fields
+            if found is None:
                 if len(self._changed) >= MOST_CHANGES:
                     self._changed.clear()
-                self._changed[key] = replace(state, **changes)
-            self.state = self._changed[key]
+                found = self._changed[key] = replace(state, **changes)
+            self.state = found
 
     def _state(self, group: str) -> None:
         if group not in self.state.stated:
@@ -103,12 +104,12 @@ class Modal(Compensation):
 
     def keep_state(self) -> None:
         """Give the present state its number, ``index``."""
-        kept = self.states[self.index]
-        if self.state is not kept and self.state != kept:
-            if self.state not in self.numbers:
-                self.numbers[self.state] = len(self.states)
+        if self.state is not self.states[self.index]:
+            number = self.numbers.get(self.state)
+            if number is None:
+                number = self.numbers[self.state] = len(self.states)
                 self.states.append(self.state)
-            self.index = self.numbers[self.state]
+            self.index = number
 
     def at_speeds(self, rpm: Array) -> Ints:
         """Go through spindle speeds (n,), rev/min, and give the number (n,) of the state at each."""
