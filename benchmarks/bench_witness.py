@@ -6,7 +6,9 @@ Plans the examples, proves them, runs each program on a machine of 2 and one of 
 in Markdown: moving time of the real control and of the estimate; how far the real path is from the programmed
 one, the greatest of all samples and what 99.9 % of them keep, in operations that are run loosely and in those
 that finish; and the corridor that is claimed of them. The exit code is 1 if one sample is outside of its
-corridor, or one time more than 2 % off. It takes the better part of an hour.
+corridor, or one time more than 2 % off. A run with a sample outside is made once more, slower: a busy
+computer may feed the control's queue too late, so that it meets corners otherwise. Both are told. It takes
+the better part of an hour.
 """
 
 import argparse
@@ -18,7 +20,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
 from planner_path import Compared, compared, times
-from planner_witness import FASTER, Mill, WitnessError, sample
+from planner_witness import FASTER, SLOWER, Mill, WitnessError, sample
 
 from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
@@ -63,8 +65,14 @@ def row(name: str, item: Machined, table: str, acceleration: float, faster: int)
     machine = item.job.settings.machine.model_copy(update={"acceleration": acceleration})
     run, motion = item.scene.run, item.scene.control.lookahead.motion(item.scene.run, machine)
     limit = TIMES_SLOWER * float((motion.seconds + run.seconds).sum()) / faster + 30
-    sampled = sample(item.text, mill_of(machine), table, limit, faster)
-    found, (real, estimate) = compared(run, motion, sampled), times(run, motion, sampled)
+    sampled, again = sample(item.text, mill_of(machine), table, limit, faster), ""
+    found = compared(run, motion, sampled)
+    if found.beyond.max() > 0 and faster > SLOWER:
+        beyond = 1e3 * found.beyond.max()
+        again = f" (at pace {faster} line {worst(item, found)} was outside by {beyond:.2f} µm; run again)"
+        sampled = sample(item.text, mill_of(machine), table, SLOWER * limit, faster // SLOWER)
+        found = compared(run, motion, sampled)
+    real, estimate = times(run, motion, sampled)
     loosest = item.scene.control.tolerances[0]
     loose = run.of_states(lambda state: state.blend) >= loosest
     cells = []
@@ -86,7 +94,7 @@ def row(name: str, item: Machined, table: str, acceleration: float, faster: int)
         f"{100 * share:+.2f} %",
         *cells,
     ]
-    return f"| {' | '.join(cells)} |{note}", kept
+    return f"| {' | '.join(cells)} |{note}{again}", kept
 
 
 def worst(item: Machined, found: Compared) -> int:
