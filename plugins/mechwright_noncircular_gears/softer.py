@@ -10,6 +10,7 @@ from mechwright import MechwrightError
 from mechwright.contracts.finding import Change
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.formula import RatioFormula
+from mechwright_noncircular_gears.laws.slider import SliderLaw
 from mechwright_noncircular_gears.params import MOST_HALF_TURN, NoncircularParams
 
 _STEPS = 12
@@ -17,6 +18,9 @@ _STEPS = 12
 
 _DIGITS = 3
 """Of a value that is named."""
+
+LEAST_STROKE = 0.1
+"""Share of a stroke to which it is shortened at most: there the crank goes on as good as evenly."""
 
 EASY_INDEX, EASY_RAMP = 200.0, 0.45
 """Degrees of the driver for a move of a Geneva wheel, and the ramp, with which the ratio changes little."""
@@ -48,7 +52,7 @@ def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
         turning = "phi" if mean == 1 else f"{params.lobes}/{params.mate_lobes}*phi"
         return {"angle": f"{turning} + {share:.4g}*({params.angle} - {turning})"}
     if params.law == "slider":
-        return None
+        return _shorter(params, share)
     if params.law == "geneva":
         return _longer(params, share)
     return {"eccentricity": _down(share * params.value("eccentricity"))}
@@ -60,6 +64,17 @@ def _longer(params: NoncircularParams, share: float) -> dict[str, Any]:
     fields = {"ramp": round(EASY_RAMP + share * (params.value("ramp") - EASY_RAMP), 3), "window": window}
     room = math.floor(MOST_HALF_TURN - window / 2)
     return fields if params.value("blend") <= room else {**fields, "blend": room}
+
+
+def _shorter(params: NoncircularParams, share: float) -> dict[str, Any]:
+    """A shorter stroke about the crank angle of the greatest speed, in a window nearer to its own length."""
+    law = law_of(params)
+    assert isinstance(law, SliderLaw)  # noqa: S101 - of this law
+    middle, kept_share = math.degrees(law.fastest), max(share, LEAST_STROKE)
+    names = ("stroke_start", "stroke_end")
+    ends = {name: round(middle + kept_share * (params.value(name) - middle), 1) for name in names}
+    stroke = ends["stroke_end"] - ends["stroke_start"]
+    return {**ends, "window": round(stroke + share * (params.value("window") - stroke), 1)}
 
 
 def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool]) -> dict[str, Any] | None:
