@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
-from mechwright.mechanics.gearing import Teeth, tip_sites
+from mechwright.mechanics.gearing import SectorTeeth, Teeth, tip_sites
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -61,14 +61,15 @@ def _part(
 
 
 def _marks(params: NoncircularParams) -> tuple[FittingMark, FittingMark]:
-    """One dot under tooth 0 of the driver, two about the space that takes it up.
+    """One dot under a tooth of the driver, two about the space that takes it up.
 
-    Tooth 0 of the driver lies behind the pitch point at φ = 0, and that space as far: both meet there.
+    Tooth 0 of the driver lies behind the pitch point at φ = 0, and that space as far: both meet there. Of a
+    sector it is a tooth in its middle.
     """
     driver, driven = teeth_of(params)
-    tooth = _dot(driver, 0)
+    tooth = _dot(driver, _marked(driver))
     # Both pitch curves roll off the same length; the arcs of driver and ring run against the contact.
-    middle = -params.side * driver.tooth_arcs[0] / driver.rack.pitch - driven.offset
+    middle = -params.side * driver.tooth_arcs[_marked(driver)] / driver.rack.pitch - driven.offset
     space = _dot(driven, round(middle - 0.5) % driven.count), _dot(driven, round(middle + 0.5) % driven.count)
     at = math.degrees(_meeting(params)) % 360
     return (
@@ -87,10 +88,15 @@ def _dot(teeth: Teeth, number: int) -> Point:
     return round(x, 4), round(y, 4)
 
 
+def _marked(driver: Teeth) -> int:
+    """The tooth of the driver that has a dot."""
+    return driver.count // 2 if isinstance(driver, SectorTeeth) else 0
+
+
 def _meeting(params: NoncircularParams) -> float:
-    """Angle of the driver, rad, at which its tooth 0 stands on the line of centres."""
+    """Angle of the driver, rad, at which its marked tooth stands on the line of centres."""
     driver = teeth_of(params)[0]
-    arc = driver.tooth_arcs[0]
+    arc = driver.tooth_arcs[_marked(driver)]
     return -float(driver.curve.parameter(np.asarray(arc)))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipe
 
+from mechwright.arrays import Array
 from mechwright.contracts.finding import Stage, errors
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Primitive
@@ -19,8 +20,9 @@ def test_integral_of_what_nearly_vanishes() -> None:
     """Terms of 1 that cancel to a thousandth leave rounding of 1: it is not sought to be smooth below that."""
     least = 1e-3
 
-    def function(x: np.ndarray) -> np.ndarray:
-        return np.hypot(1 + np.cos(x) + least, np.sin(x))
+    def function(x: Array) -> Array:
+        value: Array = np.hypot(1 + np.cos(x) + least, np.sin(x))
+        return value
 
     # The square is (1 + c)² (1 - k sin²(x/2)), c = 1 + least: an elliptic integral of the second kind.
     c = 1 + least
@@ -30,7 +32,7 @@ def test_integral_of_what_nearly_vanishes() -> None:
 
 def test_jumps_are_still_found() -> None:
     with pytest.raises(GeometryError, match="jumps"):
-        Primitive.of(lambda x: 1 + (x > 1) * 1e-9, math.tau)
+        Primitive.of(lambda x: np.where(x > 1, 1 + 1e-9, 1.0), math.tau)
 
 
 @pytest.mark.parametrize(

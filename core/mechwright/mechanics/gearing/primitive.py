@@ -28,7 +28,7 @@ _ROUNDING = 1e-13
 """Of a series in units of its greatest value; integration divides the tail by its order, and by two."""
 
 _NOISE = 64 * float(np.finfo(float).eps)
-"""Share of the greatest value of all panels that is rounding wherever the function comes near to 0: what it is
+"""Share of the greatest value of all panels that is rounding where the function comes near to 0: what it is
 made of cancels there."""
 
 _MOST_PANELS = 4096
