@@ -57,6 +57,12 @@ def findings(params: NoncircularParams) -> tuple[Finding, ...]:
     return until_error(params, law_findings, _of_the_parts, _of_the_mesh, _backlash)
 
 
+@kept
+def standing(params: NoncircularParams) -> tuple[Finding, ...]:
+    """What speaks against the motion."""
+    return until_error(params, law_findings)
+
+
 def judged(params: NoncircularParams) -> tuple[Finding, ...]:
     """The same without the mesh proof, and without advice on loads."""
     return until_error(params, law_findings, _of_the_parts, _of_the_load, _backlash)

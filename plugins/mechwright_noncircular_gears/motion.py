@@ -22,7 +22,7 @@ from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.gearing import Rolling
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
-from mechwright_noncircular_gears.checks import findings
+from mechwright_noncircular_gears.checks import standing
 from mechwright_noncircular_gears.gear import NAMES, curves_of, pair_of
 from mechwright_noncircular_gears.law import extremes_of, law_of, least
 from mechwright_noncircular_gears.laws.sector import swung
@@ -73,7 +73,7 @@ def driven(params: NoncircularParams, driver: Turning) -> Turning:
 
 def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion:
     """The motion for any motion of the driver, at times (n,), s; raises as :func:`motion_of`."""
-    for finding in errors(findings(params), Stage.MOTION):
+    for finding in errors(standing(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     law, pair, phi = law_of(params), pair_of(params), driver.theta
     ratio = law.rates(phi)[0]
