@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
+from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import SectorTeeth, Teeth, tip_sites
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
@@ -12,6 +13,9 @@ from mechwright_noncircular_gears.params import NoncircularParams
 
 COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.68, 0.42)}
 """Part to its colour."""
+
+SITE = 0.15
+"""Share of a sector's side from its ends to where tabs may stand."""
 
 UNDER = 1.5
 """How far below the roots of the teeth a dot stands, mm."""
@@ -34,7 +38,25 @@ def _gear(params: NoncircularParams, outline: Outline) -> list[Feature]:
         features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
         if opening.has_keyway:
             features.append(Profile("keyway", opening.loop(), "inside", 0, depth))
-    return [*features, Profile("outside", outline.outer, "outside", 0, depth, tip_sites(outline.outer))]
+    return [*features, Profile("outside", outline.outer, "outside", 0, depth, _sites(outline.outer))]
+
+
+def _sites(outer: Loop) -> tuple[tuple[Point, float], ...]:
+    """Where tabs may hold a gear, and their limits, mm: on its tips, and of a sector on its two sides.
+
+    Those reach from the hub to both ends of the teeth. Where a sector has one side alone, all tips have the
+    limit of the least: else tabs would stand together where tips are widest.
+    """
+    tips, sides = tip_sites(outer), [one for one in outer.segments if one.tag == "side"]
+    if len(sides) == 1:
+        least = min(width for _, width in tips)
+        return tuple((place, least) for place, _ in tips)
+    found = []
+    for side in sides:
+        length = math.dist(side.start, side.end)
+        for x, y in side.at([SITE, 1 - SITE]).tolist():
+            found.append(((x, y), 2 * SITE * length))
+    return (*tips, *found)
 
 
 def _ring(params: NoncircularParams, outline: Outline) -> list[Feature]:

@@ -208,3 +208,16 @@ def test_findings_of_sectors(changes: dict[str, object], code: str) -> None:
 def test_sectors_are_no_stage() -> None:
     with pytest.raises(DesignError, match="swing there and back"):
         FAMILY.transmission(design(SPIRAL))
+
+
+def test_tabs_stand_apart() -> None:
+    """On the sides of a sector that has two, on tips all round where it has one."""
+    for table, on_sides in ((SPIRAL, True), (FAR, False)):
+        part = FAMILY.parts(design(table))[0]
+        (outside,) = (one for one in part.machined or () if one.name == "outside")
+        sites = sorted(outside.tab_sites, key=lambda one: -one[1])[:4]  # type: ignore[union-attr]
+        widest = sites[3][1]
+        places = [place for place, width in outside.tab_sites if width >= widest]  # type: ignore[union-attr]
+        assert (len(places) == 4) is on_sides
+        apart = max(math.dist(one, two) for one in places for two in places)
+        assert apart > 60
