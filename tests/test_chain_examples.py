@@ -17,7 +17,11 @@ from mechwright.mechanics.chain.placing import in_plan
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
-FILES = sorted((Path(__file__).parents[1] / "examples" / "chains").glob("*.toml"))
+FILES = sorted(
+    path
+    for path in (Path(__file__).parents[1] / "examples" / "chains").glob("*.toml")
+    if "requirement" not in path.stem
+)
 
 
 def moved(name: str, samples: int = 361):

@@ -21,6 +21,7 @@ from mechwright.mechanics.gearing.checks import (
 from mechwright.mechanics.gearing.checks import rim_findings as opening_rim_findings
 from mechwright.mechanics.openings import keyed_findings, too_small
 from mechwright.tolerances import exceeds, falls_short
+from mechwright_noncircular_gears.fields import LEAST_MODULE
 from mechwright_noncircular_gears.gear import (
     NAMES,
     backlash_of,
@@ -35,11 +36,12 @@ from mechwright_noncircular_gears.gear import (
 )
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.law_checks import law_findings
-from mechwright_noncircular_gears.params import LEAST_MODULE, NoncircularParams
+from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import mill_for_fillets
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.proof import prove
 from mechwright_noncircular_gears.ring_checks import rim_findings
+from mechwright_noncircular_gears.sector_checks import sector_findings
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
@@ -55,6 +57,12 @@ def findings(params: NoncircularParams) -> tuple[Finding, ...]:
     return until_error(params, law_findings, _of_the_parts, _of_the_mesh, _backlash)
 
 
+@kept
+def standing(params: NoncircularParams) -> tuple[Finding, ...]:
+    """What speaks against the motion."""
+    return until_error(params, law_findings)
+
+
 def judged(params: NoncircularParams) -> tuple[Finding, ...]:
     """The same without the mesh proof, and without advice on loads."""
     return until_error(params, law_findings, _of_the_parts, _of_the_load, _backlash)
@@ -62,7 +70,7 @@ def judged(params: NoncircularParams) -> tuple[Finding, ...]:
 
 @kept
 def _of_the_parts(params: NoncircularParams) -> tuple[Finding, ...]:
-    teeth = (_size, _profile, convexity_findings, _land, undercut_findings)
+    teeth = (_size, _profile, convexity_findings, sector_findings, _land, undercut_findings)
     tips = (cusp_findings, _tip, fillet_findings)
     return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, _drive)))
 

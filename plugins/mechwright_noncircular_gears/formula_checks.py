@@ -1,6 +1,7 @@
 """Whether a formula is a law: finite everywhere, without a corner, and back where it began after a lobe."""
 
 import math
+from typing import Protocol
 
 import numpy as np
 
@@ -24,20 +25,36 @@ GRID = 2881
 def formula_finding(key: str, law: RatioFormula | AngleFormula) -> Finding | None:
     """What keeps a formula from being a law; None where nothing does."""
     phi = law.grid(GRID)
-    finite = np.all([np.isfinite(one) for one in law.shape(phi)], axis=0)
-    if not finite.all():
-        at = math.degrees(float(phi[~finite][0]))
-        return Finding.error(
-            "law.formula",
-            key,
-            f"the formula has no value, or no slope, at {at:.1f} degrees of the driver",
-            at,
-            unit="deg",
-            remedy="write one that is smooth over the whole lobe, or give a table",
-        )
+    wrong = finite_finding(key, law, phi, "lobe")
+    if wrong is not None:
+        return wrong
     if isinstance(law, AngleFormula):
-        return _closure(key, law) or _corner(key, law, phi)
-    return _corner(key, law, phi) or _positive(key, law, phi) or _bounded(key, law)
+        return _closure(key, law) or _closing(key, law) or corner_finding(key, law, phi)
+    corner = _closing(key, law) or corner_finding(key, law, phi)
+    return corner or _positive(key, law, phi) or _bounded(key, law)
+
+
+class Shaped(Protocol):
+    """What has a ratio as it is written."""
+
+    def shape(self, phi: Array) -> tuple[Array, Array, Array]:
+        """The ratio and its derivatives at φ (...)."""
+
+
+def finite_finding(key: str, law: Shaped, phi: Array, whole: str) -> Finding | None:
+    """An error at the first of angles φ (n,), rad, where a formula has no value; ``whole`` is their way."""
+    finite = np.all([np.isfinite(one) for one in law.shape(phi)], axis=0)
+    if finite.all():
+        return None
+    at = math.degrees(float(phi[~finite][0]))
+    return Finding.error(
+        "law.formula",
+        key,
+        f"the formula has no value, or no slope, at {at:.1f} degrees of the driver",
+        at,
+        unit="deg",
+        remedy=f"write one that is smooth over the whole {whole}, or give a table",
+    )
 
 
 def _closure(key: str, law: AngleFormula) -> Finding | None:
@@ -93,28 +110,41 @@ def _bounded(key: str, law: RatioFormula) -> Finding | None:
     return None
 
 
-def _corner(key: str, law: WrittenLaw, phi: Array) -> Finding | None:
-    size = np.abs(law.shape(phi)[0]).max()
+ORDERS = ("ratio", "slope of the ratio")
+"""Both have to be continuous."""
+
+
+def _closing(key: str, law: WrittenLaw) -> Finding | None:
+    """An error where ratio or slope is another one at the end of a lobe."""
+    size = np.abs(law.shape(law.grid(GRID))[0]).max()
     ends = law.shape(np.array([0.0, law.period]))
     wave = "cos(phi)" if law.lobes[0] == 1 else f"cos({law.lobes[0]}*phi)"
-    period = f"{math.degrees(law.period):g} degrees"
-    for order, what in enumerate(("ratio", "slope of the ratio")):
-        begin, end = ends[order]
+    for what, (begin, end) in zip(ORDERS, ends, strict=False):
         if abs(end - begin) > CLOSED * size:
             where = f"is {begin:.9g} where a lobe begins and {end:.9g} where it ends"
-            remedy = f"use terms of period {period}, such as {wave}"
-        else:
-            at, begin, end = _widest_step(law, phi, order)
-            if abs(end - begin) <= JUMP * size:
-                continue
-            where = f"jumps from {begin:.6g} to {end:.6g} at {math.degrees(at):.1f} degrees of the driver"
-            remedy = "write one that is smooth over the whole lobe, or give a table"
-        message = f"the {what} {where}: the pitch curves have a corner there"
-        return Finding.error("law.corner", key, message, end, begin, remedy=remedy)
+            remedy = f"use terms of period {math.degrees(law.period):g} degrees, such as {wave}"
+            return _cornered(key, what, where, float(begin), float(end), remedy)
     return None
 
 
-def _widest_step(law: WrittenLaw, phi: Array, order: int) -> tuple[float, float, float]:
+def corner_finding(key: str, law: Shaped, phi: Array) -> Finding | None:
+    """An error where ratio or slope jumps between some angles φ (n,), rad, in rising order."""
+    size = np.abs(law.shape(phi)[0]).max()
+    for order, what in enumerate(ORDERS):
+        at, begin, end = _widest_step(law, phi, order)
+        if abs(end - begin) > JUMP * size:
+            where = f"jumps from {begin:.6g} to {end:.6g} at {math.degrees(at):.1f} degrees of the driver"
+            remedy = "write one that is smooth all the way, or give a table"
+            return _cornered(key, what, where, begin, end, remedy)
+    return None
+
+
+def _cornered(key: str, what: str, where: str, begin: float, end: float, remedy: str) -> Finding:
+    message = f"the {what} {where}: the pitch curves have a corner there"
+    return Finding.error("law.corner", key, message, end, begin, remedy=remedy)
+
+
+def _widest_step(law: Shaped, phi: Array, order: int) -> tuple[float, float, float]:
     """Where ratio or slope changes most within rounding of a place, and from what to what."""
     low, high = phi[:-1], phi[1:]
     before, after = law.shape(low)[order], law.shape(high)[order]

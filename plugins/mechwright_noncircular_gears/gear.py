@@ -6,8 +6,18 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Array, Outline, kept
-from mechwright.mechanics.gearing import Rack, RolledCurve, RolledPair, Teeth, gear_loop
+from mechwright.geometry import Loop
+from mechwright.mechanics.gearing import (
+    Rack,
+    RolledCurve,
+    RolledPair,
+    SectorTeeth,
+    Teeth,
+    gear_loop,
+    sector_loop,
+)
 from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash
+from mechwright.mechanics.gearing.checks import FULL_RIM
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -66,7 +76,7 @@ def rack_of(params: NoncircularParams) -> Rack:
     """The generating cutter of both gears, in mm; with a ring, that of the driver."""
     module = params.module
     if module is None:
-        module = pair_of(params).driver.perimeter / (math.pi * params.teeth)
+        module = pair_of(params).rolled / (math.pi * params.teeth)
     return profile_of(params).sized(module, backlash_of(params))
 
 
@@ -87,14 +97,31 @@ def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
     """
     (one, two), (rack, mate) = curves_of(params), racks_of(params)
     offset = params.tooth_offset
+    if params.sector is not None:
+        count, hub = params.teeth, hub_of(params) / 2
+        return (
+            SectorTeeth.over(one, rack, count, (-count, 0), -offset, hub),
+            SectorTeeth.over(two, mate, count, (0, count), offset + 0.5, hub),
+        )
     return (
         Teeth(one, rack, params.teeth, -offset % 1.0),
         Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0),
     )
 
 
-toothed = kept(gear_loop)
-"""The toothed loop of teeth and its deviation, as :func:`gear_loop`."""
+def hub_of(params: NoncircularParams) -> float:
+    """Diameter, mm, of the hubs of sectors."""
+    if params.sector_hub is not None:
+        return params.sector_hub
+    opening, rack = opening_of(params), rack_of(params)
+    reach = 0.0 if opening is None else float(np.hypot(*opening.loop().flatten().T).max())
+    return math.ceil(2 * (reach + FULL_RIM * (rack.addendum + rack.dedendum)))
+
+
+@kept
+def toothed(teeth: Teeth) -> tuple[Loop, float]:
+    """The loop of teeth, of a sector with its blank, and its deviation, as :func:`gear_loop`."""
+    return sector_loop(teeth) if isinstance(teeth, SectorTeeth) else gear_loop(teeth)
 
 
 @kept
@@ -124,8 +151,7 @@ def rim_of(params: NoncircularParams) -> Rim:
 @kept
 def pitch_points(params: NoncircularParams) -> tuple[Array, Array]:
     """Points (n, 2), mm, of both pitch curves, each in the frame of its gear."""
-    t = np.linspace(0.0, math.tau, _ROOM_SAMPLES, endpoint=False)
-    one, two = (curve.frame(t).point for curve in curves_of(params))
+    one, two = (curve.frame(curve.around(_ROOM_SAMPLES)).point for curve in curves_of(params))
     return one, two
 
 

@@ -13,6 +13,14 @@ from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.laws.fourier import FourierLaw
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
 from mechwright_noncircular_gears.laws.pitch import CircleLaw, EllipseLaw, LimaconLaw
+from mechwright_noncircular_gears.laws.sector import (
+    AngleCourse,
+    Course,
+    RatioCourse,
+    SectorLaw,
+    SpiralCourse,
+    TableCourse,
+)
 from mechwright_noncircular_gears.laws.slider import SliderLaw
 from mechwright_noncircular_gears.laws.table import TableLaw
 from mechwright_noncircular_gears.laws.window import WindowLaw
@@ -23,6 +31,12 @@ LEAST_RATIO = 1e-3
 
 GRID = 1440
 """Samples of a lobe at which extremes are sought: sixteen harmonics have ninety of them each."""
+
+ENDS = 1.5
+"""Pitches beyond the ends of a sector to where flanks and fillets of its last teeth come from."""
+
+_ROUNDS = 3
+"""Grids of a sector, each about the best place of the one before: the last step is 1e-9 of the travel."""
 
 PITCH_LAWS: dict[str, Callable[[tuple[int, int], float, int], RatioLaw]] = {
     "ellipse": EllipseLaw,
@@ -41,6 +55,8 @@ FORMULAS: dict[str, Callable[[tuple[int, int], str], WrittenLaw]] = {
 def law_of(params: NoncircularParams) -> RatioLaw:
     """The law of a design; whether it can be run, :func:`extremes_of` tells."""
     lobes = params.lobes, params.mate_lobes
+    if params.sector is not None:
+        return SectorLaw(_course(params, math.radians(params.sector)), math.radians(params.sector))
     if params.law == "fourier":
         sines, cosines = (tuple(map(math.radians, params.value(name))) for name in ("sines", "cosines"))
         return FourierLaw(lobes, sines, cosines)
@@ -59,6 +75,16 @@ def law_of(params: NoncircularParams) -> RatioLaw:
         angles = (math.radians(params.value(name)) for name in ("stroke_start", "stroke_end", "window"))
         return SliderLaw(lobes, params.value("rod_ratio"), *angles)
     return PITCH_LAWS[params.law](lobes, params.value("eccentricity"), params.side)
+
+
+def _course(params: NoncircularParams, travel: float) -> Course:
+    if params.law == "ratio":
+        return RatioCourse(params.value("ratio"))
+    if params.law == "angle":
+        return AngleCourse(params.value("angle"))
+    if params.law == "spiral":
+        return SpiralCourse(params.value("first_ratio"), params.value("last_ratio"), travel)
+    return TableCourse(tuple((math.radians(one), math.radians(two)) for one, two in params.nodes or ()))
 
 
 @dataclass(frozen=True)
@@ -111,7 +137,9 @@ def extremes_of(params: NoncircularParams) -> Extremes:
         return -np.abs(Rolling.of(law, phi, params.side).tilt)
 
     def of(name: str, sign: float) -> Extreme:
-        return least(law, lambda phi: sign * getattr(Rolling.of(law, phi, params.side), name), sign)
+        return least(
+            law, lambda phi: sign * getattr(Rolling.of(law, phi, params.side), name), sign, _beyond(params)
+        )
 
     return Extremes(
         slowest_of(law),
@@ -122,8 +150,20 @@ def extremes_of(params: NoncircularParams) -> Extremes:
     )
 
 
-def least(law: RatioLaw, function: Callable[[Array], Array], sign: float = 1.0) -> Extreme:
-    """The least value of a function of φ over a lobe, refined, times ``sign``."""
+def _beyond(params: NoncircularParams) -> float:
+    """Angle, rad, beyond the ends of a sector up to which its pitch curve makes teeth."""
+    return ENDS * math.radians(params.sector) / params.teeth if params.sector else 0.0
+
+
+def least(
+    law: RatioLaw, function: Callable[[Array], Array], sign: float = 1.0, beyond: float = 0.0
+) -> Extreme:
+    """The least value of a function of φ over a lobe, refined, times ``sign``.
+
+    Of sectors it is that over their travel and an angle, rad, beyond each end.
+    """
+    if law.travel is not None:
+        return _least_between(-beyond, law.travel + beyond, function, sign)
     at = law.grid(GRID)[:-1]
     even = law.period * np.arange(GRID) / GRID
     found = peak(lambda turn: -function(turn / math.tau * law.period), math.tau * even / law.period)
@@ -133,3 +173,13 @@ def least(law: RatioLaw, function: Callable[[Array], Array], sign: float = 1.0) 
     if values[worst] < sign * best.value:
         return Extreme(sign * float(values[worst]), float(at[worst]))
     return best
+
+
+def _least_between(low: float, high: float, function: Callable[[Array], Array], sign: float) -> Extreme:
+    """The least value between two angles, rad: of a grid, then of a finer one about the least of it."""
+    for _ in range(_ROUNDS):
+        at = np.linspace(low, high, GRID + 1)
+        values = function(at)
+        best = int(np.argmin(values))
+        low, high = float(at[max(best - 1, 0)]), float(at[min(best + 1, GRID)])
+    return Extreme(sign * float(values[best]), float(at[best]))

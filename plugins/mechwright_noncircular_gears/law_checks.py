@@ -7,8 +7,10 @@ from mechwright import Finding
 from mechwright_noncircular_gears.formula_checks import formula_finding
 from mechwright_noncircular_gears.law import LEAST_RATIO, fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
+from mechwright_noncircular_gears.laws.sector import SectorLaw
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sector_checks import sector_law_finding
 from mechwright_noncircular_gears.softer import nearest, said
 
 MOST_RING_RATIO = 0.95
@@ -36,6 +38,11 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
             return
     if isinstance(law, RatioFormula | AngleFormula):
         wrong = formula_finding(params.law, law)
+        if wrong is not None:
+            yield wrong
+            return
+    if isinstance(law, SectorLaw):
+        wrong = sector_law_finding(params, law)
         if wrong is not None:
             yield wrong
             return

@@ -22,9 +22,10 @@ from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.gearing import Rolling
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
-from mechwright_noncircular_gears.checks import findings
+from mechwright_noncircular_gears.checks import standing
 from mechwright_noncircular_gears.gear import NAMES, curves_of, pair_of
 from mechwright_noncircular_gears.law import extremes_of, law_of, least
+from mechwright_noncircular_gears.laws.sector import swung
 from mechwright_noncircular_gears.params import NoncircularParams
 
 _PITCH_SAMPLES = 361
@@ -41,7 +42,7 @@ def turns_of(params: NoncircularParams) -> int:
 
 
 def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
-    """Sample the turns of the driver at constant speed, both ends included.
+    """Sample the turns of the driver at constant speed, or its swing there and back, both ends included.
 
     The driver turns about the origin, the driven gear about (a, 0), the other way round; a ring about
     (-a, 0), the same way.
@@ -52,7 +53,15 @@ def motion_of(params: NoncircularParams, samples: Samples) -> Motion:
         The law does not turn the driven gear on all the way.
     """
     phi = travelled(math.tau * turns_of(params), samples)
-    return driven_by(params, Turning.of(phi, params.omega), phi / params.omega)
+    driver = Turning.of(phi, params.omega) if params.sector is None else swinging(params, phi)
+    return driven_by(params, driver, phi / params.omega)
+
+
+def swinging(params: NoncircularParams, phase: Array) -> Turning:
+    """The driver of sectors at phases (n,), rad, of its swing there and back: φ = S/2 (1 - cos)."""
+    half, omega = math.radians(params.sector or 0.0) / 2, params.omega
+    sin, cos = np.sin(phase), np.cos(phase)
+    return Turning(half * (1 - cos), half * omega * sin, half * omega**2 * cos, -half * omega**3 * sin)
 
 
 def driven(params: NoncircularParams, driver: Turning) -> Turning:
@@ -64,7 +73,7 @@ def driven(params: NoncircularParams, driver: Turning) -> Turning:
 
 def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion:
     """The motion for any motion of the driver, at times (n,), s; raises as :func:`motion_of`."""
-    for finding in errors(findings(params), Stage.MOTION):
+    for finding in errors(standing(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     law, pair, phi = law_of(params), pair_of(params), driver.theta
     ratio = law.rates(phi)[0]
@@ -96,10 +105,10 @@ def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion
 
 
 def _pitch_curves(params: NoncircularParams) -> dict[str, Curve]:
-    around = np.linspace(0.0, math.tau, _PITCH_SAMPLES)
     found = {}
     for name, curve in zip(NAMES, curves_of(params), strict=True):
-        point = curve.frame(around).point
+        around = np.linspace(0.0, math.tau, _PITCH_SAMPLES)
+        point = curve.frame(around if params.sector is None else curve.around(_PITCH_SAMPLES)).point
         found[f"pitch-{name}"] = Curve.planar(name, point[:, 0] + 1j * point[:, 1])
     return found
 
@@ -108,7 +117,7 @@ def _pitch_curves(params: NoncircularParams) -> dict[str, Curve]:
 def figures(params: NoncircularParams) -> dict[str, Scalar]:
     """Name to value and unit; extremes are refined, so that they do not depend on the samples."""
     found, omega = extremes_of(params), params.omega
-    alpha, jerk = (_greatest(params, order) for order in (1, 2))
+    speed, alpha, jerk = (_greatest(params, order) for order in range(3))
     steepest = found.steepest.value + math.radians(params.pressure_angle)
     return {
         "centre_distance": Scalar(pair_of(params).distance, "mm"),
@@ -116,7 +125,7 @@ def figures(params: NoncircularParams) -> dict[str, Scalar]:
         "ratio_max.theta1": Scalar(found.fastest.angle, "rad"),
         "ratio_min": Scalar(found.slowest.value, ""),
         "ratio_min.theta1": Scalar(found.slowest.angle, "rad"),
-        "omega2_max": Scalar(found.fastest.value * omega, "rad/s"),
+        "omega2_max": Scalar(speed * omega, "rad/s"),
         "alpha2_max": Scalar(alpha * omega**2, "rad/s^2"),
         "jerk2_max": Scalar(jerk * omega**3, "rad/s^3"),
         "pressure_angle_max": Scalar(steepest, "rad"),
@@ -124,10 +133,12 @@ def figures(params: NoncircularParams) -> dict[str, Scalar]:
 
 
 def _greatest(params: NoncircularParams, order: int) -> float:
-    """The greatest size of a derivative of the ratio over φ."""
+    """The greatest size of a derivative of ψ at unit speed: of the ratio over φ, or over a swing's phase."""
     law = law_of(params)
 
     def size(phi: Array) -> Array:
-        return -np.abs(law.rates(phi)[order])
+        if params.sector is None:
+            return -np.abs(law.rates(phi)[order])
+        return -np.abs(swung(law, phi, math.radians(params.sector))[order])
 
     return -least(law, size).value

@@ -7,6 +7,10 @@ LEAST_STEP = 1.0
 """Degrees between the angles of a table: closer ones ask for a ratio that the teeth cannot follow."""
 
 
+LEAST_OPEN = 6
+"""Nodes over less than a turn: a spline of degree five goes through no fewer."""
+
+
 def check_nodes(nodes: Sequence[tuple[float, float]] | None, lobes: int, mate_lobes: int) -> None:
     """Raise ValueError unless pairs [φ, ψ], degrees, make a lobe of gears with so many lobes."""
     if nodes is None:
@@ -22,7 +26,29 @@ def check_nodes(nodes: Sequence[tuple[float, float]] | None, lobes: int, mate_lo
             f"nodes reach {nodes[-1][0]:g} degrees of the driver, and a lobe ends at "
             f"[{ends[0]:g}, {ends[1]:g}], which is no node{turns}; leave out what lies there and beyond"
         )
-    for one, other in pairwise((*nodes, ends)):
+    _rising((*nodes, ends))
+
+
+def check_open_nodes(nodes: Sequence[tuple[float, float]] | None, travel: float) -> None:
+    """Raise ValueError unless pairs [φ, ψ], degrees, are a table over a travel, degrees, of the driver."""
+    if nodes is None:
+        raise ValueError('law = "table" needs nodes, pairs of angles from [0, 0]')
+    if nodes[0] != (0.0, 0.0):
+        raise ValueError(f"nodes begin at {list(nodes[0])}; the travel begins at [0, 0]")
+    if nodes[-1][0] != travel:
+        raise ValueError(
+            f"nodes end at {nodes[-1][0]:g} degrees of the driver, and the travel at {travel:g}; "
+            f"set sector = {nodes[-1][0]:g}"
+        )
+    if len(nodes) < LEAST_OPEN:
+        raise ValueError(
+            f"{len(nodes)} nodes are too few for a table over less than a turn; give {LEAST_OPEN}"
+        )
+    _rising(nodes)
+
+
+def _rising(nodes: Sequence[tuple[float, float]]) -> None:
+    for one, other in pairwise(nodes):
         if other[0] - one[0] < LEAST_STEP:
             raise ValueError(
                 f"nodes {list(one)} and {list(other)} stand less than {LEAST_STEP:g} degree apart, or go "

@@ -8,60 +8,21 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_noncircular_gears.nodes import check_nodes
-
-LEAST_MODULE = 0.1
-"""mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
-
-LEAST_TEETH, MOST_TEETH = 6, 600
-"""Fewer have no room for a root and a shaft, more say nothing new."""
-
-MOST_LOBES = 8
-"""Of either gear: more are a toothed circle for all that a shaft can tell."""
-
-MOST_HARMONICS = 16
-"""Of a law: with more, the pitch curve is a gear by itself."""
-
-MOST_HALF_TURN = 178.0
-"""Degrees from the middle of an index to the end of its blend: some are left for the constant ratio."""
-
-LAW_FIELDS = {
-    "fourier": ("sines", "cosines"),
-    "window": ("window_ratio", "window", "blend"),
-    "table": ("nodes",),
-    "ratio": ("ratio",),
-    "angle": ("angle",),
-    "slider": ("rod_ratio", "stroke_start", "stroke_end", "window"),
-    "geneva": ("slots", "ramp", "window", "blend"),
-    "ellipse": ("eccentricity",),
-    "limacon": ("eccentricity",),
-    "eccentric-circle": ("eccentricity",),
-}
-"""Law to the fields that make it; no other law has a use for them."""
-
-USUAL: dict[str, Any] = {
-    "sines": (15.0,),
-    "cosines": (),
-    "window_ratio": 0.85,
-    "window": 100.0,
-    "blend": 90.0,
-    "rod_ratio": 4.0,
-    "stroke_start": 50.0,
-    "stroke_end": 130.0,
-    "slots": 4,
-    "ramp": 0.145,
-    "eccentricity": 0.2,
-    "ring_addendum": 0.6,
-    "ring_holes": 6,
-    "ring_hole": 5.5,
-}
-"""Field of a law or of a ring to its value where it is left out."""
-
-USUAL_OF = {("slider", "window"): 150.0, ("geneva", "window"): 180.0, ("geneva", "blend"): 60.0}
-"""Law and field to a value of its own, degrees of the driver, where the design names none."""
-
-RING_FIELDS = ("ring_addendum", "ring_outside", "ring_holes", "ring_hole")
-"""Fields of a driven gear that is a ring."""
+from mechwright_noncircular_gears.fields import (
+    LAW_FIELDS,
+    LEAST_MODULE,
+    LEAST_TEETH,
+    MOST_HALF_TURN,
+    MOST_HARMONICS,
+    MOST_LOBES,
+    MOST_SECTOR,
+    MOST_TEETH,
+    RING_FIELDS,
+    SECTOR_LAWS,
+    USUAL,
+    USUAL_OF,
+)
+from mechwright_noncircular_gears.nodes import check_nodes, check_open_nodes
 
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
@@ -85,6 +46,7 @@ class NoncircularParams(Parameters):
         "table",
         "ratio",
         "angle",
+        "spiral",
         "slider",
         "geneva",
         "ellipse",
@@ -95,7 +57,8 @@ class NoncircularParams(Parameters):
         description=(
             "Where the law comes from. fourier: harmonics; window: a window of constant ratio; table: pairs "
             "of angles; ratio, angle: a formula of either; slider: constant speed of a slider-crank behind "
-            "it; geneva: least acceleration of a straight Geneva wheel behind it; ellipse, limacon, "
+            "it; geneva: least acceleration of a straight Geneva wheel behind it; spiral: a logarithmic "
+            "spiral, of sectors; ellipse, limacon, "
             "eccentric-circle: the pitch curve of the driver."
         ),
         json_schema_extra=FIRST,
@@ -174,6 +137,12 @@ class NoncircularParams(Parameters):
             "the less acceleration and the sharper the pitch curves; left out, 0.145."
         ),
     )
+    first_ratio: Annotated[float, Field(ge=0.05, le=20), Unit("")] | None = Field(
+        None, description='Ratio at φ = 0 for law = "spiral"; left out, 0.7.'
+    )
+    last_ratio: Annotated[float, Field(ge=0.05, le=20), Unit("")] | None = Field(
+        None, description='Ratio at the end of the travel for law = "spiral"; left out, 1.4.'
+    )
     eccentricity: Annotated[float, Field(ge=0, le=0.9), Unit("")] | None = Field(
         None,
         description=(
@@ -181,11 +150,26 @@ class NoncircularParams(Parameters):
             "its radius, of a circle the place of its axis, in mean radii; left out, 0.2."
         ),
     )
+    sector: Annotated[float, Field(ge=5, le=MOST_SECTOR), Unit("deg")] | None = Field(
+        None,
+        description=(
+            "Travel of the driver where both gears are sectors, from φ = 0 there and back; left out, they go "
+            'all the way round. For law = "ratio", "angle", "table" and "spiral", which need not close then.'
+        ),
+        json_schema_extra=FIRST,
+    )
+    sector_hub: Annotated[float, Field(ge=2, le=1000), Unit("mm")] | None = Field(
+        None,
+        description="Diameter of both sectors' hubs; left out, what the shaft's opening needs.",
+    )
     teeth: int = Field(
         40,
         ge=LEAST_TEETH,
         le=MOST_TEETH,
-        description="Number of teeth of the driver; the driven gear has teeth × N2/N1.",
+        description=(
+            "Number of teeth of the driver; the driven gear has teeth × N2/N1. Of sectors, pitches of the "
+            "travel; there are teeth for half a pitch more at each end."
+        ),
         json_schema_extra=FIRST,
     )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
@@ -290,6 +274,7 @@ class NoncircularParams(Parameters):
             raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
         self._of_the_law()
         self._of_the_ring()
+        self._of_the_sector()
         if self.shaper_radius is not None and self.cutter == "rack":
             raise ValueError('shaper_radius is for cutter = "shaper"; leave one of both out')
         if self.teeth * self.mate_lobes % self.lobes:
@@ -317,6 +302,21 @@ class NoncircularParams(Parameters):
         if self.ring_holes == 0 and self.ring_hole is not None:
             raise ValueError("ring_hole is the size of no hole; leave it out, or set ring_holes")
 
+    def _of_the_sector(self) -> None:
+        if self.sector is None:
+            if self.law == "spiral":
+                raise ValueError('law = "spiral" does not close; set sector, the travel of the driver')
+            if self.sector_hub is not None:
+                raise ValueError("sector_hub is for sectors; leave it out, or set sector")
+            return
+        if self.law not in SECTOR_LAWS:
+            raise ValueError(
+                f'law = "{self.law}" goes all the way round; leave sector out, or take one of '
+                + ", ".join(SECTOR_LAWS)
+            )
+        if self.internal or self.lobes != 1 or self.mate_lobes != 1:
+            raise ValueError("sectors are gears beside each other and have no lobes; leave sector out")
+
     def _of_the_law(self) -> None:
         own = LAW_FIELDS[self.law]
         for law, names in LAW_FIELDS.items():
@@ -342,7 +342,10 @@ class NoncircularParams(Parameters):
         if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
             raise ValueError("stroke_end is to be above stroke_start")
         if self.law == "table":
-            check_nodes(self.nodes, self.lobes, self.mate_lobes)
+            if self.sector is None:
+                check_nodes(self.nodes, self.lobes, self.mate_lobes)
+            else:
+                check_open_nodes(self.nodes, self.sector)
         if self.law in {"ratio", "angle"}:
             self._formula(getattr(self, self.law))
 

@@ -5,13 +5,17 @@ import math
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
-from mechwright.mechanics.gearing import Teeth, tip_sites
+from mechwright.geometry import Loop
+from mechwright.mechanics.gearing import SectorTeeth, Teeth, tip_sites
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.68, 0.42)}
 """Part to its colour."""
+
+SITE = 0.15
+"""Share of a sector's side from its ends to where tabs may stand."""
 
 UNDER = 1.5
 """How far below the roots of the teeth a dot stands, mm."""
@@ -34,7 +38,25 @@ def _gear(params: NoncircularParams, outline: Outline) -> list[Feature]:
         features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
         if opening.has_keyway:
             features.append(Profile("keyway", opening.loop(), "inside", 0, depth))
-    return [*features, Profile("outside", outline.outer, "outside", 0, depth, tip_sites(outline.outer))]
+    return [*features, Profile("outside", outline.outer, "outside", 0, depth, _sites(outline.outer))]
+
+
+def _sites(outer: Loop) -> tuple[tuple[Point, float], ...]:
+    """Where tabs may hold a gear, and their limits, mm: on its tips, and of a sector on its two sides.
+
+    Those reach from the hub to both ends of the teeth. Where a sector has one side alone, all tips have the
+    limit of the least: else tabs would stand together where tips are widest.
+    """
+    tips, sides = tip_sites(outer), [one for one in outer.segments if one.tag == "side"]
+    if len(sides) == 1:
+        least = min(width for _, width in tips)
+        return tuple((place, least) for place, _ in tips)
+    found = []
+    for side in sides:
+        length = math.dist(side.start, side.end)
+        for x, y in side.at([SITE, 1 - SITE]).tolist():
+            found.append(((x, y), 2 * SITE * length))
+    return (*tips, *found)
 
 
 def _ring(params: NoncircularParams, outline: Outline) -> list[Feature]:
@@ -61,14 +83,15 @@ def _part(
 
 
 def _marks(params: NoncircularParams) -> tuple[FittingMark, FittingMark]:
-    """One dot under tooth 0 of the driver, two about the space that takes it up.
+    """One dot under a tooth of the driver, two about the space that takes it up.
 
-    Tooth 0 of the driver lies behind the pitch point at φ = 0, and that space as far: both meet there.
+    Tooth 0 of the driver lies behind the pitch point at φ = 0, and that space as far: both meet there. Of a
+    sector it is a tooth in its middle.
     """
     driver, driven = teeth_of(params)
-    tooth = _dot(driver, 0)
+    tooth = _dot(driver, _marked(driver))
     # Both pitch curves roll off the same length; the arcs of driver and ring run against the contact.
-    middle = -params.side * driver.tooth_arcs[0] / driver.rack.pitch - driven.offset
+    middle = -params.side * driver.tooth_arcs[_marked(driver)] / driver.rack.pitch - driven.offset
     space = _dot(driven, round(middle - 0.5) % driven.count), _dot(driven, round(middle + 0.5) % driven.count)
     at = math.degrees(_meeting(params)) % 360
     return (
@@ -87,10 +110,15 @@ def _dot(teeth: Teeth, number: int) -> Point:
     return round(x, 4), round(y, 4)
 
 
+def _marked(driver: Teeth) -> int:
+    """The tooth of the driver that has a dot."""
+    return driver.count // 2 if isinstance(driver, SectorTeeth) else 0
+
+
 def _meeting(params: NoncircularParams) -> float:
-    """Angle of the driver, rad, at which its tooth 0 stands on the line of centres."""
+    """Angle of the driver, rad, at which its marked tooth stands on the line of centres."""
     driver = teeth_of(params)[0]
-    arc = driver.tooth_arcs[0]
+    arc = driver.tooth_arcs[_marked(driver)]
     return -float(driver.curve.parameter(np.asarray(arc)))
 
 

@@ -37,6 +37,8 @@ def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
                     f'set cutter = "shaper", or {words}',
                     ({"parameters.cutter": "shaper"}, *changes),
                 )
+            elif not changes and (more := _finer(params)) is not None:
+                words, changes = f"use {more} teeth, or {words}", ({"parameters.teeth": more},)
             yield Finding.error(
                 "gear.convexity",
                 "law",
@@ -73,6 +75,20 @@ def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
                 proposed=({"parameters.teeth": more},),
             )
             return
+
+
+def _finer(params: NoncircularParams) -> int | None:
+    """The teeth with which a shaper of so many modules is small enough for the hollows; None up to 300."""
+    least = min(one.value for one in extremes_of(params).curvatures)
+    step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
+    # The radius of the cutter is to the centre distance as one is to the number of teeth.
+    share = (FLATTEST - least) / (FLATTEST - _hollowest(params))
+    more = math.ceil(params.teeth * share * (1 + _SPARE) / step) * step
+    return more if more <= MOST_PROPOSED else None
+
+
+_SPARE = 0.01
+"""Share of teeth beyond those with which a cutter just fits: as made, it has room."""
 
 
 def _hollowest(params: NoncircularParams) -> float:

@@ -8,9 +8,12 @@ from pydantic import ValidationError
 
 from mechwright import MechwrightError
 from mechwright.contracts.finding import Change
+from mechwright_noncircular_gears.fields import MOST_HALF_TURN
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.formula import RatioFormula
-from mechwright_noncircular_gears.params import MOST_HALF_TURN, NoncircularParams
+from mechwright_noncircular_gears.laws.sector import SectorLaw
+from mechwright_noncircular_gears.laws.slider import SliderLaw
+from mechwright_noncircular_gears.params import NoncircularParams
 
 _STEPS = 12
 """Halvings: to a four-thousandth of the change."""
@@ -18,12 +21,17 @@ _STEPS = 12
 _DIGITS = 3
 """Of a value that is named."""
 
+LEAST_STROKE = 0.1
+"""Share of a stroke to which it is shortened at most: there the crank goes on as good as evenly."""
+
 EASY_INDEX, EASY_RAMP = 200.0, 0.45
 """Degrees of the driver for a move of a Geneva wheel, and the ramp, with which the ratio changes little."""
 
 
 def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
     """Fields with which the ratio changes by a share of what it does; None where a law has no such fields."""
+    if params.sector is not None:
+        return _steadier(params, share)
     if params.law == "fourier":
         names = ("sines", "cosines")
         found = {name: tuple(_down(share * one) for one in params.value(name)) for name in names}
@@ -48,7 +56,7 @@ def softened(params: NoncircularParams, share: float) -> dict[str, Any] | None:
         turning = "phi" if mean == 1 else f"{params.lobes}/{params.mate_lobes}*phi"
         return {"angle": f"{turning} + {share:.4g}*({params.angle} - {turning})"}
     if params.law == "slider":
-        return None
+        return _shorter(params, share)
     if params.law == "geneva":
         return _longer(params, share)
     return {"eccentricity": _down(share * params.value("eccentricity"))}
@@ -60,6 +68,36 @@ def _longer(params: NoncircularParams, share: float) -> dict[str, Any]:
     fields = {"ramp": round(EASY_RAMP + share * (params.value("ramp") - EASY_RAMP), 3), "window": window}
     room = math.floor(MOST_HALF_TURN - window / 2)
     return fields if params.value("blend") <= room else {**fields, "blend": room}
+
+
+def _steadier(params: NoncircularParams, share: float) -> dict[str, Any]:
+    """Of sectors: nearer to the mean ratio over the travel, or a spiral to its middle ratio."""
+    law = law_of(params)
+    assert isinstance(law, SectorLaw)  # noqa: S101 - of a sector
+    if params.law == "spiral":
+        first, last = params.value("first_ratio"), params.value("last_ratio")
+        middle = math.sqrt(first * last)
+        ends = zip(("first_ratio", "last_ratio"), (first, last), strict=True)
+        return {name: round(middle * (one / middle) ** share, 4) for name, one in ends}
+    mean = law.turned / law.end
+    if params.law == "table":
+        pairs = params.nodes or ()
+        return {"nodes": tuple((a, round(mean * a + share * (b - mean * a), 4)) for a, b in pairs)}
+    steady = f"{(1 - share) * mean:.4g}"
+    if params.law == "ratio":
+        return {"ratio": f"{steady} + {share:.4g}*({params.ratio})"}
+    return {"angle": f"{steady}*phi + {share:.4g}*({params.angle})"}
+
+
+def _shorter(params: NoncircularParams, share: float) -> dict[str, Any]:
+    """A shorter stroke about the crank angle of the greatest speed, in a window nearer to its own length."""
+    law = law_of(params)
+    assert isinstance(law, SliderLaw)  # noqa: S101 - of this law
+    middle, kept_share = math.degrees(law.fastest), max(share, LEAST_STROKE)
+    names = ("stroke_start", "stroke_end")
+    ends = {name: round(middle + kept_share * (params.value(name) - middle), 1) for name in names}
+    stroke = ends["stroke_end"] - ends["stroke_start"]
+    return {**ends, "window": round(stroke + share * (params.value("window") - stroke), 1)}
 
 
 def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool]) -> dict[str, Any] | None:

@@ -11,7 +11,7 @@ from mechwright_noncircular_gears.params import NoncircularParams
 
 
 class PairStage(Transmission):
-    """Driver in, driven gear out, the other way round; a ring has no shaft (DesignError)."""
+    """Driver in, driven gear out, the other way round; a ring has no shaft, sectors swing (DesignError)."""
 
     own_drive = ("speed",)
     load_field = "load_torque"
@@ -21,6 +21,10 @@ class PairStage(Transmission):
             raise DesignError(
                 "internal: a ring is screwed to what turns with it and has no shaft for the next stage; set "
                 "internal = false"
+            )
+        if params.sector is not None:
+            raise DesignError(
+                "sector: sectors swing there and back, and the next stage turns on; leave sector out"
             )
         self.params = params
         driver, mate = NAMES

@@ -26,6 +26,7 @@ from mechwright.mechanics.strength.judging import Stress, Way, judged
 from mechwright.mechanics.strength.tooth_bending import Rack, root_stress, tangential_force, virtual_teeth
 from mechwright_noncircular_gears.gear import outlines_of, pair_of, rack_of
 from mechwright_noncircular_gears.law import GRID, law_of
+from mechwright_noncircular_gears.laws.sector import swung
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
 
@@ -59,7 +60,8 @@ def loads(params: NoncircularParams) -> tuple[Array, Array, Array, Array]:
     first = law.rates(phi)[1]
     density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
     inertia = outlines_of(params)[1].polar_moment * params.thickness * density
-    torque = inertia * TO_NM * first * params.omega**2 + params.load_torque
+    angular = first if params.sector is None else swung(law, phi, math.radians(params.sector))[1]
+    torque = inertia * TO_NM * angular * params.omega**2 + params.load_torque
     now = Rolling.of(law, phi, params.side)
     alpha = math.radians(params.pressure_angle)
     force = tangential_force(np.abs(torque), a * now.r2, now.tilt, alpha)

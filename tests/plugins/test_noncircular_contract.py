@@ -24,7 +24,7 @@ class TestNoncircularGears(DayContract):
     )
     night: ClassVar = {
         # One pair is built by day; of the other laws, findings and motion.
-        name: {1, 2, 3, 4, 5, 6, 7}
+        name: {1, 2, 3, 4, 5, 6, 7, 8}
         for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
     }
     max_frames = tried(1, 40)
@@ -40,6 +40,7 @@ class TestNoncircularGears(DayContract):
         {**SMALL, "law": "ratio", "ratio": "exp(0.15*cos(phi))", "teeth": 24},
         {**SMALL, "law": "angle", "angle": "phi + 0.1*sin(phi)", "teeth": 24},
         {**SMALL, **RING},
+        {**SMALL, "law": "spiral", "sector": 100, "teeth": 16, "sector_hub": 20},
     )
     requirements: ClassVar = {
         "geneva": ({"harmonics": 4, "teeth": 40}, {"harmonics": 3, "slots": 6, "hollow": False}),

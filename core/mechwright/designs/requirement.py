@@ -13,6 +13,8 @@ They are laid out as design files are, with the table ``[requirement]`` in the p
     [cam]
     work_offset = "G54"
 
+A chain's requirement has its stages as a design has them, which say where the search begins.
+
 ``kind`` may be left out where the family knows one only. Other tables, such as ``[cam]``, go into the
 designs.
 """
@@ -26,12 +28,14 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.design import Design, read_head, read_tables, telling_places
+from mechwright.designs.chains import STAGE, chain_of, chain_params, stage_schema
+from mechwright.designs.design import Design, read_head, read_name, read_tables, telling_places
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import in_millimetres, told_in
 from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
+from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
 
 
@@ -91,7 +95,12 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
             f"{path}: parameters: this file is a design, and asks for none; build it by mechwright build "
             f"{path.name} -o FOLDER, or write what is asked in a table [requirement]"
         )
-    name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
+    keys = (*HEAD, "requirement", STAGE, *registered)
+    family: Family[Any]
+    if STAGE in content:
+        name, family = read_name(content, path, keys), chain_of(content, path, host)
+    else:
+        name, family = read_head(content, path, host, keys)
     require_synthesis(family, str(path))
     table = content.get("requirement", {})
     kinds = tuple(family.requirements)
@@ -104,6 +113,8 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
         raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
     model = family.requirements[kind]
     schema = {"requirement": model_schema(model)}
+    if isinstance(family, Chain):
+        schema[STAGE] = stage_schema(family.families)
     units, content = in_millimetres(content, path, schema, host.all(Table))
     rest = content.get("requirement", {})
     if isinstance(rest, dict):
@@ -111,6 +122,8 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
     with told_in(units):
         given = read_tables(content, path, host)
         asked = read_table(model, rest, str(path), "requirement")
+        if isinstance(family, Chain):
+            family = Chain(family.families, chain_params(family.families, content, path))
     tables: list[tuple[Table[Any], Any]] = []
     files: dict[str, Path] = {}
     inputs: dict[str, Path] = {}

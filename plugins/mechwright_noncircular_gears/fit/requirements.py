@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_noncircular_gears.params import LEAST_MODULE, LEAST_TEETH, MOST_HARMONICS, MOST_TEETH
+from mechwright_noncircular_gears.fields import LEAST_MODULE, LEAST_TEETH, MOST_HARMONICS, MOST_TEETH
 
 
 class FitRequirement(Parameters):

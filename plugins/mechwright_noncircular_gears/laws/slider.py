@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.optimize import brentq
 
 from mechwright import Array
 from mechwright.mechanics.gearing import RatioLaw
@@ -52,6 +53,11 @@ class SliderLaw(RatioLaw):
     def speed(self) -> float:
         """V, cranks for each rad of the driver."""
         return float(self._place(self.start)[0] - self._place(self.end)[0]) / self.width
+
+    @property
+    def fastest(self) -> float:
+        """Angle of the crank, rad, at which a crank of constant speed moves the slider fastest: x'' = 0."""
+        return float(brentq(lambda t: float(self._place(t)[2]), 0.0, math.pi))
 
     def _crank(self, phi: Array) -> Array:
         x: Array = self._place(self.start)[0] - self.speed * (phi + self.width / 2)

@@ -1,11 +1,13 @@
 """A chain as a family: whatever is asked of a mechanism is asked of its stages and put together."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding
+from mechwright.contracts.parameters import Parameters
 from mechwright.mechanics.chain.params import ChainParams, Families
+from mechwright.mechanics.chain.wanted import ChainRequirement
 
 if TYPE_CHECKING:
     import shapely
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
+    from mechwright.contracts.synthesis import Progress, Synthesis
 
 
 class Chain(Family[ChainParams]):
@@ -28,8 +31,11 @@ class Chain(Family[ChainParams]):
     summary = "Mechanisms of which each turns the next, the output shaft of one the input shaft of the other."
     Params = ChainParams
 
-    def __init__(self, families: Families) -> None:
-        self.families = families
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {"least": ChainRequirement}
+
+    def __init__(self, families: Families, base: ChainParams | None = None) -> None:
+        """Of these families; ``base`` is the chain of a requirement's own stages."""
+        self.families, self.base = families, base
 
     def check(self, params: ChainParams) -> Sequence[Finding]:
         """What each stage's family finds under the loads of the chain, and how the stages go together."""
@@ -54,6 +60,16 @@ class Chain(Family[ChainParams]):
         from mechwright.mechanics.chain.assembly import parts_of
 
         return parts_of(params, self.families)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[ChainParams]":
+        """The chain of a requirement's stages with the least of a figure, over some of their numbers."""
+        from mechwright.mechanics.chain.seeking import sought
+
+        if not isinstance(requirement, ChainRequirement) or self.base is None:
+            return super().synthesise(kind, requirement, progress)
+        return sought(requirement, self.base, self.families, progress)
 
     def settings(self, params: ChainParams) -> Mapping[str, ChainParams]:
         """Those of each stage."""

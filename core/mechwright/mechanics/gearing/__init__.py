@@ -20,6 +20,7 @@ from mechwright.mechanics.gearing.rack import SIDES, Rack
 from mechwright.mechanics.gearing.ratio import RatioLaw
 from mechwright.mechanics.gearing.rolled import RolledCurve, RolledPair, Rolling
 from mechwright.mechanics.gearing.round import Round, RoundPair
+from mechwright.mechanics.gearing.sector import SectorTeeth, sector_loop
 from mechwright.mechanics.gearing.shaper import Shaper
 from mechwright.mechanics.gearing.teeth import Teeth
 
@@ -39,11 +40,13 @@ __all__ = [
     "Rolling",
     "Round",
     "RoundPair",
+    "SectorTeeth",
     "Shaper",
     "Teeth",
     "gear_loop",
     "mesh",
     "prove_mesh",
+    "sector_loop",
     "swing",
     "tip_sites",
 ]

@@ -43,21 +43,21 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
     GeometryError
         The curves do not meet, or are not smooth.
     """
-    tips, at_tips = _offsets(teeth, *teeth.tip_lands, teeth.rack.addendum)
-    down, up, at_flanks = _flanks(teeth)
-    fall, rise, at_fillets = _fillets(teeth)
+    tips, at_tips = offsets(teeth, *teeth.tip_lands, teeth.rack.addendum)
+    down, up, at_flanks = flanks(teeth)
+    fall, rise, at_fillets = fillets(teeth)
     fallen, risen = teeth.curve.parameter(teeth.arc_centres).T
-    roots, at_roots = _offsets(teeth, fallen, risen, -teeth.rack.dedendum)
-    _share(tips, [up[j - 1][-1][-1] for j in range(teeth.count)], [one[0][0] for one in down])
-    _share(fall, [one[-1][-1] for one in down], None)
-    _share(rise, None, [one[0][0] for one in up])
+    roots, at_roots = offsets(teeth, fallen, risen, -teeth.rack.dedendum)
+    share(tips, [up[j - 1][-1][-1] for j in range(teeth.count)], [one[0][0] for one in down])
+    share(fall, [one[-1][-1] for one in down], None)
+    share(rise, None, [one[0][0] for one in up])
     fallen, risen = np.array([one[-1][-1] for one in fall]), np.array([one[0][0] for one in rise])
     if np.linalg.norm(risen - fallen, axis=1).min() > TOLERANCES.closure:
-        _share(roots, list(fallen), list(risen))
+        share(roots, list(fallen), list(risen))
     else:
         # A rack with a full radius leaves no land.
         roots = [[] for _ in roots]
-        _share(rise, list(fallen), None)
+        share(rise, list(fallen), None)
     chains = [
         (tips, "tip"),
         (down, "flank"),
@@ -72,7 +72,7 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
     return Loop(tuple(segments)), max(at_tips, at_flanks, at_fillets, at_roots)
 
 
-def _share(chain: Chain, starts: list[Array] | None, ends: list[Array] | None) -> None:
+def share(chain: Chain, starts: list[Array] | None, ends: list[Array] | None) -> None:
     """Give curves their neighbours' end points, bit for bit; they agree to rounding already."""
     for j, nets in enumerate(chain):
         if starts is not None:
@@ -126,7 +126,7 @@ def _between(first: Array, last: Array, t: Array) -> Array:
     return values
 
 
-def _offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[Chain, float]:
+def offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[Chain, float]:
     """Tips or roots from parameters (z,) to parameters (z,), at a height, mm, over the pitch curve."""
 
     def curves(rows: Ints, s: Array) -> Array:  # noqa: ARG001 - all are alike
@@ -135,7 +135,7 @@ def _offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[Ch
     return _fitted(curves, first, last, teeth.curve.breaks, math.tau)
 
 
-def _flanks(teeth: Teeth) -> tuple[Chain, Chain, float]:
+def flanks(teeth: Teeth) -> tuple[Chain, Chain, float]:
     """Flanks of side -1 from tip to fillet, those of side +1 from fillet to tip."""
     tip, join = teeth.tip_trim[0], teeth.curve.parameter(teeth.join_arcs)
     first = np.concatenate((tip[:, 0], join[:, 1]))
@@ -150,7 +150,7 @@ def _flanks(teeth: Teeth) -> tuple[Chain, Chain, float]:
     return chain[: teeth.count], chain[teeth.count :], error
 
 
-def _fillets(teeth: Teeth) -> tuple[Chain, Chain, float]:
+def fillets(teeth: Teeth) -> tuple[Chain, Chain, float]:
     """Fillets of side -1 from flank to root, those of side +1 from root to flank."""
     scale, reach = teeth.rack.fillet_course
     centre = np.concatenate((teeth.arc_centres[:, 0], teeth.arc_centres[:, 1]))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.mesh import POSITIONS_PER_TOOTH, swing
+from mechwright.mechanics.gearing.mesh import swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.rack import SIDES
 from mechwright.mechanics.gearing.teeth import Teeth
@@ -95,17 +95,14 @@ class Contacts:
         ``mate`` are the teeth of the driven gear, where a pitch curve is hollow and tips reach farther.
         """
         rack, curve = driver.rack, pair.driver
-        turns = pair.turns(driver.count)
-        if positions is None:
-            positions = POSITIONS_PER_TOOTH * driver.count * turns + 1
-        arc = turns * curve.perimeter * np.arange(positions) / positions
+        arc = pair.run(driver.wheel, positions)
         theta1, theta2 = pair.angles(arc)
         sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
         # How far a flank may cross from the pitch point to touch below the tips of both gears.
         reach = rack.addendum / (sin * cos)
         if mate is not None:
             reach = max(reach, driver.tip_reach, mate.tip_reach)
-        away = (arc[:, None, None] - driver.flank_arcs) % curve.perimeter
+        away = (arc[:, None, None] - driver.meeting_arcs) % curve.perimeter
         away -= np.where(away > curve.perimeter / 2, curve.perimeter, 0.0)
         position, tooth, side = np.nonzero(np.abs(away) <= reach)
         start, sign = arc[position] - away[position, tooth, side], SIDES[side]

@@ -29,10 +29,6 @@ from mechwright.mechanics.gearing.contact import contact
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.zone import Envelope, Near, Rim, turned
 
-POSITIONS_PER_TOOTH = 4
-"""Positions per tooth. One more over the whole run makes the step unrelated to the pitch, so that every part
-of the mesh cycle is met."""
-
 EDGES_PER_PITCH = 16
 """Longer edges are cut, so that an edge is a short piece of one flank."""
 
@@ -113,14 +109,11 @@ def mesh(
     teeth
         Number of teeth of the driver.
     positions
-        Number of positions, equal steps of arc; by default four per tooth and one.
+        Number of positions, as in :meth:`Pair.run`.
     allowance
         Depth that counts as contact, mm: what fitting and flattening may put on both outlines.
     """
-    turns, pitch = pair.turns(teeth), pair.driver.perimeter / teeth
-    if positions is None:
-        positions = POSITIONS_PER_TOOTH * teeth * turns + 1
-    arc = turns * pair.driver.perimeter * np.arange(positions) / positions
+    pitch, arc = pair.pitch(teeth), pair.run(teeth, positions)
     theta1, theta2 = pair.angles(arc)
     one, two = (_cut_edges(points, pitch / EDGES_PER_PITCH) for points in (driver, driven))
     rims = Rim.of(one), Rim.of(two)
@@ -129,7 +122,7 @@ def mesh(
         Envelope.of(two, pair.driven, _REACH * pitch, pair.side),
     )
     parts = []
-    for i in range(0, positions, _CHUNK):
+    for i in range(0, arc.size, _CHUNK):
         now = slice(i, i + _CHUNK)
         near = _near(rims, envelopes, pair.axis, theta1[now], theta2[now])
         parts.append(contact(*near, theta1[now].size, pitch, allowance))

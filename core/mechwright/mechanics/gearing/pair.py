@@ -18,6 +18,9 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 
+POSITIONS_PER_TOOTH = 4
+"""Of a run of the pair."""
+
 
 @dataclass(frozen=True)
 class Pair(ABC):
@@ -58,6 +61,21 @@ class Pair(ABC):
         """Turns of a driver with so many teeth after which the same teeth meet again."""
         mate = round(teeth * self.driven.perimeter / self.driver.perimeter)
         return mate // math.gcd(teeth, mate)
+
+    def pitch(self, teeth: int) -> float:
+        """Distance, mm, of so many teeth of the driver along its pitch curve."""
+        return self.driver.perimeter / teeth
+
+    def run(self, teeth: int, positions: int | None = None) -> Array:
+        """Arcs (n,), mm, of the driver's pitch point at equal steps until the same teeth meet again.
+
+        ``positions`` is their number, four per tooth and one by default, which makes the step unrelated to
+        the pitch, so that every part of the mesh cycle is met.
+        """
+        turns = self.turns(teeth)
+        count = POSITIONS_PER_TOOTH * teeth * turns + 1 if positions is None else positions
+        arcs: Array = turns * self.driver.perimeter * np.arange(count) / count
+        return arcs
 
     def angles(self, arc: Array) -> tuple[Array, Array]:
         """θ1 and θ2 (n,), rad, with the pitch point at arcs (n,), mm, of the driver; steps are small."""

@@ -19,11 +19,11 @@ import numpy as np
 
 from mechwright.arrays import Array
 
-_GUESSES = 513
+GUESSES = 513
 """Entries of the table that inverts the arc length: 2e-5 rad wrong on a smooth curve, which two Newton steps
 make rounding."""
 
-_NEWTON_STEPS = 3
+NEWTON_STEPS = 3
 """One more than the table's error needs."""
 
 
@@ -103,16 +103,20 @@ class PitchCurve(ABC):
         """Parameters (n,), rad, 0 to 2π, at which the curvature jumps; none by default."""
         return np.empty(0)
 
+    def around(self, count: int) -> Array:
+        """Parameters (count,), rad, along all of the curve that has teeth, in equal steps."""
+        return np.linspace(0.0, math.tau, count, endpoint=False)
+
     @cached_property
     def _table(self) -> tuple[Array, Array]:
-        t = np.linspace(0, math.tau, _GUESSES)
+        t = np.linspace(0, math.tau, GUESSES)
         return self.arc(t), t
 
     def parameter(self, arc: Array) -> Array:
         """Parameter t (...), rad, at arc lengths (...), mm: Newton's method on :meth:`arc`."""
         turns, rest = np.divmod(np.asarray(arc, dtype=float), self.perimeter)
         t = np.interp(rest, *self._table)
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(NEWTON_STEPS):
             t = t - (self.arc(t) - rest) / self.arc_rate(t)
         result: Array = t + math.tau * turns
         return result

@@ -27,6 +27,10 @@ _TAIL = 3
 _ROUNDING = 1e-13
 """Of a series in units of its greatest value; integration divides the tail by its order, and by two."""
 
+_NOISE = 64 * float(np.finfo(float).eps)
+"""Share of the greatest value of all panels that is rounding where the function comes near to 0: what it is
+made of cancels there."""
+
 _MOST_PANELS = 4096
 """So many need only functions without a bound: one with a corner needs some fifty."""
 
@@ -79,11 +83,13 @@ class Primitive:
         bounds = np.array([0.0, *inner, period])
         low, high = bounds[:-1], bounds[1:]
         done: list[tuple[Array, Array, Array]] = []
+        greatest = 0.0
         while low.size:
             half = (high - low) / 2
             terms = function(low[:, None] + half[:, None] * (1 + _NODES)) @ _TO_TERMS.T
             size = np.abs(terms).max(axis=1)
-            rough = np.abs(terms[:, -_TAIL:]).max(axis=1) > _ROUNDING * size
+            greatest = max(greatest, float(size.max()))
+            rough = np.abs(terms[:, -_TAIL:]).max(axis=1) > np.maximum(_ROUNDING * size, _NOISE * greatest)
             done.append((low[~rough], half[~rough], terms[~rough]))
             low, high = low[rough], high[rough]
             middle = (low + high) / 2

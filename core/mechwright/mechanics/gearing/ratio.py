@@ -22,6 +22,10 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.mechanics.gearing.primitive import Primitive
 
+BEYOND = 2.0
+"""rad beyond each end of a sector's travel for which its pitch curves go on: the coarsest teeth need two
+pitches."""
+
 
 class RatioLaw(ABC):
     """A law of period 2π/N1 whose mean is N1/N2: both pitch curves close.
@@ -37,6 +41,14 @@ class RatioLaw(ABC):
     def period(self) -> float:
         """2π/N1, rad: one lobe of the driver."""
         return math.tau / self.lobes[0]
+
+    @property
+    def travel(self) -> float | None:
+        """Angle, rad, from φ = 0 over which sectors roll on each other; None: gears go all the way round.
+
+        The pitch curves of a sector go on for :data:`BEYOND` behind both ends, and need not close.
+        """
+        return None
 
     @property
     def breaks(self) -> Sequence[float]:

@@ -18,10 +18,10 @@ from functools import cached_property
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.pair import Pair
-from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
+from mechwright.mechanics.gearing.pair import POSITIONS_PER_TOOTH, Pair
+from mechwright.mechanics.gearing.pitch_curve import GUESSES, NEWTON_STEPS, Frame, PitchCurve
 from mechwright.mechanics.gearing.primitive import Primitive
-from mechwright.mechanics.gearing.ratio import RatioLaw
+from mechwright.mechanics.gearing.ratio import BEYOND, RatioLaw
 
 _BESIDE = 1e-7
 """rad on both sides of a break of the law, between which a jump is told from a bend."""
@@ -121,6 +121,30 @@ class RolledCurve(PitchCurve):
         """Derivative ds/dt (...), mm/rad."""
         rate: Array = self.distance * abs(self.sense) * self._at(self.sense * t).speed
         return rate
+
+    def around(self, count: int) -> Array:
+        """Parameters (count,), rad, once round, or of a sector over its travel."""
+        travel = self.law.travel
+        return super().around(count) if travel is None else np.linspace(0.0, travel, count) / self.sense
+
+    @cached_property
+    def _table(self) -> tuple[Array, Array]:
+        travel = self.law.travel
+        if travel is None:
+            return super()._table
+        t = np.linspace(-BEYOND, travel + BEYOND, GUESSES) / self.sense
+        t.sort()
+        return self.arc(t), t
+
+    def parameter(self, arc: Array) -> Array:
+        """As of any curve; that of a sector goes on beyond its travel and comes never round."""
+        if self.law.travel is None:
+            return super().parameter(arc)
+        t = np.interp(np.asarray(arc, dtype=float), *self._table)
+        for _ in range(NEWTON_STEPS):
+            t = t - (self.arc(t) - arc) / self.arc_rate(t)
+        result: Array = t
+        return result
 
     def _at(self, phi: Array) -> Rolling:
         return Rolling.of(self.law, phi, self.side)
@@ -223,7 +247,28 @@ class RolledPair(Pair):
     @classmethod
     def of_pitch(cls, law: RatioLaw, pitch: float, teeth: int, side: int = 1) -> "RolledPair":
         """With so many teeth of a pitch, mm, on the driver: they need a centre distance of their own."""
-        return cls.of(law, pitch * teeth / (law.lobes[0] * lobe_of(law, side).total), side)
+        unit = cls.of(law, 1.0, side)
+        return cls.of(law, pitch * teeth / unit.rolled, side)
+
+    @property
+    def rolled(self) -> float:
+        """Arc, mm, of the driver over which its teeth are counted: all round, or over the travel."""
+        travel = self.ratio.travel
+        if travel is None:
+            return self.driver.perimeter
+        return self.distance * float(self.driver.roll(np.asarray(travel)))
+
+    def pitch(self, teeth: int) -> float:
+        """Of so many teeth."""
+        return self.rolled / teeth
+
+    def run(self, teeth: int, positions: int | None = None) -> Array:
+        """As of any pair; of sectors over their travel, both ends included."""
+        if self.ratio.travel is None:
+            return super().run(teeth, positions)
+        count = POSITIONS_PER_TOOTH * teeth + 1 if positions is None else positions
+        arcs: Array = -self.rolled * np.linspace(0.0, 1.0, count)
+        return arcs
 
     @property
     def side(self) -> int:

@@ -82,7 +82,7 @@ class MadePair:
             shapely.get_coordinates(shapely.simplify(shapely.Polygon(outline), FINE))[:-1]
             for outline in self.outlines
         )
-        return mesh(one, two, self.pair, self.teeth.count, allowance=DEEP)
+        return mesh(one, two, self.pair, self.teeth.wheel, allowance=DEEP)
 
     @cached_property
     def disagreement(self) -> float:

@@ -63,6 +63,16 @@ class Teeth:
         arcs: Array = self.space_arcs[:, None] + SIDES * self.rack.half_space
         return arcs
 
+    @property
+    def wheel(self) -> int:
+        """Pitches of the whole run: those of the perimeter."""
+        return self.count
+
+    @property
+    def meeting_arcs(self) -> Array:
+        """Arc (z, 2), mm, where each flank crosses that a flank of the mate meets; NaN of others."""
+        return self.flank_arcs
+
     @cached_property
     def arc_centres(self) -> Array:
         """Arc x (z, 2), mm, at which the centres of the rack's tip arcs touch the root."""

@@ -48,7 +48,7 @@ class Envelope:
     @classmethod
     def of(cls, points: Array, curve: PitchCurve, margin: float, side: int = 1) -> "Envelope":
         """The envelope of an outline (n, 2), mm, that holds a margin, mm, more than its body."""
-        frame = curve.frame(np.linspace(0, math.tau, _SAMPLES, endpoint=False))
+        frame = curve.frame(curve.around(_SAMPLES))
         angle, radius = frame.polar_angle, frame.polar_radius
         rise = np.diff(radius, append=radius[0]) / (np.diff(angle, append=angle[0]) % math.tau)
         slope = float((np.abs(rise) / np.minimum(radius, np.roll(radius, -1))).max())
