@@ -80,4 +80,5 @@ class TestSpherical(DayContract):
             },
         ),
         "four-bar-path": ({"atlas": 200, "starts": 1},),
+        "five-bar-path": ({"atlas": 200, "starts": 1, "least_transmission": 20},),
     }
