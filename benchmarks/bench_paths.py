@@ -15,7 +15,7 @@ from collections import Counter
 
 import numpy as np
 from harness import require
-from known_paths import Problem, kind_of, passed, quiet, slider_crank, spherical
+from known_paths import Problem, five_bar, kind_of, passed, quiet, slider_crank, spherical
 
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.paths.asked import Limits, PathProblem
@@ -67,7 +67,7 @@ def four_bar(rng: np.random.Generator) -> Problem:
     return run, kind_of(timed, closed), phi.size
 
 
-FAMILIES = {"four-bar": four_bar, "slider-crank": slider_crank, "spherical": spherical}
+FAMILIES = {"four-bar": four_bar, "slider-crank": slider_crank, "spherical": spherical, "five-bar": five_bar}
 
 
 def main() -> int:

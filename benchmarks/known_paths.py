@@ -1,4 +1,4 @@
-"""Paths of random slider-cranks and spherical four-bars, with the limits that these just keep."""
+"""Paths of random slider-cranks, spherical four-bars and five-bars, with the limits that these just keep."""
 
 import math
 from collections.abc import Callable
@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from mechwright.mechanics.tracing.search import ROUND, search
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.paths.room import Limits, SliderRoom
+from mechwright_spherical.fivebar_room import ARCS, FiveBarRoom
 from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
 from mechwright_spherical.mobility import mobility
 from mechwright_spherical.requirements import FourBarPathRequirement
@@ -17,7 +18,7 @@ ROOM = 1.01
 """By how much limits are wider than what the linkage needs."""
 
 LEAST = math.radians(20)
-"""Least transmission angle of the spherical four-bars."""
+"""Least transmission angle of the spherical linkages."""
 
 SPHERICAL_ROUND = FourBarPathRequirement().atlas
 """Random linkages of a room that a requirement looks at in a round."""
@@ -89,6 +90,33 @@ def spherical(rng: np.random.Generator) -> Problem:
     bounds = Bounds(float(arcs.min()) / ROOM, float(arcs.max()) * ROOM, angle / ROOM)
     rooms = [
         FourBarRoom(points, turns, one, sense, closed, size, bounds)
+        for one in (1, -1)
+        for sense in ((1, -1) if turns is None else (way,))
+    ]
+    return _nearest(rooms, SPHERICAL_ROUND), kind_of(timed, closed), phi.size
+
+
+def five_bar(rng: np.random.Generator) -> Problem:
+    """A path of a spherical five-bar, its arm geared to the crank."""
+    while True:
+        phi, timed, closed = passed(rng)
+        ratio = float(rng.choice((-2, -1, 1, 2) if closed else (-2, -1, -0.5, 0.5, 1, 2)))
+        side, way = int(rng.choice((-1, 1))), 1 if phi[-1] > phi[0] else -1
+        empty = FiveBarRoom(
+            np.zeros((phi.size, 3)), None, ratio, side, way, closed, 1.0, Bounds(0, math.pi, 0)
+        )
+        arcs = rng.uniform(math.radians(20), math.radians(100), ARCS)
+        rest = [rng.uniform(0, math.tau), rng.uniform(-1, 2), rng.uniform(-0.8, 0.8)]
+        x = np.concatenate([arcs, rest, Rotation.random(rng=rng).as_quat()])
+        cosine = float(empty.cosines(empty.made(x), phi).max())
+        if cosine < math.cos(LEAST):
+            break
+    points = empty.missed(empty.made(x), phi)
+    size = float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
+    turns = phi - phi[0] if timed else None
+    bounds = Bounds(float(arcs.min()) / ROOM, float(arcs.max()) * ROOM, math.acos(cosine) / ROOM)
+    rooms = [
+        FiveBarRoom(points, turns, ratio, one, sense, closed, size, bounds)
         for one in (1, -1)
         for sense in ((1, -1) if turns is None else (way,))
     ]

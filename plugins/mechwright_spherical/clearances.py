@@ -109,10 +109,14 @@ def arcs_apart(one: Link, two: Link) -> Array:
 
 
 def point_to_arc(point: Array, link: Link) -> Array:
-    """Angle (..., n) from points (3, ..., n) to arcs: to their great circle, or to an end."""
+    """Angle (..., n) from points (3, ..., n) to arcs: to their great circle, or to an end.
+
+    An arc without length is its end.
+    """
     start, end = link
     normal = cross(start, end)
-    normal = normal / norm(normal)
+    length = norm(normal)
+    normal = normal / np.where(length > 0, length, 1.0)
     ahead, behind = cross(normal, start), cross(end, normal)
     # Of several points each, the arcs have an axis between their own two.
     wide = (slice(None), *(None,) * (point.ndim - start.ndim))
@@ -142,8 +146,12 @@ def _on_arc(point: Array, link: Link, normal: Array) -> NDArray[np.bool_]:
 def _between(start: Array, end: Array, shares: Array) -> Array:
     """Points (3, m, n) at shares (m, 1) of arcs."""
     angle = _angle(start, end)
-    one, two = np.sin((1 - shares) * angle), np.sin(shares * angle)
-    return np.asarray((one * start[:, None] + two * end[:, None]) / np.sin(angle))
+    sine = np.sin(angle)
+    one, two = (
+        np.where(sine > 0, np.sin(part * angle) / np.where(sine > 0, sine, 1.0), part)
+        for part in (1 - shares, shares)
+    )
+    return np.asarray(one * start[:, None] + two * end[:, None])
 
 
 def _angle(a: Array, b: Array) -> Array:

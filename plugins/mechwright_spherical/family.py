@@ -8,6 +8,7 @@ from mechwright import Family, Finding, Parameters, Progress, Stage, Synthesis, 
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import (
     AdjustablePathRequirement,
+    FiveBarPathRequirement,
     FourBarPathRequirement,
     PosesRequirement,
 )
@@ -28,6 +29,7 @@ class Spherical(Family[SphericalParams]):
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,
         "four-bar-path": FourBarPathRequirement,
+        "five-bar-path": FiveBarPathRequirement,
         "poses": PosesRequirement,
     }
 
@@ -115,6 +117,10 @@ class Spherical(Family[SphericalParams]):
             from mechwright_spherical.poses_synthesis import from_five
 
             return from_five(PosesRequirement.model_validate(requirement), progress)
+        if kind == "five-bar-path":
+            from mechwright_spherical.fivebar_synthesis import from_points as five_bars
+
+            return five_bars(FiveBarPathRequirement.model_validate(requirement), progress)
         from mechwright_spherical.fourbar_synthesis import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)

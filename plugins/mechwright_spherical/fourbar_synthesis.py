@@ -8,15 +8,16 @@ every point, or of the first one only where the timing is prescribed.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright import Array, Candidate, Finding, GeometryError, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
-from mechwright.mechanics.tracing.points import all_angles, thinned
+from mechwright.mechanics.tracing.dense import on_all, only
+from mechwright.mechanics.tracing.points import thinned
 from mechwright.mechanics.tracing.requirement import fault_of_points
-from mechwright.mechanics.tracing.search import Trace, followed, search
+from mechwright.mechanics.tracing.search import Trace, search
 from mechwright_spherical import checks
 from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
 from mechwright_spherical.linkage import linkage_of
@@ -67,9 +68,8 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
     rooms = rooms_of(wanted, targets)
     targets, closed = rooms[0].targets, rooms[0].closed
     chosen = thinned(targets, closed)
-    few = [_only(room, chosen) for room in rooms]
     result = search(
-        few, wanted.atlas, wanted.starts, MORE * wanted.designs, wanted.seed, EXACT,
+        only(rooms, chosen), wanted.atlas, wanted.starts, MORE * wanted.designs, wanted.seed, EXACT,
         lambda part: progress(SEARCH * part, "linkages on the points"),
     )  # fmt: skip
     rejected = Rejected()
@@ -78,7 +78,7 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
     found: list[Candidate[SphericalParams]] = []
     refused: list[Finding] = []
     looked: list[SphericalParams] = []
-    for one in _all_points(result.kept, rooms, chosen, MORE * wanted.designs):
+    for one in on_all(result.kept, rooms, chosen, MORE * wanted.designs):
         room = rooms[one.room]
         placed = shortest(_placed(room, one), room.bounds)
         params = design(placed, wanted, targets, closed)
@@ -129,26 +129,6 @@ def rooms_of(wanted: FourBarPathRequirement, targets: Array) -> list[FourBarRoom
             way = sense if given is None else (1 if given[-1] > 0 else -1)
             rooms.append(FourBarRoom(targets, given, side, way, wanted.closed or again, size, bounds))
     return rooms
-
-
-def _only(room: FourBarRoom, chosen: np.ndarray) -> FourBarRoom:
-    turns = None if room.turns is None else room.turns[chosen]
-    return replace(room, targets=room.targets[chosen], turns=turns)
-
-
-def _all_points(
-    traces: Sequence[Trace], rooms: Sequence[FourBarRoom], chosen: np.ndarray, most: int
-) -> list[Trace]:
-    """The linkages; where the search saw a part of the points, fitted to all of them."""
-    count = len(rooms[0].targets)
-    if len(chosen) == count:
-        return list(traces)
-    found = []
-    for one in traces[:most]:
-        room = rooms[one.room]
-        theta = all_angles(chosen, one.theta, count, room.closed)
-        found += [again for again in followed(room, one.room, one.x[None], theta[None]) if again.kept]
-    return sorted(found, key=lambda one: one.mean)
 
 
 def _placed(room: FourBarRoom, one: Trace) -> Placed:

@@ -13,7 +13,7 @@ from mechwright_spherical.flat import strip
 from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, ground_beyond, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.mount_checks import mount_findings
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.params import MOST_RADIUS, SphericalParams
 from mechwright_spherical.places import gear_span, link_arcs, second_size
 from mechwright_spherical.seats import seats_of, slotted_of
 from mechwright_spherical.setting_checks import slot_findings
@@ -30,8 +30,10 @@ def clear_radius(diameter: float, angle: float) -> float:
 
     >>> round(clear_radius(12, math.radians(9.704142066385073)), 6)
     70.681672
+    >>> clear_radius(12, 0.0)
+    inf
     """
-    return diameter / 2 / math.tan(angle / 2)
+    return diameter / 2 / math.tan(angle / 2) if angle > 0 else math.inf
 
 
 @of_stage(Stage.PARTS)
@@ -108,7 +110,20 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
             ]
     for said, angle, diameter, link in pairs:
         needed, there = clear_radius(diameter, angle), shells.links[link][0]
-        if exceeds(needed, there):
+        if needed - there > MOST_RADIUS - params.radius:
+            key = "four_bar.point_azimuth" if params.kind == "four-bar" else "five_bar.point"
+            tool = said.startswith("tool")
+            yield Finding.error(
+                "spherical.shafts",
+                key if tool else "radius",
+                f"{said} are {math.degrees(angle):.4g}° apart, and {diameter:g} mm do not fit side by side "
+                f"on any sphere up to {MOST_RADIUS:g} mm",
+                math.degrees(angle),
+                math.degrees(2 * math.atan(diameter / 2 / there)),
+                "deg",
+                "move the path point away from the pin" if tool else "use longer arcs, or smaller pins",
+            )
+        elif exceeds(needed, there):
             # The shells move outwards with the sphere.
             radius = math.ceil(10 * (params.radius + needed - there)) / 10
             yield Finding.error(

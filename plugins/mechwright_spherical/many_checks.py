@@ -101,7 +101,8 @@ def _shafts(
         (to_a, bored, coupler),
         (to_b, bored, coupler),
     ):
-        needed = diameter / 2 / np.tan(angle / 2)
+        with np.errstate(divide="ignore"):  # a point on a pin needs a sphere without end
+            needed = diameter / 2 / np.tan(angle / 2)
         found.forbid("spherical.shafts", _all(exceeds(needed, there), left), left)
 
 

@@ -16,6 +16,9 @@ Point = tuple[Coordinate, Coordinate]
 Direction = tuple[Coordinate, Coordinate, Coordinate]
 Turn = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
 
+MOST_RADIUS = 2000.0
+"""Of a sphere, mm."""
+
 MOST_POSITIONS = 50
 """Path points of a design: a table for people."""
 
@@ -341,7 +344,7 @@ class SphericalParams(Parameters):
     radius: Millimetres = Field(
         100.0,
         ge=5,
-        le=2000,
+        le=MOST_RADIUS,
         description="Radius of the sphere on which the path point moves.",
         json_schema_extra=FIRST,
     )

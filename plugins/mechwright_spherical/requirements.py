@@ -244,6 +244,47 @@ class FourBarPathRequirement(Parameters):
             raise ValueError(f"points: all {len(self.points)} are the same; a path needs two places at least")
         if self.angles:
             same_length("points", self.points, "angles", self.angles)
+            steps = np.diff(self.angles)
+            if not ((steps > 0).all() or (steps < 0).all()):
+                raise ValueError("angles go one way, each beyond the one before it")
+            if abs(self.angles[-1] - self.angles[0]) >= 360:
+                raise ValueError("angles stay within one turn, below 360 degrees")
+        return self
+
+    @property
+    def closes(self) -> bool:
+        """Whether the path closes: as it says, or because the first point comes again at the end."""
+        return self.closed or (not self.angles and self.comes_again)
+
+    @property
+    def comes_again(self) -> bool:
+        """Whether the last point is the first one."""
+        return len(self.points) > FEWEST_POINTS and self.points[0] == self.points[-1]
+
+
+class FiveBarPathRequirement(FourBarPathRequirement):
+    """A spherical five-bar, its arm geared to the crank, whose coupler point follows points of the sphere."""
+
+    closed: bool = Field(
+        True,
+        description="Whether the path closes; the crank then turns once, and ratio is a whole number.",
+    )
+    angles: tuple[Turn, ...] = Field(
+        (),
+        max_length=MOST_POINTS,
+        description="Crank angles of the points from the first one; none if the crank may choose.",
+    )
+    ratio: Ratio = Field(1.0, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
+
+    @model_validator(mode="after")
+    def _geared(self) -> Self:
+        if self.ratio == 0:
+            raise ValueError('ratio is 0, so the arm stands still; use kind = "four-bar-path"')
+        if self.closes and self.ratio != round(self.ratio):
+            raise ValueError(
+                f"closed and ratio = {self.ratio:g} contradict: after one turn of the crank the arm is not "
+                "where it was; give a whole number, or closed = false"
+            )
         return self
 
 

@@ -63,6 +63,33 @@ def test_the_page_escapes_what_it_is_told_and_needs_no_other_file():
     assert in_words(Scalar(math.pi / 6, "rad")) == "30°"
 
 
+PATHS = {
+    "four-bar": {"points": [[20.0 + k, 20.0 + 5 * k] for k in range(6)], "starts": 6000, "designs": 1},
+    "slider-crank": {"points": [[20.0 + k, 20.0 + 5 * k] for k in range(6)], "starts": 6000, "designs": 1},
+}
+
+
+@pytest.mark.parametrize("family", PATHS)
+def test_pictures_show_the_points_that_were_asked_for_where_the_path_runs(family):
+    """Each dot lies on the drawn path, also where a design stands in the origin; and the window holds it."""
+    found = mw.synthesize(family, "path", **PATHS[family])
+    page = found.gallery()
+    assert "Dots are the places that were asked for" in page
+    (picture,) = json.loads(re.search(r'id="moving">(.*?)</script>', page, re.S)[1])
+    dots = np.array([[float(n) for n in dot.split()] for dot in re.findall(r"M(.*?)h0", picture["asked"])])
+    assert len(dots) == 6
+    error = found.result.candidates[0].residual.value
+    curve = np.array([[float(n) for n in one.split()] for one in picture["traces"][0].strip("MZ").split("L")])
+    ends = np.roll(curve, -1, axis=0)
+    along = np.clip(((dots[:, None] - curve) * (ends - curve)).sum(-1) / ((ends - curve) ** 2).sum(-1), 0, 1)[
+        ..., None
+    ]
+    near = np.linalg.norm(dots[:, None] - curve - along * (ends - curve), axis=-1).min(axis=1)
+    assert near.max() < 3 * error + 0.3  # of a path in steps of five degrees
+    left, bottom, width, height = picture["window"]
+    assert ((dots > [left, bottom]) & (dots < [left + width, bottom + height])).all()
+
+
 def test_minutes_are_those_of_all_programs():
     """A plate of which nothing is asked but to be there; two of a part take twice as long."""
     plate = mw.design("plate")

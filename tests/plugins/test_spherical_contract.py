@@ -47,6 +47,7 @@ class TestSpherical(DayContract):
         ({"path_tolerance": 1}, "path_tolerance"),
         ({"hardware": {"frame": "two"}}, "hardware.frame"),
         ({"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
+        ({**FOUR_BAR, "four_bar": {"point_azimuth": 0, "point_elevation": 0}}, "four_bar.point_azimuth"),
         ({"hardware": {"gap": 0.1}}, "hardware.gap"),
         ({"hardware": {"boss_diameter": 24, "gap": 3}}, "hardware.boss_diameter"),
         ({"stand": {"arc": 8}}, "stand.arc"),
@@ -80,4 +81,5 @@ class TestSpherical(DayContract):
             },
         ),
         "four-bar-path": ({"atlas": 200, "starts": 1},),
+        "five-bar-path": ({"atlas": 200, "starts": 1, "least_transmission": 20},),
     }

@@ -4,9 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.synthesis import Candidate, Reason
+from mechwright.contracts.target import Target
 from mechwright.output.templates import templates
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.merits import SENSES, best_of, in_words, merits
@@ -24,15 +28,32 @@ class Shown:
 
 
 def shown(
-    candidates: Sequence[Candidate[Any]], mechanisms: Sequence[Mechanism], minutes: bool = False
+    candidates: Sequence[Candidate[Any]],
+    mechanisms: Sequence[Mechanism],
+    minutes: bool = False,
+    targets: Sequence[Target] = (),
 ) -> list[Shown]:
-    """The designs with their figures and pictures; with ``minutes`` those on the mill as well."""
+    """The designs with their figures and pictures; with ``minutes`` those on the mill as well.
+
+    ``targets`` are the places that were asked for; the pictures show them.
+    """
     rows = [merits(one, mechanism, minutes) for one, mechanism in zip(candidates, mechanisms, strict=True)]
     best = set(best_of(rows).tolist())
     return [
-        Shown(mechanism.design.name, row, number in best, moving(mechanism))
-        for number, (row, mechanism) in enumerate(zip(rows, mechanisms, strict=True))
+        Shown(mechanism.design.name, row, number in best, moving(mechanism, asked_of(one, targets)))
+        for number, (row, one, mechanism) in enumerate(zip(rows, candidates, mechanisms, strict=True))
     ]
+
+
+def asked_of(candidate: Candidate[Any], targets: Sequence[Target]) -> Array:
+    """The places that were asked for, (k, 3) in the frame of a design, mm.
+
+    A design with its pivot in the origin says by its figures ``pivot_x`` and ``pivot_y`` where that stands.
+    """
+    places = np.array([(*one.place, 0.0)[:3] for one in targets], dtype=float).reshape(-1, 3)
+    pivot = [candidate.figures[name].value for name in ("pivot_x", "pivot_y") if name in candidate.figures]
+    found: Array = places - (*pivot, 0.0) if len(pivot) == 2 else places
+    return found
 
 
 def gallery(
@@ -64,6 +85,7 @@ def gallery(
         templates(SHOWING)
         .get_template("gallery.html")
         .render(name=name, title=title, told=told, reasons=reasons, notes=[one.message for one in notes],
+                dotted=any(design.picture.get("asked") for design in pictured if design.picture),
                 columns=[column.replace("_", " ") for column in columns],
                 rows=list(zip(designs, cells, strict=True)), pictured=pictured,
                 labels={one.name: _label(columns, cell) for one, cell in zip(designs, cells, strict=True)},

@@ -17,6 +17,7 @@
       ? made("path", { d: shape.path, fill: shape.colour, "fill-rule": "evenodd", class: "plate", "vector-effect": "non-scaling-stroke" }, upright)
       : made("polyline", { class: "link", ...line }, upright)]);
     for (const path of one.traces) made("path", { d: path, class: "trace", ...line }, upright);
+    if (one.asked) made("path", { d: one.asked, class: "asked", ...line }, upright);
     return (share) => {
       for (const [shape, drawn] of shapes) {
         const now = shape.at[Math.floor(share * shape.at.length) % shape.at.length];

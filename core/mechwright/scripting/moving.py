@@ -25,6 +25,9 @@ CHORD = 0.001
 BORDER = 0.04
 """Free border around it, as part of its greater side."""
 
+DOTS = 200
+"""Points asked for that a picture shows at most: more are a line at this size."""
+
 FLAT = 1e-6
 """By how much an axis may lean from the view and still be seen as a point."""
 
@@ -32,12 +35,13 @@ VIEW = np.array([[0.866, 0.5, 0.0], [-0.25, 0.433, 0.866]])
 """Of mechanisms in space: rows are x and y of the picture, seen from a corner, 30 degrees from above."""
 
 
-def moving(mechanism: Mechanism) -> dict[str, Any] | None:
+def moving(mechanism: Mechanism, asked: Array | None = None) -> dict[str, Any] | None:
     """The picture of a mechanism: shapes, and a matrix of each at every moment; None where nothing moves.
 
     ``shapes`` are ``path``, ``colour`` and ``at`` (frames, 6), the matrices of SVG, a single one of what
     rests; or, in space, ``at`` (frames, 2 k), the corners of a line. ``traces`` are paths of points;
-    ``window`` is left, bottom, width and height, mm, y upwards.
+    ``window`` is left, bottom, width and height, mm, y upwards. ``asked`` is a path of dots at the points
+    asked for, (k, 3) in the design's frame, mm.
     """
     try:
         motion = mechanism.design.solve(FRAMES + 1)
@@ -51,6 +55,8 @@ def moving(mechanism: Mechanism) -> dict[str, Any] | None:
     every = [*seen, *(points for _, _, points in plates), *lines]
     if not every:
         return None
+    dots = np.empty((0, 2)) if asked is None else asked[:: 1 + len(asked) // DOTS] @ view.T
+    every.append(dots)
     places = np.concatenate([points.reshape(-1, 2) for points in every])
     low, size = places.min(axis=0), np.ptp(places, axis=0)
     border = BORDER * float(size.max())
@@ -63,6 +69,7 @@ def moving(mechanism: Mechanism) -> dict[str, Any] | None:
         "window": np.round(window, 2).tolist(),
         "shapes": shapes,
         "traces": [_path([points]) for points in seen],
+        "asked": "".join(f"M{x:g} {y:g}h0" for x, y in (np.round(dots, 2) + 0.0).tolist()),
     }
 
 

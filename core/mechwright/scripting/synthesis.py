@@ -101,7 +101,8 @@ class Found:
         """
         family, result = self.asked.family, self.result
         notes = [finding for finding in result.findings if finding.severity is not Severity.ERROR]
-        designs = shown(result.candidates, self.mechanisms, minutes)
+        targets = family.targets(self.asked.kind, self.asked.table)
+        designs = shown(result.candidates, self.mechanisms, minutes, targets)
         return gallery(self.asked.name, family.title, self.told, result.rejected, notes, designs)
 
     def require(self) -> None:

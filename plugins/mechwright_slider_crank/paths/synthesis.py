@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.planar import Plane
-from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
+from mechwright.mechanics.tracing.dense import on_all, only
+from mechwright.mechanics.tracing.points import in_plane, thinned
 from mechwright.mechanics.tracing.requirement import SENSES, fault_of_points
-from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, followed, rounds_of, search
+from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, rounds_of, search
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams
@@ -118,15 +119,15 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Sli
     rooms = rooms_of(wanted, limits)
     targets, size = rooms[0].targets, rooms[0].size
     chosen = thinned(in_plane(targets), rooms[0].closed)
-    few = [_only(room, chosen) for room in rooms]
     met = max(wanted.tolerance, EXACT * size)
     most = MORE * wanted.designs
     result = search(
-        few, ROUND, rounds_of(wanted.starts), most, wanted.seed, met / size,
+        only(rooms, chosen), ROUND, rounds_of(wanted.starts), most, wanted.seed, met / size,
         lambda part: progress(SEARCH * part, "slider-cranks through the points"),
     )  # fmt: skip
     rejected = Rejected()
-    good = distinct(_fitted(result.kept, rooms, chosen, most), wanted, rooms[0], rejected)
+    found = [drawn(rooms[one.room], one) for one in on_all(result.kept, rooms, chosen, most)]
+    good = distinct(found, wanted, rooms[0], rejected)
     good.sort(key=lambda one: _rank(one, met))
     candidates: list[Candidate[SliderCrankParams]] = []
     reason = ""
@@ -167,28 +168,6 @@ def rooms_of(wanted: PathRequirement, limits: Limits) -> list[SliderRoom]:
         for branch in (1, -1)
         for sense in senses
     ]
-
-
-def _only(room: SliderRoom, chosen: np.ndarray) -> SliderRoom:
-    turns = None if room.turns is None else room.turns[chosen]
-    return replace(room, targets=room.targets[chosen], turns=turns)
-
-
-def _fitted(
-    traces: Sequence[Trace], rooms: Sequence[SliderRoom], chosen: np.ndarray, most: int
-) -> list[Drawn]:
-    """The linkages in millimetres; where the search saw a part of the points, fitted to all of them."""
-    count = rooms[0].targets.size
-    if len(chosen) == count:
-        return [drawn(rooms[one.room], one) for one in traces]
-    found = []
-    for one in traces[:most]:
-        room = rooms[one.room]
-        theta = all_angles(chosen, one.theta, count, room.closed)
-        found += [
-            drawn(room, again) for again in followed(room, one.room, one.x[None], theta[None]) if again.kept
-        ]
-    return sorted(found, key=lambda one: one.mean)
 
 
 def drawn(room: SliderRoom, one: Trace) -> Drawn:

@@ -9,6 +9,9 @@ from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.errors import KinematicsError
 from mechwright.mechanics.linkage.slots import Gap, Setting, gaps, point_gaps
 
+STILL = 1e-9
+"""Degrees by which a link is turned no more than rounding turns it."""
+
 
 @dataclass(frozen=True)
 class Turned:
@@ -83,6 +86,8 @@ def setting_order(
         return
     first = f"turn the crank to {links[0].angle:.6g} degrees in phase 1 and {hold}"
     for number, row in enumerate(turns, start=2):
+        if max(map(abs, row)) < STILL:
+            continue  # the pivots are those of phase 1, and nothing is set
         pairs = list(zip(links, row, strict=True))
         whole = [first, *steps([one.step(turn) for one, turn in pairs])]
         apart = " and ".join(one.chord(turn) for one, turn in pairs)

@@ -120,19 +120,25 @@ def search(
             tried += len(x)
             fresh += _at_rest(room, number, x, theta, cost)
             progress((turn + (number + 1) / len(rooms)) / rounds)
+            if _enough([*found, *fresh], wanted, max(met, MET)):
+                break
         found += fresh
         best.append(min((one.mean for one in fresh if one.kept), default=math.inf))
-        if _enough(found, best, wanted, max(met, MET)):
+        if _enough(found, wanted, max(met, MET)) or _again(best, max(met, MET)):
             break
     found.sort(key=lambda one: one.mean)
     kept, beyond = (tuple(one for one in found if one.kept is good) for good in (True, False))
     return Traces(kept, beyond, tried)
 
 
-def _enough(found: Sequence[Trace], best: Sequence[float], wanted: int, met: float) -> bool:
+def _enough(found: Sequence[Trace], wanted: int, met: float) -> bool:
+    """Whether enough distinct linkages meet the points."""
     exact = [one.x for one in found if one.kept and one.mean <= met]
-    if len(exact) >= wanted and len(distinct(np.array(exact), SAME)) >= wanted:
-        return True
+    return len(exact) >= wanted and len(distinct(np.array(exact), SAME)) >= wanted
+
+
+def _again(best: Sequence[float], met: float) -> bool:
+    """Whether the best has come back in enough rounds."""
     least = min(best)
     same = max(least * math.sqrt(1 + SAME_SQUARES), 10 * met)
     return math.isfinite(least) and sum(one <= same for one in best) >= AGAIN
