@@ -99,8 +99,8 @@ def test_what_is_no_address_is_one_line_at_once(tmp_path, address):
 class Echo:
     """A source whose tables are their names."""
 
-    def done(self, task):
-        return task.name.encode()
+    def told(self, task):
+        return task.name.encode(), []
 
 
 def test_one_pool_does_every_task_once(monkeypatch):

@@ -47,6 +47,8 @@ CHUNK = 20_000
 
 Steps = NDArray[np.int32]
 Mask = NDArray[np.bool_]
+Bounds = tuple[float, float, float, float]
+"""Least x and y, greatest x and y, mm."""
 
 
 @dataclass(frozen=True)
@@ -123,16 +125,21 @@ class Footprint(Grid):
         return earliest(seeds, distance / self.cell) < NEVER
 
 
-def footprint(paths: Paths, job: Job) -> Footprint:
-    """Cut the plate through, move by move; time goes with the length of path and the size of the plate."""
-    x0, y0, x1, y1 = job.stock
-    cell = max(CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+def footprint(paths: Paths, job: Job, window: Bounds | None = None) -> Footprint:
+    """Cut the plate through, move by move; time goes with the length of path and the size of the plate.
+
+    With a window, least and greatest x and y in mm, it is that part of the plate alone, as if its edges were
+    the plate's. A small window has the usual cells where those of the whole plate are wider.
+    """
+    x0, y0, x1, y1 = job.stock if window is None else window
+    cell = cell_for((x0, y0, x1, y1))
     shape = max(math.ceil((y1 - y0) / cell), 1), max(math.ceil((x1 - x0) / cell), 1)
     cut = np.full(shape, NEVER, dtype=np.int32)
     bodies = finished_bodies(job)
     found = Footprint(x0, y0, cell, cut, np.zeros(shape, dtype=np.int32), shapely.union_all(bodies))
+    cuts = paths.cuts if window is None else _near(paths, window, cell)
     for level, there in _openings(found, job):
-        pieces = paths.below(level, steps=paths.cuts)
+        pieces = paths.below(level, steps=cuts)
         radii = np.round(paths.radius_at(pieces, level), 3)
         one = replace(found, cut=np.full(shape, NEVER, dtype=np.int32))
         for radius in np.unique(radii[radii > NEAR]).tolist():
@@ -142,6 +149,21 @@ def footprint(paths: Paths, job: Job) -> Footprint:
         mine = found.inside(body, cut < NEVER)
         cut[mine], found.body[mine] = NEVER, number
     return found
+
+
+def cell_for(bounds: Bounds) -> float:
+    """Width of the cells of a plate or of a part of it, mm."""
+    x0, y0, x1, y1 = bounds
+    return max(CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+
+
+def _near(paths: Paths, window: Bounds, cell: float) -> Ints:
+    """The cuts that may come into a window."""
+    least, most = paths.extent(paths.cuts)
+    reach = (paths.radius[paths.cuts] + UNSURE * cell)[:, None]
+    inside = (most + reach >= window[:2]) & (least - reach <= window[2:])
+    near: Ints = paths.cuts[inside.all(axis=1)]
+    return near
 
 
 def _openings(found: Footprint, job: Job) -> Iterator[tuple[float, Mask]]:

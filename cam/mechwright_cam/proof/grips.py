@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import shapely
@@ -21,6 +22,13 @@ PRESSED = 20.0
 LEAST_AREA = {"vacuum": 500.0, "tape": 100.0}
 """A piece so large stays where it is when it is cut free, mm², under the 12 N sideways of a finishing cut: a
 vacuum of 0.8 bar with friction of 0.3 holds 0.024 N/mm², double-sided tape 0.12 N/mm² at least."""
+
+
+class Holds(Protocol):
+    """Something that holds pieces."""
+
+    def holds(self, piece: Mask, step: int) -> bool:
+        """Whether it holds a piece when a step is done."""
 
 
 @dataclass(frozen=True)

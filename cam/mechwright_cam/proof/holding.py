@@ -5,9 +5,10 @@ import shapely
 
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.proof.bands import bands, stock_shape
+from mechwright_cam.proof.closer import loose_for_sure
 from mechwright_cam.proof.finished import finished_bodies
-from mechwright_cam.proof.grips import advice, grips
-from mechwright_cam.proof.loose import Loose, loose_pieces, passed
+from mechwright_cam.proof.grips import advice
+from mechwright_cam.proof.loose import Loose, passed
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import grow
 from mechwright_cam.proof.report import Check
@@ -37,7 +38,7 @@ def holding(scene: Scene) -> Check:
                 "leaves none; give the stock a larger margin"
             )
             return Check(False, message)
-    for piece in loose_pieces(scene, grips(scene)):
+    for piece in loose_for_sure(scene):
         failed = _judged(scene, piece)
         if failed is not None:
             return failed
@@ -93,7 +94,7 @@ def remarks(scene: Scene) -> list[str]:
     return [
         f"a piece of {piece.area:.0f} mm² comes loose {piece.where}, at X{piece.place[0]:.1f} "
         f"Y{piece.place[1]:.1f}; {_goes(piece)}"
-        for piece in loose_pieces(scene, grips(scene))
+        for piece in loose_for_sure(scene)
         if not piece.is_part and passed(scene, piece) is None
     ]
 

@@ -1,6 +1,6 @@
 """What becomes of a piece that nothing holds: it is taken away at a stop, or no cutter comes near it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,9 +9,10 @@ import shapely
 from mechwright.contracts.part import Profile
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.entry_rules import ABOVE
-from mechwright_cam.proof.footprint import BEFORE, UNSURE, Mask
-from mechwright_cam.proof.grips import Grip
+from mechwright_cam.proof.footprint import BEFORE, UNSURE, Footprint, Mask
+from mechwright_cam.proof.grips import Holds
 from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stops import TAKES, stops_that_say
 from mechwright_cam.setup.views import inside_of
@@ -40,11 +41,12 @@ class Loose:
     """Where it is, in words."""
     taken: int | None
     """The stop at which it is taken away; -1 if that is when the plate is turned over."""
+    grid: Footprint
+    """The grid of its cells."""
 
 
-def loose_pieces(scene: Scene, held: list[Grip]) -> Iterator[Loose]:
+def loose_pieces(scene: Scene, pieces: Pieces, held: Sequence[Holds]) -> Iterator[Loose]:
     """The pieces that nothing holds, as they come loose; what such a piece falls into is not told again."""
-    pieces = scene.pieces
     left = [(piece, -1) for piece in pieces.whole]
     while left:
         piece, since = left.pop()
@@ -53,18 +55,17 @@ def loose_pieces(scene: Scene, held: list[Grip]) -> Iterator[Loose]:
             continue
         cells = pieces.mask(piece, since)
         if not any(grip.holds(cells, since) for grip in held):
-            yield _loose(scene, cells, since)
+            yield _loose(scene, pieces.footprint, cells, since)
             continue
         end = max(piece.parts if piece.into else pieces.last(piece), since + 1)
         rest = pieces.mask(piece, end - 1)  # what was held may have been cut away
         if rest.any() and not any(grip.holds(rest, end - 1) for grip in held):
-            yield _loose(scene, rest, pieces.last_before(piece, end))
+            yield _loose(scene, pieces.footprint, rest, pieces.last_before(piece, end))
             continue
         left += [(one, piece.parts) for one in piece.into]
 
 
-def _loose(scene: Scene, cells: Mask, step: int) -> Loose:
-    found = scene.footprint
+def _loose(scene: Scene, found: Footprint, cells: Mask, step: int) -> Loose:
     x, y = place = found.place(cells)
     part = np.count_nonzero(found.inside(found.part, cells))
     area = np.count_nonzero(found.within(cells, UNSURE * found.cell)) * found.cell**2
@@ -76,12 +77,12 @@ def _loose(scene: Scene, cells: Mask, step: int) -> Loose:
     taken = stops[0] if stops else None
     if step == BEFORE and scene.job.side == "underside":
         taken = -1  # who lifts the plate finds it on the table
-    return Loose(step, cells, place, area, is_part, where, taken)
+    return Loose(step, cells, place, area, is_part, where, taken, found)
 
 
 def passed(scene: Scene, loose: Loose) -> int | None:
     """The first step in which a cutter comes as near to a loose piece as that may move; None if none does."""
-    paths, found = scene.paths, scene.footprint
+    paths, found = scene.paths, loose.grid
     freed = float(paths.radius[loose.step]) * 2 if loose.step >= 0 else 0.0
     until = len(scene.run) if loose.taken is None else loose.taken
     steps = paths.steps[(paths.steps > _away(scene, loose.step, CLOSING * freed)) & (paths.steps < until)]

@@ -8,6 +8,7 @@ import shapely
 from mechwright.contracts.part import Feature, Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError
+from mechwright.geometry.prepared import prepared
 
 TAB_WIDTH = 2.0
 """Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
@@ -18,11 +19,45 @@ LEAST_TAB_WIDTH = 0.5
 SHIFTS = 8
 """So many places between two tabs are tried where not all of the wall takes one."""
 
+MOVED = 0.75
+"""A tab that leads to no frame is moved by so much of the way to the middle between two tabs at most."""
+TRIED = 4
+"""So many places are tried on the width of a tab: at the point of a star there is one that leads out."""
+
 HOLDS = 0.5
 """Tabs are on this share of the wall at least: on less they leave much of the part without a neighbour."""
 
 Row = list[float]
 """Distances along the wall at which all tabs of an outside stand, mm."""
+
+
+def led_out(ring: shapely.LinearRing, row: Row, width: float, reach: float, away: float) -> Row:
+    """The places of a row, each moved along its wall to the nearest from which a tab leads to the frame.
+
+    A tab goes ``reach`` mm straight out of the wall. Deep between two points of a part it ends before the
+    other wall, or in what is cut off from the frame: it leads out if it ends ``away`` mm off the part, behind
+    the widest cut around it. A place stays as it is where that holds, and where there is no better one within
+    :data:`MOVED` of the way to the middle between two tabs.
+    """
+    part = prepared(shapely.Polygon(ring))
+    half = ring.length / len(row) / 2
+    apart = width / TRIED
+    count = int(half * MOVED / apart)
+    off = np.arange(-count, count + 1) * apart
+    off = off[np.argsort(np.abs(off), kind="stable")]
+    step = min(width / 2, ring.length / 100)
+    moved = []
+    for wish in row:
+        at = (wish + off) % ring.length
+        middle, before, after = (
+            shapely.get_coordinates(shapely.line_interpolate_point(ring, (at + way) % ring.length))
+            for way in (0.0, -step, step)
+        )
+        along = (after - before) / np.hypot(*(after - before).T)[:, None]
+        end = shapely.points(middle + reach * np.column_stack((along[:, 1], -along[:, 0])))
+        good = np.flatnonzero(shapely.distance(part, end) >= away)
+        moved.append(float(at[good[0]]) if good.size else wish)
+    return moved
 
 
 def rows(

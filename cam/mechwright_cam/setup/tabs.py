@@ -24,7 +24,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled, opened
 from mechwright_cam.setup.holding import Tab, _corners, _piece_at, rectangle
 from mechwright_cam.setup.nest import Nest
-from mechwright_cam.setup.tab_places import rows, tab_width
+from mechwright_cam.setup.tab_places import led_out, rows, tab_width
 from mechwright_cam.shop.tool import MILLS, widest_mill
 
 if TYPE_CHECKING:
@@ -66,6 +66,8 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
     width = hold.tab_width or tab_width(feature, hold.tabs, slopes)
     low = _lower_floors(job)
     even, uneven = rows(feature, ring, hold.tabs, width, slopes, [*low, *below])
+    if not (slopes or low or below or feature.tab_sites or isinstance(job.part, Nest)):
+        even = [led_out(ring, row, width, reach, widest_mill(job.tools)) for row in even]
     refusal: DesignError | None = None
     best: list[Tab] = []
     for number, row in enumerate([*even, *uneven]):

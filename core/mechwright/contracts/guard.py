@@ -74,6 +74,17 @@ def now() -> str:
     return _inside[-1] if _inside else ""
 
 
+@contextmanager
+def during(who: str) -> Iterator[None]:
+    """Let :func:`now` say that a call is under way which was so where it was made, in another process."""
+    before = len(_inside)
+    _inside.append(who)
+    try:
+        yield
+    finally:
+        del _inside[before:]
+
+
 def _wrapped(function: Callable[..., Any], contract: "type[Called]") -> Callable[..., Any]:
     method = function.__name__
 

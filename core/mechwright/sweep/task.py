@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from mechwright.contracts.evaluation import Batch
 from mechwright.plugins.host import host
 from mechwright.sweep.draw import drawn
+from mechwright.sweep.heard import Heard, listen, taken
 from mechwright.sweep.shard import shard_of
 from mechwright.sweep.study import Study, study_of
 
@@ -70,6 +71,11 @@ class Source:
     def done(self, task: Task) -> bytes:
         """The table of a task, by a worker that has only this."""
         return done(_opened(self), task)
+
+    def told(self, task: Task) -> tuple[bytes, list[Heard]]:
+        """The same by a worker without a terminal, and the warnings that came of it."""
+        listen()
+        return self.done(task), taken()
 
 
 @lru_cache(maxsize=4)

@@ -13,6 +13,7 @@ from mechwright.beside import end_with_parent
 from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.extras import optional
+from mechwright.sweep.heard import Heard, Teller
 from mechwright.sweep.task import Source, Task, fingerprint
 
 AHEAD = 3
@@ -56,6 +57,7 @@ class Processes:
 
     def __init__(self, count: int) -> None:
         self.count = count
+        self._teller = Teller()
 
     def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
         """A few tasks each ahead; raises PluginError where processes are killed again and again."""
@@ -75,16 +77,19 @@ class Processes:
     def _once(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
         context = multiprocessing.get_context("spawn")
         waiting = iter(tasks)
-        running: dict[Future[bytes], Task] = {}
+        running: dict[Future[tuple[bytes, list[Heard]]], Task] = {}
         pool = ProcessPoolExecutor(self.count, context, _begin)
         try:
             while True:
                 for task in _some(waiting, AHEAD * self.count - len(running)):
-                    running[pool.submit(source.done, task)] = task
+                    running[pool.submit(source.told, task)] = task
                 if not running:
                     return
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    yield running.pop(future), future.result()
+                    task = running.pop(future)
+                    content, heard = future.result()
+                    self._teller.tell(heard)
+                    yield task, content
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -112,6 +117,7 @@ class Cluster:
 
     def __init__(self, address: str) -> None:
         self.address = address
+        self._teller = Teller()
 
     def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
         """A few tasks ahead for each thread; raises PluginError where the cluster cannot do them."""
@@ -137,7 +143,7 @@ class Cluster:
         ended = distributed.as_completed(loop=client.loop)
         while True:
             for task in _some(waiting, AHEAD * threads - len(running)):
-                future = client.submit(source.done, task, pure=False)
+                future = client.submit(source.told, task, pure=False)
                 running[future.key] = future, task
                 ended.add(future)
             if not running:
@@ -148,7 +154,9 @@ class Cluster:
                 raise distributed.comm.CommClosedError("the scheduler has ended")
             if future.status == "error":
                 raise PluginError(f"--scheduler: a worker failed at {task.name}: {future.exception(BACK)}")
-            yield task, future.result(BACK)
+            content, heard = future.result(BACK)
+            self._teller.tell(heard)
+            yield task, content
 
     def _connected(self, seconds: float, why: str = "") -> Any:
         distributed = optional("distributed")
