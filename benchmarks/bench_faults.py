@@ -1,6 +1,7 @@
 """Interruptions at random moments, and faults of the disk at every step of writing: counts by outcome.
 
     python benchmarks/bench_faults.py --runs 200 --log faults.json
+    python benchmarks/bench_faults.py --only interruptions --runs 50 --seed 26
 
 A run of ``solve`` is stopped by the keyboard, ended, or killed at a random moment between its start and
 a little after its end; the folder then holds the files of before or of now, whole. What a killed run
@@ -120,12 +121,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--seed", type=int, default=25)
+    parser.add_argument("--only", choices=("faults", "interruptions"), help="one half; both without it")
     parser.add_argument("--log", type=Path)
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as place:
-        shim = built(Path(place).resolve())
+        shim = None if asked.only == "interruptions" else built(Path(place).resolve())
         faults = {} if shim is None else {name: dict(found) for name, found in counted(shim).items()}
-    stopped, left = interruptions(asked.runs, asked.seed, asked.log)
+    runs = 0 if asked.only == "faults" else asked.runs
+    stopped, left = interruptions(runs, asked.seed, asked.log) if runs else ({}, 0)
     told = {"faults": faults, "interruptions": stopped, "left after the next run": left}
     said = json.dumps(told, indent=1)
     if asked.log:

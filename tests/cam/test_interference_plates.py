@@ -14,7 +14,7 @@ from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cad.interference import interference
-from mechwright_cad.interference.slabs import SURE_IN_PLAN, TOUCH
+from mechwright_cad.interference.slabs import SURE_IN_PLAN, TOUCH, Slab
 
 TURN = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))
@@ -310,3 +310,29 @@ def _depth(a, b):
         if points.size:
             best = max(best, shapely.distance(points, q.boundary).max())
     return best
+
+
+def test_a_slab_turned_over_lies_as_deep_as_it_stood_and_is_its_own_mirror_image():
+    wedge = shapely.Polygon([(0, 0), (4, 0), (0, 1)])
+    over = Slab(wedge, 1.5, 4.0).face_down()
+    assert (over.bottom, over.top) == (-4.0, -1.5)
+    assert over.polygon.equals(shapely.Polygon([(0, 0), (4, 0), (0, -1)]))
+    assert over.polygon.exterior.is_ccw
+    again = over.face_down()
+    assert (again.bottom, again.top) == (1.5, 4.0)
+    assert again.polygon.equals(wedge)
+
+
+@pytest.mark.parametrize(
+    ("height", "hits"), [(9.0, True), (10.5, False), (-4.5, False), (0.5, False), (1.5, True)]
+)
+def test_a_plate_turned_over_meets_what_is_at_its_height(height, hits):
+    """A plate from 5 to 10 mm above its origin, face down: it fills what lies 5 to 10 mm below it."""
+    still = np.zeros(181)
+    flat = plate("flat", box(-9, -9, 9, 9), thickness=4.0, z=-4.0)
+    over = plate("over", box(-9, -9, 9, 9), z=5.0)
+    turned = Poses(
+        np.column_stack((still, still, still + height)), np.tile(np.diag((1.0, -1.0, -1.0)), (181, 1, 1))
+    )
+    report = interference([flat, over], motion(flat=STILL, over=turned))
+    assert bool(report.collisions) is hits

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mechwright.errors import GeometryError
 from mechwright.geometry.fit import HIGHEST_DEGREE, fit_curves, fit_nets
+from mechwright.geometry.fit import _distance as distance_of_fits  # noqa: PLC2701
 
 
 def arcs(radii, sweep):
@@ -84,3 +85,23 @@ def test_points_that_are_no_numbers_are_refused():
         fit_nets(lambda t: np.full((1, t.size, 2), np.nan), 1, 1e-3)
     with pytest.raises(GeometryError, match="2 curves"):
         fit_nets(arcs([1.0], 1.0), 2, 1e-3)
+
+
+@given(st.floats(-0.01, 0.01), st.sampled_from([2, 3, 5]), st.sampled_from([0.05, 10.0]))
+def test_the_distance_is_to_the_curve_and_not_to_the_point_of_the_same_parameter(lag, degree, length):
+    """A net that runs late or early along the same line has no distance from it; one beside it has its own."""
+    t = np.linspace(0.1, 0.9, 33)
+    net = np.stack((np.linspace(0, length, degree + 1), np.zeros(degree + 1)), axis=-1)[None]
+    exact = np.stack((length * (t + lag), np.full_like(t, 0.25)), axis=-1)[None]
+    assert distance_of_fits(net, degree, t, exact) == pytest.approx(0.25, abs=1e-12)
+
+
+def test_the_distance_of_a_point_beyond_the_end_is_to_the_end():
+    net = np.array([[[0.0, 0.0], [1.0, 0.0]]])
+    beyond = np.array([[[1.5, 0.0], [-0.25, 0.0]]])
+    assert distance_of_fits(net, 1, np.array([1.0, 0.0]), beyond) == pytest.approx(0.5)
+
+
+def test_a_net_that_stands_still_is_as_far_as_its_place():
+    net = np.full((1, 3, 2), 2.0)
+    assert distance_of_fits(net, 2, np.array([0.5]), np.array([[[2.0, 5.0]]])) == pytest.approx(3.0)

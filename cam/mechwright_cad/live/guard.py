@@ -1,10 +1,13 @@
 """Who may talk to the server: the page that it has given out itself, and nobody else on this machine."""
 
+import asyncio
 import secrets
 from collections.abc import Mapping
 from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from mechwright_cad.live.patience import PATIENCE
 
 HEADERS = {
     "content-security-policy": (
@@ -45,6 +48,15 @@ class Guard:
         if int(headers.get("content-length", "0") or 0) > MOST:
             await _refuse(send, 413, b"too much\n")
             return
+        if scope["method"] != "GET":
+            try:
+                receive = await asyncio.wait_for(_whole(receive), PATIENCE)
+            except TimeoutError:
+                await _refuse(send, 408, b"too slow\n")
+                return
+            except _TooMuchError:
+                await _refuse(send, 413, b"too much\n")
+                return
 
         async def guarded(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -66,7 +78,36 @@ class Guard:
         return foreign in self._origins
 
 
+class _TooMuchError(Exception):
+    pass
+
+
+async def _whole(receive: Receive) -> Receive:
+    """What gives a body that has been read to its end, then what else comes.
+
+    The length that a client states is no bound, since it need state none.
+    """
+    parts, size, more = [], 0, True
+    while more:
+        message = await receive()
+        if message["type"] != "http.request":
+            parts.append(message)
+            break
+        size += len(message.get("body", b""))
+        if size > MOST:
+            raise _TooMuchError
+        parts.append(message)
+        more = message.get("more_body", False)
+
+    async def again() -> Message:
+        return parts.pop(0) if parts else await receive()
+
+    return again
+
+
 async def _refuse(send: Send, status: int, words: bytes) -> None:
     head = [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(words)).encode())]
+    if status != 403:
+        head.append((b"connection", b"close"))  # what is still to come of the request is not waited for
     await send({"type": "http.response.start", "status": status, "headers": head})
     await send({"type": "http.response.body", "body": words})

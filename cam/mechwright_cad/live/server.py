@@ -22,6 +22,7 @@ from mechwright.output.templates import templates
 from mechwright.plugins.host import Host
 from mechwright_cad.live.following import Answering, Following
 from mechwright_cad.live.guard import Guard
+from mechwright_cad.live.patience import MANY, Impatient
 from mechwright_cad.live.session import Session
 from mechwright_cad.live.wishing import Wishing
 
@@ -148,7 +149,14 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
         number, token = taken.getsockname()[1], secrets.token_urlsafe(32)
         server = Server(path, host, number, token)
         settings = uvicorn.Config(
-            server.app, log_level="error", access_log=False, server_header=False, lifespan="off", ws="none"
+            server.app,
+            log_level="error",
+            access_log=False,
+            server_header=False,
+            lifespan="off",
+            ws="none",
+            http=Impatient,
+            limit_concurrency=MANY,
         )
         try:
             server.shown.described({})  # what is wrong with the file is told before anything is served

@@ -1,0 +1,35 @@
+"""Connections that are not kept for clients that say nothing, or half a question."""
+
+import asyncio
+
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+PATIENCE = 10.0
+"""Seconds within which a question has to be here: it comes from this machine, and is short."""
+MANY = 64
+"""Connections at a time: a browser has six to a server, and a second page is a second one."""
+
+
+class Impatient(H11Protocol):
+    """Closes a connection on which no whole head of a request comes within ``PATIENCE``.
+
+    Connections that the server keeps after an answer are closed when they are silent; half a head would keep
+    one for ever.
+    """
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """A connection is there."""
+        super().connection_made(transport)
+        self._wait()
+
+    def on_response_complete(self) -> None:
+        """An answer is out, and the next question may come."""
+        super().on_response_complete()
+        self._wait()
+
+    def _wait(self) -> None:
+        self.loop.call_later(PATIENCE, self._look, self.cycle)
+
+    def _look(self, before: object) -> None:
+        if self.cycle is before and not self.transport.is_closing():
+            self.transport.close()

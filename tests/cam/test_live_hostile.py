@@ -1,0 +1,188 @@
+"""What the server of ``live`` does with clients that mean it ill, asked from outside by plain sockets."""
+
+import contextlib
+import json
+import shutil
+import socket
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from by_night import by_night
+from test_live import Page
+
+from mechwright_cad.live.guard import MOST
+from mechwright_cad.live.patience import MANY, PATIENCE
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory) -> Iterator[Page]:
+    path = tmp_path_factory.mktemp("live") / "pair.toml"
+    shutil.copy(ROOT / "examples" / "elliptic-pair.toml", path)
+    found = Page(path)
+    yield found
+    found.end()
+
+
+@pytest.fixture(autouse=True)
+def nothing_changes(page) -> Iterator[None]:
+    """Whatever was tried, the file is as before, and the page is served to whoever may have it."""
+    before = page.path.read_bytes()
+    yield
+    assert page.path.read_bytes() == before
+    assert page.ask("described", change={})["digest"]
+
+
+def line(page: Page) -> socket.socket:
+    return socket.create_connection(("127.0.0.1", int(page.port)), timeout=PATIENCE + 30)
+
+
+def head(page: Page, *more: str, method: str = "POST", what: str = "motion", host: str = "") -> bytes:
+    here = f"127.0.0.1:{page.port}"
+    rows = [
+        f"{method} /{page.token}/{what} HTTP/1.1",
+        f"Host: {host or here}",
+        f"Origin: http://{here}",
+        *more,
+    ]
+    return ("\r\n".join(rows) + "\r\n\r\n").encode()
+
+
+def answer(open_line: socket.socket) -> bytes:
+    """All that is said until the line is closed, or has been silent for too long."""
+    found = b""
+    with contextlib.suppress(ConnectionResetError):
+        while part := open_line.recv(65536):
+            found += part
+    return found
+
+
+def status(said: bytes) -> int:
+    return int(said.split(b" ", 2)[1])
+
+
+def chunk(data: bytes) -> bytes:
+    return f"{len(data):x}\r\n".encode() + data + b"\r\n"
+
+
+def test_a_body_without_a_stated_length_has_the_same_bound(page):
+    with line(page) as one:
+        one.sendall(head(page, "Transfer-Encoding: chunked"))
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            for _ in range(MOST // 50_000 + 2):
+                one.sendall(chunk(b"x" * 50_000))
+        assert status(answer(one)) == 413
+
+
+def test_a_question_in_pieces_is_answered(page):
+    with line(page) as one:
+        one.sendall(head(page, "Transfer-Encoding: chunked", "Connection: close", what="described"))
+        for piece in (b'{"cha', b'nge": {}', b"}"):
+            one.sendall(chunk(piece))
+        one.sendall(b"0\r\n\r\n")
+        said = answer(one)
+    assert status(said) == 200
+    assert json.loads(said.partition(b"\r\n\r\n")[2])["digest"]
+
+
+@by_night  # it waits as long as the server does
+def test_slow_clients_are_not_waited_for(page):
+    """One that sends no body, one with half a head, one that says nothing at all: together, as each takes its time."""
+    began = time.monotonic()
+    with line(page) as bodiless, line(page) as half, line(page) as silent, line(page) as again:
+        bodiless.sendall(head(page, "Content-Length: 100") + b"{")
+        half.sendall(head(page)[:-10])
+        again.sendall(head(page, method="GET", what="live.css") + head(page)[:30])
+        assert status(answer(bodiless)) == 408
+        assert answer(half) == b""
+        assert answer(silent) == b""
+        assert status(answer(again)) == 200
+    assert PATIENCE - 1 < time.monotonic() - began < PATIENCE + 20
+
+
+def test_more_connections_than_a_browser_has_are_turned_away_and_forgotten(page):
+    with contextlib.ExitStack() as kept:
+        for _ in range(MANY):
+            kept.enter_context(line(page))
+        with line(page) as one:
+            one.sendall(head(page, "Connection: close", method="GET", what="live.css"))
+            assert status(answer(one)) == 503
+    for _ in range(50):  # as soon as the others have gone
+        with line(page) as one:
+            one.sendall(head(page, "Connection: close", method="GET", what="live.css"))
+            if status(answer(one)) == 200:
+                break
+        time.sleep(0.1)
+    else:
+        pytest.fail("the page is not served any more")
+
+
+@pytest.mark.parametrize(
+    ("rows", "host"),
+    [
+        ((), "mechwright.example"),
+        ((), "127.0.0.1"),
+        ((), "127.0.0.1.mechwright.example:80"),
+        (("Origin: http://mechwright.example",), ""),
+        (("Host: mechwright.example",), ""),
+    ],
+)
+def test_other_names_and_second_heads_get_nothing(page, rows, host):
+    with line(page) as one:
+        one.sendall(head(page, *rows, "Content-Length: 2", "Connection: close", host=host) + b"{}")
+        assert status(answer(one)) in {400, 403}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"GET / HTTP/9.9\r\n\r\n",
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + b"\0" * 200 + b"\r\n\r\n",
+        b"GET /" + b"x" * 100_000 + b" HTTP/1.1\r\n\r\n",
+        b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 30_000 + b"\r\n",
+    ],
+    ids=["version", "encrypted", "address", "rows"],
+)
+def test_what_is_no_request_is_refused_and_forgotten(page, text):
+    with line(page) as one:
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            one.sendall(text)
+        said = answer(one)
+    assert not said or status(said) in {400, 403, 431}
+
+
+@pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "TRACE", "HEAD"])
+def test_other_methods_do_nothing(page, method):
+    with line(page) as one:
+        one.sendall(head(page, "Connection: close", method=method, what="save"))
+        assert status(answer(one)) in {403, 404, 405}
+
+
+@pytest.mark.parametrize("what", ["../save", "%2e%2e/save", "save/../../x", "..%2f..%2fetc/passwd", "\\save"])
+def test_no_address_leads_out_of_what_is_served(page, what):
+    with line(page) as one:
+        one.sendall(head(page, "Connection: close", method="GET", what=what))
+        assert status(answer(one)) in {400, 404, 405}
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"[" * 100_000,
+        b'{"change": ' + b'{"a": ' * 50_000,
+        b'{"change": {"parameters.speed": ' + b"9" * 6000 + b"}}",
+        b'{"change": {"parameters.speed": NaN}}',
+        b'{"change": {"' + b"x" * 1_000_000 + b'": 1}}',
+        b"\xff\xfe{}",
+    ],
+    ids=["lists", "tables", "digits", "nan", "name", "bytes"],
+)
+@pytest.mark.parametrize("what", ["motion", "described"])
+def test_hostile_questions_are_told_in_a_few_words(page, what, body):
+    code, found, _ = page.send("POST", what, body)
+    assert code in {200, 400}
+    assert len(found) < 3_000_000
+    assert "please report" not in found.decode()

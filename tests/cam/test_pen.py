@@ -1,0 +1,98 @@
+"""How a cutter goes down along a circle, and which narrow places it clears with which path."""
+
+import math
+from itertools import pairwise
+from types import SimpleNamespace
+
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from planning_parts import LIBRARY
+
+from mechwright_cam.operations.clearing import COARSE_FROM
+from mechwright_cam.operations.layer import NEARLY, Layer
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.rates import Rates
+from mechwright_cam.plane.path import circle
+from mechwright_cam.program.moves import FeedArc
+
+RATES = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
+
+
+def turns(pen: Pen) -> list[FeedArc]:
+    return [move for move in pen.moves if isinstance(move, FeedArc)]
+
+
+@given(
+    st.floats(1.0, 20.0), st.floats(0.5, 20.0), st.floats(0.0, 5.0), st.floats(0.1, 6.0), st.floats(0.2, 4.0)
+)
+def test_a_helix_is_no_steeper_than_it_may_be_and_no_longer_than_that_takes(angle, radius, top, depth, step):
+    slope = math.tan(math.radians(angle))
+    pen = Pen(LIBRARY.get("mill-6"), RATES, 10.0, slope)
+    pen.helix(circle((3.0, 1.0), radius, (3.0 + radius, 1.0), True), radius, top, top - depth, step)
+    most = min(step, slope * math.tau * radius)
+    heights = [top, *(move.z for move in turns(pen) if move.z is not None)]
+    assert heights[-1] == pytest.approx(top - depth, abs=1e-4)
+    assert all(one >= two for one, two in pairwise(heights))
+    # Whole turns, as long as the one at the bottom, each within the tenth of a micrometre that is printed.
+    pieces = len([move for move in turns(pen) if move.z is None])
+    whole = heights[::pieces]
+    assert len(heights) - 1 == pieces * (len(whole) - 1)
+    assert depth / most - 1e-3 <= len(whole) - 1 <= math.ceil(depth / (0.998 * most)) + 1
+    assert max(one - two for one, two in pairwise(whole)) <= most * (1 + 1e-9) + 2e-4
+
+
+@pytest.mark.parametrize("count", [1, 2, 10])
+def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
+    """Rounding of heights makes some turns steeper than they are on average, and none may be too steep."""
+    slope = math.tan(math.radians(3))
+    pen = Pen(LIBRARY.get("mill-6"), RATES, 10.0, slope)
+    most = slope * math.tau * 5.0
+    pen.helix(circle((0.0, 0.0), 5.0, (5.0, 0.0), True), 5.0, 0.0, -count * most)
+    pieces = len([move for move in turns(pen) if move.z is None])
+    whole = [0.0, *(move.z for move in turns(pen) if move.z is not None)][::pieces]
+    assert len(whole) - 1 == count + 1
+    assert max(one - two for one, two in pairwise(whole)) < most
+
+
+class Cuts:
+    """A layer of which it is known how much of a heavy area of 100 mm² each allowance takes off."""
+
+    rough_heavy = Layer.rough_heavy
+
+    def __init__(self, **taken: float) -> None:
+        self.taken, self.ran, self.left = taken, [], 100.0
+        self.steps = SimpleNamespace(step_down=lambda mill: 1.0)
+        self.stock = None
+
+    def _heavy(self, _):
+        self.left = self.left if self.stock is None else self.stock
+        return shapely.box(0, 0, 10, self.left / 10) if self.left else shapely.Polygon()
+
+    def _roughing(self, _, allowance, thick):
+        share = self.taken["coarse" if allowance == COARSE_FROM else "exact"]
+        after = self.left * (1 - share)
+        return SimpleNamespace(
+            taken=share * thick.area, write=lambda *_: None, after_core=lambda: after, allowance=allowance
+        )
+
+    def add(self, what, mill, write):
+        self.ran.append(write.func)
+
+
+@pytest.mark.parametrize(
+    ("coarse", "exact", "passes", "left"),
+    [
+        (1.0, 1.0, 1, 0.0),  # nothing is left for the exact path
+        (NEARLY, 1.0, 2, 0.0),  # worth its time: then the exact one takes the rest
+        (NEARLY - 0.01, 1.0, 1, 0.0),  # the exact one has to go there anyway, and goes alone
+        (0.0, 1.0, 1, 0.0),
+        (0.0, 0.2, 1, 80.0),  # the exact one takes what it can, however little
+    ],
+)
+def test_a_coarse_path_through_narrow_places_is_run_where_it_takes_nearly_all(coarse, exact, passes, left):
+    layer = Cuts(coarse=coarse, exact=exact)
+    layer.rough_heavy(LIBRARY.get("mill-6"))
+    assert len(layer.ran) == passes
+    assert layer.stock == pytest.approx(left)
