@@ -111,7 +111,8 @@ class KlartextWriter(Writer):
     def _fed(self, axes: dict[str, Decimal], values: dict[str, str]) -> None:
         if "F" in values:
             tenths = 1 if self.scale == 1.0 else 10
-            self._feed, self._stated = f"F{Decimal(values['F']) * tenths:f}", False
+            self._feed = "F" + signed(Decimal(values["F"]) * tenths).removeprefix("+")
+            self._stated = False
         feed = "" if self._stated else self._feed
         self._stated = True
         if self._motion == "G1":
