@@ -165,7 +165,9 @@ def test_keys_of_settings_are_those_that_count() -> None:
 
 def test_names_that_are_installed_are_offered() -> None:
     assert [name for name, _ in completing.families("g")] == ["geneva"]
-    assert completing.controls("") == ["fanuc", "grbl", "haas", "linuxcnc", "mach3", "siemens-840d"]
+    assert completing.controls("") == [
+        *("fanuc", "grbl", "haas", "heidenhain-tnc", "linuxcnc", "mach3", "siemens-840d")
+    ]
     assert completing.formats("stl,s") == ["stl,step"]
     assert completing.formats("stl,") == [f"stl,{name}" for name in ("3mf", "dxf", "glb", "mjcf", "step")]
     assert completing.curves("spl") == ["spline", "spline3"]

@@ -17,7 +17,8 @@ NAMES = sorted(readers())
 
 def test_every_control_has_a_reader_and_every_corpus_too() -> None:
     assert {name for name in NAMES if name.startswith("program-")} == {
-        f"program-{name}" for name in ("fanuc", "grbl", "haas", "linuxcnc", "mach3", "siemens-840d")
+        f"program-{name}"
+        for name in ("fanuc", "grbl", "haas", "heidenhain-tnc", "linuxcnc", "mach3", "siemens-840d")
     }
     assert {folder.name for folder in CORPUS.iterdir()} <= set(NAMES)
     assert all(reader.seeds for reader in readers().values())

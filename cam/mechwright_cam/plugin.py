@@ -10,6 +10,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.fanuc import Fanuc
     from mechwright_cam.controls.grbl import Grbl
     from mechwright_cam.controls.haas import Haas
+    from mechwright_cam.controls.heidenhain_tnc import HeidenhainTnc
     from mechwright_cam.controls.linuxcnc import LinuxCnc
     from mechwright_cam.controls.mach3 import Mach3
     from mechwright_cam.controls.siemens_840d import Siemens840D
@@ -22,7 +23,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.shop.shop_table import ShopTable
     from mechwright_cam.shop.table import CamTable
 
-    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl, Siemens840D]
+    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl, Siemens840D, HeidenhainTnc]
     pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, AsMadeFiles]
     return [
         *controls,

@@ -13,6 +13,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.posting import Measured, Posting
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 FOLDER = Path(__file__).parents[1] / "golden"
@@ -118,13 +119,21 @@ def with_options() -> Program:
     )
 
 
+def as_taken(program: Program, control: Control) -> Program:
+    """The same as far as the control takes it: one that sets no offsets leaves them to the operator."""
+    asked = CamSettings.model_validate({"post": {"offsets": True}})
+    if not any(finding.code == "cam.offsets" for finding in control.check(asked)):
+        return program
+    return replace(program, posting=program.posting.model_copy(update={"offsets": False}))
+
+
 def texts() -> dict[str, str]:
     """File name to text of everything that is kept."""
     kept = {}
     for control in EVERY:
         post = host().get(Control, control)
         kept[f"{control}.nc"] = post.write(every_operation())
-        kept[f"{control}-options.nc"] = post.write(with_options())
+        kept[f"{control}-options.nc"] = post.write(as_taken(with_options(), post))
     for stem, text in host().get(Control, "grbl").files(every_operation()).items():
         kept[f"grbl-{stem}.nc"] = text
     return kept

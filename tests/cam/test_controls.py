@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from by_control import BY_NAME, EVERY, asked, interpret, prove
 from by_night import examples, thinned
-from golden_programs import FOLDER, every_operation, texts, with_options
+from golden_programs import FOLDER, as_taken, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from long_program import long_program
@@ -23,6 +23,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.fanuc import Fanuc
 from mechwright_cam.controls.grbl import Grbl
 from mechwright_cam.controls.haas import Haas
+from mechwright_cam.controls.heidenhain_tnc import HeidenhainTnc
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.mach3 import Mach3
 from mechwright_cam.controls.reading import Run
@@ -83,6 +84,22 @@ class TestSiemens840D(ControlContract):
         return rf"T{tool.number}\nM6\n[^T]*\bD1\b"
 
 
+class TestHeidenhainTnc(ControlContract):
+    control = HeidenhainTnc
+    longest_line = 128
+    program_end = r"END PGM \w+ MM"
+
+    def code(self, text: str) -> list[str]:
+        """Without the numbers of blocks."""
+        return [re.sub(r"^\d+ ", "", line) for line in super().code(text) if not re.fullmatch(r"\d+", line)]
+
+    def work_offset(self, program: Program) -> str:
+        return rf"Q339=\+{int(program.work_offset[1:]) - 53}(?!\d)"
+
+    def length_offset(self, tool: Tool) -> str:
+        return rf"TOOL CALL {tool.number} Z S\d+\nM3\n"
+
+
 # -- kept texts ---------------------------------------------------------------------------------------------
 
 TEXTS = texts()
@@ -101,7 +118,7 @@ def test_no_text_is_kept_that_nothing_writes() -> None:
 
 
 def read(control: str, program: Program) -> Run:
-    text = post_of(control).write(program)
+    text = post_of(control).write(as_taken(program, post_of(control)))
     return interpret(text, BY_NAME[control], upper_end=program.machine.retract_z)
 
 

@@ -205,6 +205,14 @@ class Control(Plugin):
         """The word for the units of its programs."""
         return INCH if self.units == "inch" else METRIC
 
+    def rapid_words(self, z: str) -> str:
+        """What goes to a height in the work, at a rapid."""
+        return f"G0 Z{z}"
+
+    def offset_words(self, offset: str) -> str:
+        """What people at the control call a work offset."""
+        return offset
+
     def setting_words(self, offset: str) -> str:
         """What sets a work offset, without its axes."""
         return next(row for row in self.work_offsets if row.has(offset)).setting(offset)

@@ -34,7 +34,7 @@ class GcodeControl(Sections):
             that it should set have not been measured.
         """
         self._check_program(program)
-        out = Writer(program, self.decimals, self.dialect.point_needed, self.scale)
+        out = self.writer(program)
         self.frame(out)
         self.head(out)
         self.safe_start(out)
@@ -50,9 +50,16 @@ class GcodeControl(Sections):
             self.section(out, section)
         self.go_home(out)
         self.end(out)
-        step = program.posting.line_numbers
-        lines = with_numbers(out.lines, step) if step else out.lines
-        return "\n".join(lines) + "\n"
+        return "\n".join(self.finished(out)) + "\n"
+
+    def writer(self, program: Program) -> Writer:
+        """What the words of a program are written with."""
+        return Writer(program, self.decimals, self.dialect.point_needed, self.scale)
+
+    def finished(self, out: Writer) -> list[str]:
+        """The lines of a program that is written, with their numbers where they are asked for."""
+        step = out.program.posting.line_numbers
+        return with_numbers(out.lines, step) if step else out.lines
 
     def _check_program(self, program: Program) -> None:
         """Raise ProgramError for a program that it cannot run, or that does nothing."""
@@ -124,10 +131,8 @@ class GcodeControl(Sections):
         self.comment(out, f"program {program.name}, {self.title}")
         for note in program.notes:
             self.comment(out, note)
-        self.comment(
-            out,
-            f"origin {program.work_offset}, Z0 on top of the stock, units {self.units} and {self.units}/min",
-        )
+        zero, unit = self.offset_words(program.work_offset), self.units
+        self.comment(out, f"origin {zero}, Z0 on top of the stock, units {unit} and {unit}/min")
         for tool in program.tools:
             self.comment(out, self.tool_note(tool))
         for offset in self.offsets.of_program(program):

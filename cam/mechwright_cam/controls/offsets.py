@@ -116,9 +116,17 @@ class WorkOffsets:
         >>> G54_TO_G59.setting("G55"), FANUC_OFFSETS.setting("G54.1 P7")
         ('G10 L2 P2', 'G10 L20 P7')
         """
+        return self.words.format(self.place(offset))
+
+    def place(self, offset: str) -> int:
+        """The place of one of its offsets in the row.
+
+        >>> G54_TO_G59.place("G55")
+        2
+        """
         match = re.fullmatch(self.pattern, offset)
         assert match is not None  # noqa: S101 - the caller has looked it up
-        return self.words.format(int(match[1]) - self.before)
+        return int(match[1]) - self.before
 
 
 G54_TO_G59 = WorkOffsets("G54 to G59", r"G(5[4-9])", "G10 L2 P{}", 53)

@@ -20,8 +20,8 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import operations, step_times
 from mechwright_cam.setup.job import Job
 
-SWITCHED = re.compile(r"^[^\S\n]*/", re.MULTILINE)
-"""A line that a switch at the machine skips."""
+SWITCHED = re.compile(r"^[^\S\n]*(?:\d+[^\S\n]*)?/", re.MULTILINE)
+"""A line that a switch at the machine skips, or a block behind its number."""
 RULES = tuple(rule() for rule in BUILT_IN)
 """What is asked unless a host knows more."""
 

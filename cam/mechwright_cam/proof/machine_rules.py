@@ -110,9 +110,10 @@ def stops(scene: Scene) -> Check:
 
 def work_offset(scene: Scene) -> Check:
     """All moves are made in the work offset of the job."""
-    wanted = scene.job.settings.work_offset
+    wanted, words = scene.job.settings.work_offset, scene.control.offset_words
     wrong = scene.run.of_states(lambda state: state.work_offset != wanted)
     if (step := first(scene.run.moving & wrong)) is not None:
-        used = scene.state(step).work_offset or "no stated work offset"
-        return scene.bad(step, f"moves in {used}; the job is set up in {wanted}")
-    return Check(True, f"all moves are in {wanted}")
+        used = scene.state(step).work_offset
+        said = words(used) if used else "no stated work offset"
+        return scene.bad(step, f"moves in {said}; the job is set up in {words(wanted)}")
+    return Check(True, f"all moves are in {words(wanted)}")

@@ -72,3 +72,16 @@ def centres_of(start: Array, end: Array, radius: Array, ccw: NDArray[np.bool_], 
         found[(chord == 0) | (chord / 2 > np.abs(radius) + slack)] = np.nan
     centres: Array = found
     return centres
+
+
+def rotated(place: tuple[float, float], centre: tuple[float, float], degrees: float) -> tuple[float, float]:
+    """A place turned about a centre, counterclockwise.
+
+    >>> [round(value, 9) for value in rotated((2, 1), (1, 1), 90)]
+    [1.0, 2.0]
+    """
+    dx, dy, angle = place[0] - centre[0], place[1] - centre[1], math.radians(degrees)
+    return (
+        centre[0] + dx * math.cos(angle) - dy * math.sin(angle),
+        centre[1] + dx * math.sin(angle) + dy * math.cos(angle),
+    )

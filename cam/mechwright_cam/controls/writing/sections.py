@@ -11,6 +11,7 @@ restart point
 """
 
 import math
+from collections.abc import Sequence
 
 from mechwright_cam.controls.writing.drilling import Drilling
 from mechwright_cam.controls.writing.text import number
@@ -72,7 +73,7 @@ class Sections(Drilling):
         """Set every mode that the program relies on; an operation may ask for other corners."""
         out.line(*self.safe_modes)
         out.corners = self.blending(out.program.posting.exact_stop)
-        out.line(*out.corners)
+        self.corner_lines(out, out.corners)
 
     def restate(self, out: Writer) -> None:
         """State the modes once more, at a restart point."""
@@ -87,7 +88,11 @@ class Sections(Drilling):
         words = words or self.blending(exact)
         if words != out.corners:
             out.corners = words
-            out.line(*words)
+            self.corner_lines(out, words)
+
+    def corner_lines(self, out: Writer, words: Sequence[str]) -> None:
+        """Write the words that choose how corners are taken."""
+        out.line(*words)
 
     def _can_restart(self, out: Writer, operation: Operation) -> bool:
         """Whether an operation starts above everything, at a stated place."""

@@ -61,7 +61,7 @@ def steps(
     by_file
         Whether tools that are changed by hand have a file each.
     """
-    offset, to = job.settings.work_offset, Lengths(control.units)
+    offset, to = control.offset_words(job.settings.work_offset), Lengths(control.units)
     over = job.side == "underside"
     by_hand = not control.offsets.lengths
     touched = by_hand and not _in_program(job, control, tools)
@@ -73,7 +73,7 @@ def steps(
         *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
         _second_plane(job, offset, to) if over else _plane(job, offset, to),
-        *([] if touched else [_height(offset, control)]),
+        *([] if touched else [_height(job.settings.work_offset, control)]),
         *(
             [_touch_off(job, control, tools, by_file=by_file)]
             if by_hand
@@ -199,10 +199,11 @@ def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: boo
             f"Check each by hand before the first cut: {word} with its length, then the tip over the stock.",
         ]
     else:
+        offset = control.offset_words(job.settings.work_offset)
         when = "Before each file" if by_file else "At each stop"
         lines = [
             f"The control keeps no lengths: {listed} are touched off one by one. {when} load the tool, bring "
-            f"its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so that "
+            f"its tip on the stock with the setter (height h), and set {offset} Z so that "
             "Z reads h.",
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
@@ -300,14 +301,15 @@ def _plane(job: Job, offset: str, to: Lengths) -> Step:
     return Step(f"Set {offset} X and Y", tuple(lines))
 
 
-def _height(offset: str, control: Control) -> Step:
+def _height(place: str, control: Control) -> Step:
+    offset = control.offset_words(place)
     return Step(
         f"Set {offset} Z once, with the Z setter",
         (
             f"No length offset active: {control.no_length}. Stand the setter (height h) on the clean top of "
             "the stock.",
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
-            f"Enter {offset} Z = N − h on the offset page, or {control.height_words(offset, 'N − h')}. "
+            f"Enter {offset} Z = N − h on the offset page, or {control.height_words(place, 'N − h')}. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
             "If the nose cannot reach, use the longest tool in its place for N: its H is 0, the others have "
             "negative H. Use the same one for all programs of the job, since they share the lengths.",
@@ -334,11 +336,12 @@ def _lengths(offset: str, tools: Sequence[int], control: Control, *, with_d: boo
 def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
     first, to = tools[0] if tools else 1, Lengths(control.units)
     height = CHECK_HEIGHT if to.units == "mm" else round(CHECK_HEIGHT / to.scale) * to.scale
+    # Where the change puts the length in force the two are one.
+    words = dict.fromkeys((control.change_words(first), offset, control.length_words(first)))
     return Step(
         "Check before the first cut",
         (
-            f"Beside the clamps, by hand: {control.change_words(first)}, {offset}, "
-            f"{control.length_words(first)}, then G0 Z{to.plain(height)}. "
+            f"Beside the clamps, by hand: {', '.join(words)}, then {control.rapid_words(to.plain(height))}. "
             f"The tip must stand {to.with_unit(height)} above the stock: measure it. Repeat for every tool.",
             "If it does not: stop. Length offset or work offset is wrong.",
         ),

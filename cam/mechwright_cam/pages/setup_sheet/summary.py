@@ -46,7 +46,7 @@ def summary_html(
             job,
             program,
             proof or {},
-            Lengths(control.units),
+            control,
             file_names(program, control.suffix, files.get(program.name, ())),
         )
         for job, program, proof in programs
@@ -75,9 +75,10 @@ def summary_html(
 
 
 def _row(
-    job: Job, program: Program, proof: Mapping[str, Any], to: Lengths, names: Sequence[str]
+    job: Job, program: Program, proof: Mapping[str, Any], control: Control, names: Sequence[str]
 ) -> dict[str, Any]:
     x0, y0, x1, y1 = job.stock
+    to = Lengths(control.units)
     seconds = proof.get("time_estimate_s")
     count = quantity(job)
     return {
@@ -89,7 +90,7 @@ def _row(
         "quantity": count,
         "stock": f"{to.fixed(x1 - x0, 1)} × {to.fixed(y1 - y0, 1)} × {to.plain(job.thickness)}",
         "material": job.part.material,
-        "work_offset": program.work_offset,
+        "work_offset": control.offset_words(program.work_offset),
         "tools": len(program.tools),
         "seconds": seconds,
         "all_seconds": None if seconds is None else count * seconds,

@@ -1,0 +1,241 @@
+"""HEIDENHAIN TNC 640, iTNC 530 and their kin, in Klartext: see docs/controls.md."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from mechwright.contracts.finding import Finding
+from mechwright.errors import ProgramError
+from mechwright.output.csv_text import csv_text
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.dialect import Corners, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
+from mechwright_cam.controls.reading import klartext
+from mechwright_cam.controls.reading.klartext_words import M_CODES
+from mechwright_cam.controls.writing.klartext import KlartextWriter, numbered, signed
+from mechwright_cam.controls.writing.text import comment_lines, floored, number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+if TYPE_CHECKING:
+    from mechwright_cam.shop.machine import Machine
+
+ROUGH = 0.02
+"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing."""
+EXACT = 0.001
+"""What takes the place of exact stops, which Klartext has no word for, mm: the last decimal."""
+IN_INCHES = 5
+"""Decimals of a tolerance in inches."""
+PRESETS = WorkOffsets("G54 to G59", r"G(5[4-9])", "row {} of the preset table", 53)
+
+
+class HeidenhainTnc(GcodeControl):
+    """Klartext: TOOL CALL, L, CC and C, CP for helices, M91 for retracts, cycles 247, 9 and 32.
+
+    No machining cycles and no cutter compensation: holes are written out, paths are the tool centre's.
+    """
+
+    name = "heidenhain-tnc"
+    title = "HEIDENHAIN TNC"
+    suffix = ".h"
+    dialect = Dialect(
+        # The codes of the interpreter that the blocks of the control come to.
+        g_codes=frozenset(
+            {0, 10, 20, 30, 40, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 580, 590, 640}
+            | {900, 901, 940}
+        ),
+        translate=klartext.translated,
+        m_codes=M_CODES,
+        arc_absolute=0.016,  # the machine parameter of circles allows no more
+        arc_relative=0.0,
+        arc_chord=0.0,
+        line_length=4 * klartext.LONGEST,
+        tables=frozenset(),
+        length_write=None,
+        decimals=3,
+        decimals_inch=4,
+        percent=False,
+        change_stops_coolant=True,
+        feed_mode_stays=True,
+        # Without cycle 32 the machine's own tolerance holds, with it T alone.
+        corners=Corners(tolerance=True),
+    )
+    offsets = OffsetTables(d=None)
+    no_compensation = "is written and read here without cutter compensation (RL, RR)"
+    work_offsets = (PRESETS,)
+    no_length = "TOOL CALL 0 Z"
+    stages = True
+    highest_tool = 32767
+    forbidden = "~;"
+    tolerances = (ROUGH, TOLERANCES.arc_fit, EXACT)
+    leftover = (
+        "a datum shift, mirror, rotation, scaling or tilted plane (cycles 7, 8, 10, 11, 19, 26, PLANE) of an "
+        "earlier program, nor M118 and M120: select the program anew, and look that the status display shows "
+        "none"
+    )
+
+    def writer(self, program: Program) -> Writer:
+        """A writer of blocks."""
+        return KlartextWriter(program, self.decimals, self.scale)
+
+    def finished(self, out: Writer) -> list[str]:
+        """Blocks are numbered one by one, whatever step is asked for."""
+        return numbered(out.lines)
+
+    def frame(self, out: Writer) -> None:
+        """The first block."""
+        out.line(f"BEGIN PGM {out.program.name} {self._unit}")
+
+    def end(self, out: Writer) -> None:
+        """The end, and the last block."""
+        super().end(out)
+        out.line(f"END PGM {out.program.name} {self._unit}")
+
+    @property
+    def _unit(self) -> str:
+        return "INCH" if self.units == "inch" else "MM"
+
+    @property
+    def unit_word(self) -> str:
+        """The unit that BEGIN PGM names."""
+        return f"BEGIN PGM {self._unit}"
+
+    def safe_start(self, out: Writer) -> None:
+        """The preset, and how far corners are rounded; BEGIN PGM brings all other modes back."""
+        offset = out.program.work_offset
+        out.line("CYCL DEF 247 DATUM SETTING ~")
+        out.line(f"Q339={signed(str(PRESETS.place(offset)))} ;DATUM NUMBER")
+        out.corners = self.blending(out.program.posting.exact_stop)
+        self.corner_lines(out, out.corners)
+
+    def corner_lines(self, out: Writer, words: Sequence[str]) -> None:
+        """A cycle of two blocks."""
+        for line in words:
+            out.line(line)
+
+    def blending(self, exact: bool) -> list[str]:
+        """Cycle 32 bounds how far the control leaves the path."""
+        return self.rounding(EXACT if exact else TOLERANCES.arc_fit)
+
+    def rounding(self, tolerance: float) -> list[str]:
+        """Cycle 32 with T."""
+        digits = self.decimals if self.units == "mm" else IN_INCHES
+        value = number(floored(max(tolerance, EXACT) / self.scale, digits), digits)
+        return ["CYCL DEF 32.0 TOLERANCE", f"CYCL DEF 32.1 T{value}"]
+
+    def restate(self, out: Writer) -> None:
+        """At a restart point the speed is stated anew as well."""
+        super().restate(out)
+        out.speed = ""
+
+    def retract_lines(self, z: float) -> Sequence[str]:
+        """Machine coordinates for one block, in which the tool's length does not count."""
+        return (f"L Z{signed(self.length(z))} R0 FMAX M91",)
+
+    def change_words(self, tool: int) -> str:
+        """What changes to a tool."""
+        return f"TOOL CALL {tool} Z"
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """The tool, its axis and its speed; length and radius come with it."""
+        out.speed = f"S{section.spindle:.0f}"
+        out.line(self.change_words(section.tool.number), out.speed)
+
+    def _start_spindle(self, out: Writer, section: ToolSection, *words: str) -> None:  # noqa: ARG002 - the preset holds
+        """M3; the speed is that of TOOL CALL, and is stated anew where it may be another."""
+        speed = f"S{section.spindle:.0f}"
+        if out.speed != speed:
+            out.line("TOOL CALL Z", speed)
+            out.speed = speed
+        out.line(self.m(4 if section.tool.left_hand else 3))
+        if out.program.machine.spindle_delay > 0:
+            self.dwell(out, out.program.machine.spindle_delay)
+
+    def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:  # noqa: ARG002
+        """TOOL CALL has put the length in force."""
+        out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
+
+    def length_words(self, tool: int | str) -> str:
+        """What puts a tool's length in force."""
+        return f"TOOL CALL {tool} Z".replace("  ", " ")
+
+    def length_place(self, tool: int | str) -> str:
+        """Where a tool's length stands."""
+        return f"L of T{tool}"
+
+    def rapid_words(self, z: str) -> str:
+        """A rapid to a height."""
+        return f"L Z{signed(z)} R0 FMAX"
+
+    def offset_words(self, offset: str) -> str:
+        """A row of the preset table."""
+        return f"preset {PRESETS.place(offset)}" if PRESETS.has(offset) else offset
+
+    def height_words(self, offset: str, value: str) -> str:
+        """What sets the Z of a work offset."""
+        return f"Z in {self.setting_words(offset)} = {value}"
+
+    def tool_note(self, tool: Tool) -> str:
+        """Without an H number."""
+        return super().tool_note(tool).replace(f" H{tool.number} ", " ", 1)
+
+    def comment(self, out: Writer, text: str) -> None:
+        """Write a comment, as many blocks as it takes."""
+        for line in comment_lines(text, forbidden=self.forbidden):
+            out.line(f"; {line}")
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """No cycles: what they do hangs on their version."""
+        self.drill_in_moves(out, hole)
+
+    def dwell(self, out: Writer, seconds: float) -> None:
+        """Wait; a cycle of two blocks."""
+        out.line("CYCL DEF 9.0 DWELL TIME")
+        out.line(f"CYCL DEF 9.1 DWELL {number(seconds, 3)}")
+
+    def set_offsets(self, out: Writer) -> None:
+        """Raise ProgramError: the preset table is the operator's."""
+        raise ProgramError(f"program {out.program.name}: {self._sets_none}; leave post.offsets out")
+
+    @property
+    def _sets_none(self) -> str:
+        return f"{self.title} programs write no row of the preset table here: the sheet says what to type in"
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """As others, and offsets that the program should set."""
+        found = list(super().check(settings))
+        if settings.post.offsets:
+            remedy = "leave offsets out"
+            found.append(Finding.error("cam.offsets", "cam.post.offsets", self._sets_none, remedy=remedy))
+        return found
+
+    def retract_words(self, machine: "Machine") -> str:
+        """What goes to the upper end of a machine."""
+        return self.retract_lines(machine.retract_z)[0]
+
+    def needs(self, settings: CamSettings) -> Sequence[str]:
+        """Presets without turns, tools without deltas, machine Z of the retract, feeds in inches."""
+        offset = self.offset_words(settings.work_offset)
+        said = [
+            f"The program takes {offset} (CYCL DEF 247): its columns SPA, SPB and SPC (ROT) have to be 0.",
+            "Length and radius come from the tool table at TOOL CALL: DL, DR and DR2 there are wear "
+            "alone, at first 0.",
+            f"{self.retract_words(settings.machine)} goes to machine Z, without the tool's length: it has to "
+            "be the upper end within the travel (cam.machine.retract_z).",
+        ]
+        if self.units == "inch":
+            said.append("F is in tenths of an inch a minute, as in programs with INCH; tables are in inches.")
+        return said
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """``heidenhain-tools.csv``: what to type into the tool table, by the names of its columns."""
+        table: list[list[object]] = [["T", "NAME", "L", "R", "R2", "DL", "DR", "DOC"]]
+        for place, tool in sorted({tool.number: tool for tool in tools}.items()):
+            length = "" if tool.length is None else self._said(tool.worn_length)
+            nose = self._said(tool.nose)
+            table.append(
+                [place, tool.name.upper(), length, self._said(tool.radius), nose, 0, 0, str(tool.kind)]
+            )
+        return "heidenhain-tools.csv", csv_text(table)

@@ -1,0 +1,114 @@
+"""The words of Klartext blocks: which are read, as what, and what is said of the others."""
+
+import re
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading.blocks import fail
+
+NAME = "HEIDENHAIN"
+MOST_M = 2
+"""M functions of a block."""
+M_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
+"""M codes of the interpreter that blocks come to."""
+BOTH_M = {13: "M3 M8", 14: "M4 M8"}
+"""M functions that are two others."""
+AT_THE_END = frozenset({0, 1, 2, 5, 9, 30})
+"""M functions that act when the move of their block is done."""
+AT_THE_START = frozenset({3, 4, 7, 8, 13, 14})
+"""Those that act before it."""
+NO_CYCLE = "cycles are not read; post the moves"
+_SHIFT = "shifts or turns the work; set a preset with CYCL DEF 247"
+NO_JUMP = "parameters, jumps and calls are not read; post the program without them"
+_ROUNDED = "is not read; write L, C with CC, CR or CP"
+_M = "is no M function that is read; post the program without it"
+CYCLES = {
+    **dict.fromkeys((7, 8, 10, 11, 19, 26), _SHIFT),
+    12: NO_JUMP,
+    13: "turns the spindle; post the program without it",
+}
+"""Cycles that are refused with other words than the rest."""
+REFUSED = {
+    **dict.fromkeys(("LBL", "CALL", "FN", "Q", "QL", "QR", "QS", "SEL", "PGM", "REP", "DECLARE"), NO_JUMP),
+    **dict.fromkeys(("RND", "CHF", "CT", "CTP", "LP", "APPR", "DEP", "LN", "SPL"), _ROUNDED),
+    **dict.fromkeys(("FL", "FC", "FLT", "FCT", "FPOL"), _ROUNDED),
+    **dict.fromkeys(("PLANE", "TRANS", "FUNCTION"), _SHIFT),
+    **dict.fromkeys(("TCH", "PATTERN"), NO_CYCLE),
+    **dict.fromkeys(("RL", "RR"), "cutter compensation is not read; post the path of the tool's centre, R0"),
+    **dict.fromkeys(("IX", "IY", "IPR"), "write places as absolute coordinates"),
+    "IZ": "write heights as absolute coordinates; IZ is read with CP",
+    "PA": "write IPA, the angle from where the tool stands",
+    "FAUTO": "write the feed",
+    **dict.fromkeys(("FT", "FZ", "FU"), "write feeds in mm/min, or in tenths of an inch a minute"),
+    **dict.fromkeys(("A", "B", "U", "V", "W"), "this is a three-axis interpreter"),
+    "M6": "write TOOL CALL, which changes the tool",
+    **dict.fromkeys(("M89", "M99"), NO_CYCLE),
+    "M92": "its datum is the machine builder's own; write M91",
+    "M140": "goes as far as the machine can; write L Z R0 FMAX M91",
+    **dict.fromkeys(("M90", "M103", "M112", "M124", "M136"), "changes path or feed as it likes; take it out"),
+}
+"""Words that the control knows and that are not read, each with what to do instead."""
+NUMBER = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)"
+"""A number, with a point or a comma."""
+_WORD = re.compile(rf"([A-Z]+)(?:({NUMBER})|(?<=DR)([+-]))?(?= |$)")
+_NAMED = re.compile(r"[A-Z]*")
+
+
+def plain(value: str) -> str:
+    """A number as the interpreter reads it."""
+    return value.replace(",", ".").removeprefix("+")
+
+
+def worked_out(value: float) -> str:
+    """A number that was worked out."""
+    return f"{value:.9f}".rstrip("0").rstrip(".")
+
+
+def words_of(number: int, code: str, letters: str | tuple[str, ...]) -> dict[str, str]:
+    """Name and value of each word behind the first: R0 as G40, DR as G2 or G3, M functions together."""
+    words: dict[str, str] = {}
+    pieces = code.replace("F MAX", "FMAX").split()[1:]
+    for piece in pieces:
+        match = _WORD.fullmatch(piece)
+        if match is None:
+            raise refused(number, piece)
+        name, value = match[1], plain(match[2] or "")
+        if name == "M" and value.isdigit():
+            words["M"] = f"{words.get('M', '')} M{int(value)}".strip()
+            continue
+        if name == "FMAX" and not value:
+            name, value = "F", "MAX"
+        elif name == "R" and "R" in letters and float(value or "0"):
+            name = "RADIUS"
+        elif (name, value) == ("R", "0"):
+            value = "G40"
+        elif name == "DR" and "DR" in letters and match[3]:
+            value = "G3" if match[3] == "+" else "G2"
+        elif name not in {"F", *letters} or not value or name in {"R", "DR"}:
+            raise refused(number, piece)
+        if name in words:
+            raise fail(number, f"two {name} words in a block; take one out")
+        words[name] = value
+    return words
+
+
+def functions_of(number: int, code: str, *, moving: bool) -> str:
+    """M functions as the interpreter has them; M91 stays for who moves."""
+    found = [int(word[1:]) for word in code.split()]
+    if len(found) > MOST_M:
+        raise fail(number, f"more than {MOST_M} M functions in a block")
+    for m in found:
+        if m == 91 and moving:
+            continue
+        if m not in AT_THE_START | AT_THE_END:
+            raise refused(number, f"M{m}")
+        if moving and m in AT_THE_END:
+            raise fail(number, f"M{m} beside a move acts at its end; write it in a block behind it")
+    return " ".join(BOTH_M.get(m, f"M{m}") for m in found)
+
+
+def refused(number: int, word: str) -> ProgramError:
+    """The error of a word that is not read, with what to do instead."""
+    found = _NAMED.match(word)
+    name = word if word in REFUSED or found is None else found[0]
+    what = REFUSED.get(name, _M if name == "M" else "post the program without it")
+    return fail(number, f"{word} is no word that is read in programs for {NAME}; {what}")

@@ -1,0 +1,83 @@
+0 BEGIN PGM engrave MM
+1 ; program engrave, HEIDENHAIN TNC
+2 ; part engrave, aluminium, 4 mm thick
+3 ; stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000
+4 ; origin: axis of the part, Z0 on top of the stock
+5 ; drills go 1.80 mm below the stock: leave room under the holes
+6 ; origin preset 1, Z0 on top of the stock, units mm and mm/min
+7 ; T7 D 5 mm: drill-5, drill
+8 ; T41 D 3 mm: engrave-3, chamfer mill
+9 CYCL DEF 247 DATUM SETTING ~
+  Q339=+1 ;DATUM NUMBER
+10 CYCL DEF 32.0 TOLERANCE
+11 CYCL DEF 32.1 T0.002
+12 L Z+0 R0 FMAX M91
+13 ; operation: drill 5
+14 TOOL CALL 7 Z S4456
+15 M3
+16 L X-14 Y+0 R0 FMAX
+17 L Z+5 R0 FMAX
+18 M8
+19 L Z+1 R0 FMAX
+20 L Z-5.803 F267
+21 L Z+5 R0 FMAX
+22 M9
+23 M5
+24 L Z+0 R0 FMAX M91
+25 ; operation: number: engrave
+26 TOOL CALL 41 Z S12000
+27 M3
+28 L X-9.667 Y-2.5 R0 FMAX
+29 L Z+5 R0 FMAX
+30 M8
+31 L Z+1 R0 FMAX
+32 L Z+0 F120
+33 L Z-0.2 F36
+34 L Y+2.5 F120
+35 L X-8 Y+0
+36 L X-6.333 Y+2.5
+37 L Y-2.5
+38 L Z+5 R0 FMAX
+39 L X-4.667 Y+2.5 R0 FMAX
+40 L Z+1 R0 FMAX
+41 L Z+0 F120
+42 L Z-0.2 F36
+43 L X-3.833 Y-2.5 F120
+44 L X-3 Y+0
+45 L X-2.167 Y-2.5
+46 L X-1.333 Y+2.5
+47 L Z+5 R0 FMAX
+48 L X+1.167 Y+0 R0 FMAX
+49 L Z+1 R0 FMAX
+50 L Z+0 F120
+51 L Z-0.2 F36
+52 L X+2.833 F120
+53 L Z+5 R0 FMAX
+54 L X+5.333 Y+1.667 R0 FMAX
+55 L Z+1 R0 FMAX
+56 L Z+0 F120
+57 L Z-0.2 F36
+58 L X+6.167 Y+2.5 F120
+59 L X+7.833
+60 L X+8.667 Y+1.667
+61 L Y+0.833
+62 L X+5.333 Y-2.5
+63 L X+8.667
+64 L Z+5 R0 FMAX
+65 L X+13.667 Y+2.5 R0 FMAX
+66 L Z+1 R0 FMAX
+67 L Z+0 F120
+68 L Z-0.2 F36
+69 L X+10.333 F120
+70 L Y+0.833
+71 L X+12.833
+72 L X+13.667 Y+0
+73 L Y-1.667
+74 L X+12.833 Y-2.5
+75 L X+10.333
+76 L Z+5 R0 FMAX
+77 M9
+78 M5
+79 L Z+0 R0 FMAX M91
+80 M30
+81 END PGM engrave MM
