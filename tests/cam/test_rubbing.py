@@ -68,6 +68,32 @@ def said(cut: str) -> str:
     return "" if found.passed else found.message
 
 
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(("name", "own", "number"), [("drill-8", "200", 2), ("spot-6", "150", 1)])
+def test_a_drill_rubs_in_pecks_too(control: str, name: str, own: str, number: int) -> None:
+    of = job_of(control)
+    data = {"aluminium": CuttingData(cutting_speed=70, chip_load=0.05)}
+    known = tuple(t.model_copy(update={"cutting": data}) if t.number == number else t for t in of.tools)
+    of = replace(of, tools=known)
+    assert asked("chips", text_of(control), of, BY_NAME[control]).passed
+    slow = re.sub(rf"F{own}(?!\d)\.?", "F1", text_of(control))
+    found = asked("chips", slow, of, BY_NAME[control])
+    assert re.match(
+        rf"line {found.line}: F1 at S\d+ feeds T{number} \({name}\) 0\.\d+ µm per tooth", found.message
+    )
+
+
+def test_a_drill_in_air_does_not() -> None:
+    of = job_of("linuxcnc")
+    data = {"aluminium": CuttingData(cutting_speed=70, chip_load=0.05)}
+    of = replace(of, tools=tuple(t.model_copy(update={"cutting": data}) for t in of.tools))
+    text = text_of("linuxcnc").replace(
+        "G98 G83 X0 Y0 Z-9 R1 Q3 F200", "G1 Z1 F1\nG98 G83 X0 Y0 Z-9 R1 Q3 F200"
+    )
+    assert "\nG1 Z1 F1\n" in text
+    assert asked("chips", text, of).passed
+
+
 def test_straight_down_it_is_the_share_of_a_plunge() -> None:
     assert "0.54 µm per tooth into aluminium, and below 0.6 µm" in said("G1 Z-5 F13")
     assert said("G1 Z-5 F15") == ""
