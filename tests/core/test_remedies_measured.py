@@ -22,7 +22,7 @@ def test_nothing_is_measured_without_a_limit_a_unit_or_a_key_of_its_size() -> No
     one = bench(design(length=437.5))
     assert not any(
         list(measured(one, finding, {}))
-        for finding in (deep(440.0, None), deep(440.0, 300.0, ""), deep(600.0, 300.0), deep(440.0, 440.0))
+        for finding in (deep(440.0, None), deep(440.0, 300.0, ""), deep(6000.0, 300.0), deep(440.0, 440.0))
     )
 
 
