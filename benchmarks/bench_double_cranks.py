@@ -78,6 +78,8 @@ def passed(texts: list[str], first: int, *command: str) -> int:
             more = [] if command[0] == "check" else ["-o", str(out)]
             done = CliRunner().invoke(make_app(), [*command, str(path), *more])
             good += done.exit_code == 0
+            if done.exit_code == 0:
+                print(f"  {number}: {command[0]} passed", flush=True)  # a run that is ended early counts too
             if done.exit_code:
                 faults = [line for line in done.output.splitlines() if "error" in line]
                 print(

@@ -22,7 +22,7 @@ def test_nothing_is_measured_without_a_limit_a_unit_or_a_key_of_its_size() -> No
     one = bench(design(length=437.5))
     assert not any(
         list(measured(one, finding, {}))
-        for finding in (deep(440.0, None), deep(440.0, 300.0, ""), deep(600.0, 300.0), deep(440.0, 440.0))
+        for finding in (deep(440.0, None), deep(440.0, 300.0, ""), deep(6000.0, 300.0), deep(440.0, 440.0))
     )
 
 
@@ -37,3 +37,20 @@ def test_the_name_of_a_part_is_no_key() -> None:
     assert related(one, deep(440.0, 300.0)) == []
     named = Finding.error("cam.too-deep", "cam.tools", "a width of 3 mm")
     assert [key.name for key in related(one, named)] == ["width"]
+
+
+def test_what_is_as_large_as_the_mechanism_makes_all_its_lengths_smaller_in_one_ratio() -> None:
+    one = bench(design(length=800.0, width=200.0, holes=3))
+    changes = list(measured(one, deep(1000.0, 500.0), {}))
+    # Of 1000 mm the length accounts for 800, or for all: half of it, 0.4375, or 0.375 of it.
+    assert changes == [
+        {"parameters.length": length, "parameters.width": width}
+        for length, width in ((400, 100), (350, 87.5), (300, 75))
+    ]
+    # A width that is no tenth of the length is a plate's, and goes along only where nothing else does.
+    slender = list(measured(bench(design(length=800.0, width=70.0)), deep(1000.0, 500.0), {}))
+    assert slender[:2] == [{"parameters.length": 400}, {"parameters.length": 400, "parameters.width": 35}]
+
+
+def test_nothing_is_made_larger_as_a_whole() -> None:
+    assert list(measured(bench(design(length=300.0, width=100.0)), deep(500.0, 1000.0), {})) == []

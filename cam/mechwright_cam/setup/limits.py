@@ -29,16 +29,16 @@ def check_travel(job: Job) -> Iterator[Finding]:
         return
     x0, y0, x1, y1 = job.target.bounds
     around = job.mills[-1].diameter
-    remedy = "take a larger machine" + (", or nest fewer parts" if isinstance(job.part, Nest) else "")
+    fewer = ", or nest fewer parts" if isinstance(job.part, Nest) else ""
     for axis, size, travel in (("x", x1 - x0, machine.travel_x), ("y", y1 - y0, machine.travel_y)):
         wanted = size + around
         if wanted > travel:
-            where = f"cam.machine.travel_{axis}"
-            message = f"part {job.part.name} asks for {wanted:.1f} mm of travel in {axis.upper()}"
-            larger = {where: math.ceil(wanted / _ROUND) * _ROUND}
-            yield Finding.error(
-                "cam.travel", where, message, wanted, travel, "mm", remedy, proposed=(larger,)
-            )
+            where, name = f"cam.machine.travel_{axis}", axis.upper()
+            asked = f"part {job.part.name} asks for {wanted:.1f} mm of travel in {name}"
+            message = f"{asked}, the machine has {travel:g}"
+            least = math.ceil(wanted / _ROUND) * _ROUND
+            remedy = f"take a machine with {least} mm in {name}, or a smaller part{fewer}"
+            yield Finding.error("cam.travel", where, message, wanted, travel, "mm", remedy)
 
 
 def check_machine(job: Job) -> Iterator[Finding]:

@@ -3,9 +3,10 @@
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
+from pydantic.config import JsonDict
 
-from mechwright.contracts.parameters import FIRST, Parameters
+from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
@@ -18,8 +19,23 @@ Place = Annotated[Millimetres | None, Field(ge=-10000, le=10000)]
 """A machine coordinate of one axis; None where it is not known."""
 
 
+_CHOSEN = ("model", "name", "retract_z", "change_x", "change_y", "home_x", "home_y")
+"""Keys that one chooses for a job; the others are figures of the mill that stands in the shop."""
+
+
+def _figures(schema: JsonDict) -> None:
+    """Mark the mill's figures as given: a design is changed to suit the mill, never the other way round."""
+    keys = schema.get("properties")
+    if isinstance(keys, dict):
+        for name, key in keys.items():
+            if name not in _CHOSEN and isinstance(key, dict):
+                key.update(GIVEN)
+
+
 class Machine(Parameters):
     """A three-axis mill."""
+
+    model_config = ConfigDict(json_schema_extra=_figures)
 
     model: str = Field(
         "",

@@ -2,15 +2,15 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
-from mechwright.designs.change import found_at
+from mechwright.designs.change import changed, found_at
 from mechwright.designs.design import Design
 from mechwright.units import convert
 
@@ -35,11 +35,16 @@ class Key:
     choices
         Of a choice, true and false among them.
     default
-        The value where the file leaves the key out; None where that means that there is none.
+        The value where the file leaves the key out, as the shop lends it or else the family's or the table's
+        own; None where that means that there is none.
     unit
         Of a number.
     first
         Whether it is one that people set first: what the mechanism is for, and not how it is made.
+    given
+        Whether it says what is at hand, such as the travel of a mill: no change of it is a remedy.
+    lender
+        The table that lends the default, such as ``"shop"``; empty where none does.
     """
 
     path: str
@@ -50,6 +55,8 @@ class Key:
     default: Any = None
     unit: str = ""
     first: bool = False
+    given: bool = False
+    lender: str = ""
 
     @property
     def name(self) -> str:
@@ -81,7 +88,26 @@ def keys_of(design: Design) -> dict[str, Key]:
     for reader in design.readers:
         if reader.settings is not None:
             found += _keys(reader.settings, reader.name)
-    return {key.path: key for key in found}
+    lent = [
+        (reader.name, table, keys)
+        for reader in design.readers
+        if reader.lender
+        for table, keys in reader.lends(design.tables[reader.name]).items()
+    ]
+    return {key.path: _as_lent(design, key, lent) for key in found}
+
+
+def _as_lent(design: Design, key: Key, lent: Iterable[tuple[str, str, Mapping[str, Any]]]) -> Key:
+    """A key with the default that another table lends it: what is so where the file leaves it out."""
+    for lender, name, keys in lent:
+        if key.path.partition(".")[0] != name or not found_at({name: keys}, key.path)[0]:
+            continue
+        own = changed(design.content, {key.path: None}).get(name, {})
+        over = next((one.laid_over(own, keys) for one in design.readers if one.name == name), own)
+        stands, value = found_at({name: over}, key.path)
+        if stands:
+            return replace(key, default=value, lender=lender)
+    return key
 
 
 def named(words: str, keys: Mapping[str, Key]) -> list[Key]:
@@ -116,21 +142,24 @@ def _of(schema: Mapping[str, Any], definitions: Mapping[str, Any], where: str) -
 
 
 def _key(path: str, field: Mapping[str, Any]) -> Key:
+    return replace(_plain(path, field), first=bool(field.get("first")), given=bool(field.get("given")))
+
+
+def _plain(path: str, field: Mapping[str, Any]) -> Key:
     default = field.get("default")
     facts: dict[str, Any] = {}
     for option in (field, *field.get("anyOf", ())):
         if option.get("type") != "null":
             facts = {**option, **facts}
     kind = facts.get("type")
-    first = bool(field.get("first"))
     if "enum" in facts:
-        return Key(path, "choice", choices=tuple(facts["enum"]), default=default, first=first)
+        return Key(path, "choice", choices=tuple(facts["enum"]), default=default)
     if kind == "boolean":
-        return Key(path, "choice", choices=(True, False), default=default, first=first)
+        return Key(path, "choice", choices=(True, False), default=default)
     if kind not in {"number", "integer"}:
-        return Key(path, "other", default=default, first=first)
+        return Key(path, "other", default=default)
     low, high = _bound(facts, _LEAST, _ABOVE, -math.inf), _bound(facts, _GREATEST, _BELOW, math.inf)
-    return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")), first=first)
+    return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")))
 
 
 def _bound(

@@ -86,7 +86,18 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
     judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
     limits = INSPECTED if errors(findings) else REMARKED
     bench = Bench(build.design, judge, inspection.stage, limits)
-    return [with_proposed(bench, finding) for finding in findings]
+    told = [with_proposed(bench, finding) for finding in findings]
+    fixes = [one.fix for one in told if one.fix is not None]
+    return [_as_others(bench, finding, one, fixes) for finding, one in zip(findings, told, strict=True)]
+
+
+def _as_others(bench: Bench, finding: Finding, told: Finding, fixes: Iterable[Change]) -> Finding:
+    """A finding without a change with another one's that removes it too: of two parts, the larger's."""
+    if told.fix is not None or finding.severity is Severity.NOTE:
+        return told
+    before = errors([finding])
+    change = next((one for one in fixes if worth(bench, finding, before, one) <= Worth.HELPS), None)
+    return told if change is None else replace(told, fix=change, remedy=said(bench, change))
 
 
 def with_proposed(bench: Bench, finding: Finding) -> Finding:

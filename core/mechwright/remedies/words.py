@@ -30,5 +30,7 @@ def _now(bench: Bench, path: str) -> str:
     stands, value = found_at(bench.design.content, path)
     if stands:
         return f"now {toml(value)}"
-    default = bench.keys[path].default if path in bench.keys else None
-    return "now left out" if default is None else f"now {toml(default)}, by default"
+    key = bench.keys.get(path)
+    if key is None or key.default is None:
+        return "now left out"
+    return f"now {toml(key.default)}, " + (f"lent by the {key.lender}" if key.lender else "by default")
