@@ -12,15 +12,18 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data, meets_middle, middle
+from mechwright_cam.proof.loads import Loads
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.simulation import loads_in
 from mechwright_cam.shop.tool import MILLS, CuttingData, Tool
 
 LASTING = 2.0
@@ -100,6 +103,12 @@ def depth_of_cut(scene: Scene) -> Check:
     return _sections(scene) or Check(True, "no mill takes much more at once than the tool library says")
 
 
+FINE, FINEST = 1 / 40, 0.02
+"""Cells with which a section is measured closely: in radii of the tool, and at least so many mm wide."""
+MOST_CLOSER = 4_000_000
+"""So many of them at most."""
+MOST_DOUBTS = 100
+"""So many places are measured closely; a program with more of them is refused by the wide cells."""
 SECTIONS = 2.0
 """A mill may take so many times the section of a full slot of one step_down: deep cuts are narrow, shallow
 ones wide."""
@@ -117,10 +126,10 @@ def _sections(scene: Scene) -> Check | None:
             asked = BEYOND * cam.adaptive_depth * (1 - math.cos(math.radians(cam.engagement))) / 2
         limit = max(SECTIONS * data.step_down, asked) * tool.diameter**2
         large = loads.section > limit
-        following = np.diff(loads.step) <= 1
-        on_end = np.flatnonzero(large[1:] & large[:-1] & following)
-        if on_end.size:
-            worst = int(on_end[0]) + 1
+        doubts = _on_end(loads, large).tolist()
+        for worst in doubts:
+            if len(doubts) <= MOST_DOUBTS and not _stays(scene, tool, loads, worst, limit):
+                continue
             found, step = float(loads.section[worst]), int(loads.step[worst])
             message = (
                 f"T{tool.number} ({tool.name}) takes {loads.depth[worst]:.1f} mm deep and "
@@ -129,6 +138,35 @@ def _sections(scene: Scene) -> Check | None:
             )
             return scene.bad(step, message, found, limit, "mm²")
     return None
+
+
+def _on_end(loads: Loads, large: NDArray[np.bool_]) -> Ints:
+    """The windows that are large, as the one is that they follow on."""
+    following = np.diff(loads.step) <= 1
+    return np.flatnonzero(large[1:] & large[:-1] & following) + 1
+
+
+def _stays(scene: Scene, tool: Tool, loads: Loads, window: int, limit: float) -> bool:
+    """Whether such a section, mm², is found on cells as fine as the tool needs as well.
+
+    A wide cell counts as a whole or not at all. Where what is measured is beyond all that cells can make of
+    it, nobody looks closer.
+    """
+    cell = max(FINEST, FINE * tool.radius)
+    wide = scene.simulation.cell
+    if loads.section[window] > limit + loads.depth[window] * wide or cell > wide / 2:
+        return True
+    first, last = int(loads.first[window - 1]), int(loads.last[window])
+    steps = np.arange(first, last + 1)
+    least, most = scene.paths.extent(steps)
+    away = LASTING * tool.diameter
+    low, high = least.min(axis=0) - away, most.max(axis=0) + away
+    if float(np.ptp([low, high], axis=0).prod()) > MOST_CLOSER * cell**2:
+        return True
+    found = loads_in(scene.paths, scene.job, (*low.tolist(), *high.tolist()), cell)
+    mine = found.only((found.tool == tool.number) & ~found.down)
+    again = _on_end(mine, mine.section > limit)
+    return bool(((mine.last[again] >= first) & (mine.first[again] <= last)).any())
 
 
 def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[tuple[int, float]]:

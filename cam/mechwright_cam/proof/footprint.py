@@ -120,9 +120,15 @@ class Footprint(Grid):
 
     def within(self, mask: Mask, distance: float) -> Mask:
         """(ny + 2 h, nx + 2 h) the cells within a distance of some, mm, with a border h cells wide."""
-        h = math.ceil(distance / self.cell)
-        seeds = np.where(np.pad(mask, 2 * h), 0, NEVER).astype(np.int32)
-        return earliest(seeds, distance / self.cell) < NEVER
+        reach = distance / self.cell
+        h = math.ceil(reach)
+        found = np.zeros((mask.shape[0] + 2 * h, mask.shape[1] + 2 * h), dtype=np.bool_)
+        rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+        if rows.size:  # a small piece of a large plate takes no more than its own surroundings
+            low, high, left, right = rows[0], rows[-1] + 1, columns[0], columns[-1] + 1
+            seeds = np.where(np.pad(mask[low:high, left:right], h + int(reach)), 0, NEVER).astype(np.int32)
+            found[low : high + 2 * h, left : right + 2 * h] = earliest(seeds, reach) < NEVER
+        return found
 
 
 def footprint(paths: Paths, job: Job, window: Bounds | None = None) -> Footprint:

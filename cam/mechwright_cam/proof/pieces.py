@@ -13,11 +13,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.finished import CHIP
-from mechwright_cam.proof.footprint import NEVER, UNSURE, Footprint, Mask
+from mechwright_cam.proof.footprint import NEVER, UNSURE, Footprint, Mask, Steps
 
 
 @dataclass
@@ -98,7 +97,7 @@ class Pieces:
         return [piece[zone] for zone in range(len(when)) if above[zone] == zone]
 
 
-def _zones(found: Footprint) -> tuple[Ints, Ints, Ints, Ints]:
+def _zones(found: Footprint) -> tuple[Steps, Ints, Ints, Ints]:
     """Number of each cell's zone (ny, nx), the step that cuts each (z,), its cells (z,), and which touch.
 
     The pairs (e, 2) are sorted: those that are joined last come first.
@@ -107,7 +106,10 @@ def _zones(found: Footprint) -> tuple[Ints, Ints, Ints, Ints]:
     ny, nx = cut.shape
     starts = np.ones((ny, nx), dtype=bool)
     starts[:, 1:] = cut[:, 1:] != cut[:, :-1]
-    run = np.cumsum(starts.ravel()).reshape(ny, nx) - 1  # stretches of a row that one step cuts
+    run = (
+        np.cumsum(starts.ravel(), dtype=np.int32).reshape(ny, nx) - 1
+    )  # stretches of a row that one step cuts
+    long = np.diff(np.flatnonzero(starts.ravel()), append=ny * nx)
     when = cut[starts].astype(np.int64)
     change = (starts[1:] | starts[:-1]).nonzero()
     upright = np.column_stack((run[:-1][change], run[1:][change]))
@@ -120,18 +122,18 @@ def _zones(found: Footprint) -> tuple[Ints, Ints, Ints, Ints]:
     count = int(zone.max()) + 1
     steps = np.zeros(count, dtype=np.int64)
     steps[zone] = when
-    cells = np.bincount(zone[run.ravel()], minlength=count)
+    cells = np.bincount(zone, long, minlength=count).astype(np.int64)
     edges = zone[np.concatenate((upright[~same], along))]
     keys = np.unique(edges.min(axis=1) * count + edges.max(axis=1))
     edges = np.column_stack((keys // count, keys % count))
     order = np.argsort(-np.minimum(steps[edges[:, 0]], steps[edges[:, 1]]), kind="stable")
-    return zone[run], steps, cells, edges[order]
+    return zone.astype(np.int32)[run], steps, cells, edges[order]
 
 
-def _of_one_body(body: NDArray[np.int32], run: Ints) -> Ints:
+def _of_one_body(body: Steps, run: Steps) -> Ints:
     """(e, 2) stretches that hang together because they are of one body, wherever they lie."""
     cells = np.flatnonzero(body)
-    number, stretch = body.ravel()[cells], run.ravel()[cells]
+    number, stretch = body.ravel()[cells], run.ravel()[cells].astype(np.int64)
     order = np.lexsort((stretch, number))
     number, pairs = number[order], np.column_stack((stretch[order][:-1], stretch[order][1:]))
     kept: Ints = pairs[number[:-1] == number[1:]]

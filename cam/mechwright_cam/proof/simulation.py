@@ -47,6 +47,10 @@ COARSEST = 1 / 3
 """That share: with wider cells a cutter has no shape."""
 
 
+Bounds = tuple[float, float, float, float]
+"""Least x and y, greatest x and y, mm."""
+
+
 @dataclass(frozen=True)
 class Simulation:
     """What the grid has seen."""
@@ -78,22 +82,14 @@ class Simulation:
 def simulate(paths: Paths, job: Job) -> Simulation:
     """Cut the stock on a grid, place by place along the path, in the order of the program."""
     run, tools, steps = paths.run, paths.tools, paths.cuts
-    x0, y0, x1, y1 = job.stock
-    cell = max(FINEST, _cell_of(paths, job), _cell_for(paths, steps))
-    shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
-    heights = np.zeros(shape, dtype=np.float32)  # what is not cut of a large plate takes no memory
-    floors = np.broadcast_to(np.float32(-job.thickness), shape)
-    if job.gone:
-        floors = floors.copy()
-        for air in sorted(job.gone, key=lambda air: air.top):
-            floors[_inside(air.shape, job, shape, cell)] = air.top
-        heights[floors >= -NEAR] = -job.thickness
+    grid = _Grid.of(job, job.stock, max(FINEST, _cell_of(paths, job), _cell_for(paths, steps)))
+    heights, floors, cell = grid.heights, grid.floors, grid.cell
     length, idle = paths.length, 0.0
     taken = []
     for number, mine in _runs_of_one_tool(run, steps):
-        taken.append(_cut(paths, job, tools[number], mine, heights, floors, cell))
+        taken.append(_cut(paths, tools[number], mine, grid))
         idle += float(length[mine[taken[-1].of_steps(mine) <= cell**2 * NEAR]].sum())
-    for first in range(0, shape[0], ROWS):
+    for first in range(0, len(heights), ROWS):
         rows = heights[first : first + ROWS]
         cut = rows <= floors[first : first + ROWS] + NEAR  # into what was open from below as well
         if cut.any():
@@ -101,6 +97,48 @@ def simulate(paths: Paths, job: Job) -> Simulation:
     loads = loads_of(taken, paths, job.part.material)
     works = works_of(loads, run, job.settings.machine)
     return Simulation(idle, float(length[steps].sum()), works, loads, heights, cell)
+
+
+def loads_in(paths: Paths, job: Job, box: Bounds, cell: float) -> Loads:
+    """What the tools take in a small part of the plate, on a grid of its own: cells of ``cell`` mm."""
+    (x0, y0, x1, y1), stock = box, job.stock
+    box = max(x0, stock[0]), max(y0, stock[1]), min(x1, stock[2]), min(y1, stock[3])  # beside it is air
+    if box[0] >= box[2] or box[1] >= box[3]:
+        return loads_of([], paths, job.part.material)
+    least, most = paths.extent(paths.cuts)
+    reach = paths.radius[paths.cuts][:, None]
+    near = paths.cuts[((most + reach >= box[:2]) & (least - reach <= box[2:])).all(axis=1)]
+    grid = _Grid.of(job, box, cell)
+    every = [_cut(paths, paths.tools[n], mine, grid) for n, mine in _runs_of_one_tool(paths.run, near)]
+    return loads_of(every, paths, job.part.material)
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """The stock on a grid, while it is cut."""
+
+    x: float
+    y: float
+    """The lower left corner, mm."""
+    cell: float
+    """Width of a cell, mm."""
+    heights: NDArray[np.float32]
+    floors: NDArray[np.float32]
+    """(ny, nx) mm: what is there, and below which nothing is."""
+
+    @classmethod
+    def of(cls, job: Job, box: Bounds, cell: float) -> "_Grid":
+        """The stock of a job before any cut, or the part of it in a box."""
+        x0, y0, x1, y1 = box
+        shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
+        heights = np.zeros(shape, dtype=np.float32)  # what is not cut of a large plate takes no memory
+        floors = np.broadcast_to(np.float32(-job.thickness), shape)
+        if job.gone:
+            floors = floors.copy()
+            for air in sorted(job.gone, key=lambda air: air.top):
+                floors[_inside(air.shape, (x0, y0), shape, cell)] = air.top
+            heights[floors >= -NEAR] = -job.thickness
+        return cls(x0, y0, cell, heights, floors)
 
 
 def _cell_of(paths: Paths, job: Job) -> float:
@@ -132,35 +170,29 @@ def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
     return [(int(run.tool[part[0]]), part) for part in np.split(steps, edges) if part.size]
 
 
-def _cut(
-    paths: Paths,
-    job: Job,
-    tool: Tool,
-    steps: Ints,
-    heights: NDArray[np.float32],
-    floors: NDArray[np.float32],
-    cell: float,
-) -> Taken:
+def _cut(paths: Paths, tool: Tool, steps: Ints, grid: _Grid) -> Taken:
     """Lower the grid at places along the path; what was there before is what they take."""
+    heights, floors, cell = grid.heights, grid.floors, grid.cell
     taken = Taken.along(paths, steps, _spacing(tool, cell))
     disc = _disc(tool, cell)
     half = disc.shape[0] // 2
-    x0, y0, _, _ = job.stock
-    columns = np.floor((taken.places[:, 0] - x0) / cell).astype(np.int64)
-    rows = np.floor((taken.places[:, 1] - y0) / cell).astype(np.int64)
+    columns = np.floor((taken.places[:, 0] - grid.x) / cell).astype(np.int64)
+    rows = np.floor((taken.places[:, 1] - grid.y) / cell).astype(np.int64)
     ny, nx = heights.shape
     met = (rows >= -half) & (rows < ny + half) & (columns >= -half) & (columns < nx + half)
     low = np.flatnonzero((taken.z < -NEAR) & met)
     low = low[_deeper(rows[low] * (nx + 2 * half) + columns[low], taken.z[low])]
     usual = math.sqrt(ny * nx * cell**2 / CELLS)  # the cell of so large a plate, were its cutters wide
-    most_tried = int(MOST_TRIED * min(max(usual / cell, 1.0), FINER))
+    cells = int(np.count_nonzero(np.isfinite(disc)))
+    at_once = FEW_CELLS // cells  # a cutter with few cells takes its time for cells, not for places
+    most_tried = int(MOST_TRIED * min(max(usual / cell, 1.0), FINER)) * max(at_once, 1)
     if low.size > most_tried:
         line = int(paths.run.line[taken.step[low[most_tried]]])
         raise ProgramError(
             f"line {line}: so long a path in material, each time deeper, is set onto the stock at more than "
             f"{most_tried:,} places; split the program"
         )
-    if np.count_nonzero(np.isfinite(disc)) <= FEW_CELLS:
+    if at_once:
         tip = taken.z[low].astype(np.float32)
         found = lowered(heights, floors, disc, rows[low], columns[low], tip)
         taken.depth[low], taken.volume[low] = found.depth, found.sums[:, 0] * cell**2
@@ -214,9 +246,11 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     return cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
 
 
-def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: float) -> NDArray[np.bool_]:
-    """(ny, nx) whether the middle of each cell is in a shape."""
-    x0, y0, _, _ = job.stock
+def _inside(
+    shape: shapely.Geometry, corner: tuple[float, float], grid: tuple[int, int], cell: float
+) -> NDArray[np.bool_]:
+    """(ny, nx) whether the middle of each cell is in a shape; the first is at the lower left corner, mm."""
+    x0, y0 = corner
     x = np.asarray(x0 + (np.arange(grid[1]) + 0.5) * cell, dtype=np.float64)
     y = np.asarray(y0 + (np.arange(grid[0]) + 0.5) * cell, dtype=np.float64)
     inside = np.zeros(grid, dtype=bool)
@@ -238,12 +272,12 @@ def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.floa
     wanted = np.full(seen.shape, np.nan, dtype=np.float32)
     for band in reversed(bands(job)):
         flat = shapely.buffer(band.keep, -1.5 * cell, quad_segs=2)
-        wanted[_inside(flat, job, seen.shape, cell)] = band.top
+        wanted[_inside(flat, job.stock[:2], seen.shape, cell)] = band.top
     for band in bands(job):  # nothing is told of a floor beside a wall above it
         near = shapely.buffer(shapely.boundary(band.keep), 1.5 * cell, quad_segs=2)
-        wanted[_inside(near, job, seen.shape, cell)] = np.nan
+        wanted[_inside(near, job.stock[:2], seen.shape, cell)] = np.nan
     for fillet in fillets(job):
-        rows, columns = np.nonzero(_inside(fillet.foot, job, seen.shape, cell))
+        rows, columns = np.nonzero(_inside(fillet.foot, job.stock[:2], seen.shape, cell))
         x, y = job.stock[0] + (columns + 0.5) * cell, job.stock[1] + (rows + 0.5) * cell
         wanted[rows, columns] += fillet.rise(shapely.distance(fillet.walls, shapely.points(x, y)))
     return seen - wanted
