@@ -196,9 +196,8 @@ CASES: dict[str, Case] = {
         ("mill-8",),
         (
             "outside: rough",
-            "outside: finish",
             "outside below the tabs: rough",
-            "outside below the tabs: finish",
+            "outside: finish",
         ),
         thickness=3,
         settings={"hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},

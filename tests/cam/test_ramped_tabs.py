@@ -84,14 +84,14 @@ def test_the_cutter_never_stops_over_a_tab():
     assert not [line for line in lines[4 : finish - 2] if re.fullmatch(r"(G1 )?Z\S+( F\S+)?", line)]
 
 
-def test_it_is_faster_than_lifting():
+def test_it_takes_about_as_long_as_lifting():
     times = {
         shape: proven(job(plate(), "mill-6", hold={"tab_shape": shape, "tabs": 8, "tab_angle": 30}))[
             1
         ].time_estimate_s
         for shape in ("rectangular", "ramped")
     }
-    assert times["ramped"] < times["rectangular"] - 5
+    assert times["ramped"] == pytest.approx(times["rectangular"], rel=0.1)
 
 
 def test_downhill_the_cutter_sinks_no_faster_than_in_a_plunge():

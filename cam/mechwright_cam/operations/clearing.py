@@ -21,6 +21,7 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.thin_cuts import Stretch, stretches
 from mechwright_cam.operations.zone import CUSP, SLACK, Zone
 from mechwright_cam.plane.arcfit import fit_all
 from mechwright_cam.plane.buffers import buffered
@@ -81,6 +82,8 @@ class Run:
     beside: bool = False
     """Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
     centre may be plunged through that, slowly, which is shorter than a ramp."""
+    parts: tuple[Stretch, ...] = ()
+    """The path by the thickness of chips, where that is known."""
 
 
 @dataclass(frozen=True)
@@ -257,6 +260,11 @@ class Roughing:
             way_there = last.end, path.start
             cleared = far and linked and self._is_cleared(*way_there, trails[: len(runs)], near)
             runs.append(Run(path, clear, linked, cleared, thin))
+        if self.stock.begun and not self.ridges:
+            around = grow(shapely.MultiLineString(trails), 3 * radius, ROUGH).bounds
+            here = shapely.clip_by_rect(self.stock.standing, *around)
+            parts = stretches(paths, grow(here, self.stock.over, ROUGH), radius)
+            runs = [replace(run, parts=part) for run, part in zip(runs, parts, strict=True)]
         ends = paths[-1].end, paths[0].start
         back = stays_inside(free, *ends)
         return Cavity(core, tuple(runs), back, back and self._is_cleared(*ends, trails, near))
@@ -336,8 +344,11 @@ class Roughing:
             here = points[-1]
         return runs
 
-    def write(self, pen: Pen, step_down: float) -> None:
-        """Write the moves: every cavity level by level, from the zone's top to its bottom."""
+    def write(self, pen: Pen, step_down: float, *, thinning: bool) -> None:
+        """Write the moves: every cavity level by level, from the zone's top to its bottom.
+
+        With ``thinning`` it is fed faster where chips are thin.
+        """
         zone = self.zone
         bottom = zone.bottom_for(self.tool)
         top = bottom + self.stock.ridge_height if self.ridges else zone.top
@@ -347,7 +358,7 @@ class Roughing:
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
                 _spiral(pen, first.path, top, heights)
             else:
-                _levels(pen, cavity, top, heights)
+                _levels(pen, cavity, top, heights, thinning=thinning and not pen.over)
         pen.retract()
 
 
@@ -360,7 +371,7 @@ def _spiral(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
     pen.follow(path)
 
 
-def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
+def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float], *, thinning: bool) -> None:
     """All runs at one height, then all at the next."""
     above = top
     for level, z in enumerate(heights):
@@ -374,7 +385,8 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
                 pen.sink(z, pen.rates.plunge)
             elif not run.linked:
                 pen.enter(run.path, above, z, run.open, pen.air_down)
-            pen.follow(run.path)
+            for part, thin in (thinning and run.parts) or ((run.path, False),):
+                pen.follow(part, pen.air if thin else None)
         above = z
 
 

@@ -191,8 +191,12 @@ class Finishing:
         for number, z in enumerate(self.heights):
             pen.go(path.start, number > 0 and direct)
             pen.enter(path, above, z, is_open)
-            pen.follow(path, inside=1 if self.settings.climb else -1)
+            self._follow(pen, path, z, again=z == above)
             above = z
+
+    def _follow(self, pen: Pen, path: Path, z: float, *, again: bool) -> None:
+        """Along the wall in a pass at a height, which may be made ``again``."""
+        pen.follow(path, inside=1 if self.settings.climb else -1)
 
     def _loop(self, pen: Pen, path: Path, is_open: bool) -> None:
         """A closed path without room for leads: sunk where it is clear, else ramped along itself."""

@@ -20,6 +20,7 @@ from mechwright_cam.operations.ladder import change_time, rest_time
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.whole_wall import WholeWall
 from mechwright_cam.operations.zone import CUSP, Zone
 from mechwright_cam.plane.offsets import areas, grow, opened, polygons
 from mechwright_cam.shop.cutter import cutter
@@ -81,7 +82,10 @@ class Layer:
         """Add the rings of a cut, which is no deeper than ``depth`` and than its mill may cut, mm."""
         step_down = self.steps.step_down(cut.tool)
         deep = self.pass_depth(cut.tool, min(step_down, depth))
-        self.add(what, cut.tool, partial(cut.write, step_down=step_down), depth=deep)
+        self.add(what, cut.tool, self._writing(cut, step_down), depth=deep)
+
+    def _writing(self, cut: Roughing, step_down: float) -> Callable[[Pen], object]:
+        return partial(cut.write, step_down=step_down, thinning=self.settings.chip_thinning)
 
     def rough(self, cut: Roughing) -> None:
         """Rough with one mill."""
@@ -120,7 +124,7 @@ class Layer:
             cut = self._roughing(mill, allowance, thick)
             if allowance > 0 and cut.taken < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
-            self.add(what, mill, partial(cut.write, step_down=self.steps.step_down(mill)))
+            self.add(what, mill, self._writing(cut, self.steps.step_down(mill)))
             self.stock = cut.after_core()
 
     def _heavy(self, mill: Tool) -> shapely.Geometry:
@@ -190,11 +194,43 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
         if not tallest.stock.begun or cut.share >= WORTH_A_TOOL or tallest.saves(cut):
             found += _roughed(layers, cuts)
     # Places that layers of an outside have in common are roughed before the first of them is finished.
-    if at_once := first.kind == "outside" and layers[0].stock.begun:
+    whole = _may_be_whole(layers)
+    if at_once := whole or (first.kind == "outside" and layers[0].stock.begun):
         found += _roughed(layers, together(methodcaller("roughing", first.finishers[0]), layers))
+        if whole and _finished_whole(*layers):
+            return found + [cut for layer in layers for cut in layer.taken()]
     # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
     together(methodcaller("finished", roughed=at_once), layers)
     return found + [cut for layer in layers for cut in layer.taken()]
+
+
+def _may_be_whole(layers: Sequence[Layer]) -> bool:
+    """Whether these are a wall with tabs that a flat end mill finishes along the way of its centre."""
+    zone, settings = layers[0].zone, layers[0].settings
+    flat = [mill.nose for mill in zone.finishers] == [0.0]
+    return (
+        flat
+        and settings.compensation == "computer"
+        and [layer.zone.tabs is None for layer in layers] == [True, False]
+    )
+
+
+def _finished_whole(upper: Layer, lower: Layer) -> bool:
+    """Finish a roughed wall above and below the tops of its tabs at once, if there is room for it."""
+    mill, job, settings = upper.zone.finisher, upper.steps.job, upper.settings
+    before = [(layer, layer.stock, list(layer.cuts)) for layer in (upper, lower)]
+    for layer in (upper, lower):
+        layer.rough_heavy(mill)
+    pairs = [(layer.zone, layer.stock) for layer in (upper, lower)]
+    whole = WholeWall(pairs[0], pairs[1], job, mill, upper.steps.step_down(mill))
+    if upper.stock.fillet or lower.stock.fillet or not whole.fits():
+        for layer, stock, cuts in before:
+            layer.stock, layer.cuts = stock, cuts
+        return False
+    deep = finish_depth(settings, mill, job.part.material)
+    moves = upper.steps.moves(mill, whole.write, finish_engagement(settings, mill.radius), deep)
+    lower.cuts.append(Cut(f"{upper.zone.name}: finish", mill, moves))  # behind all that is roughed
+    return True
 
 
 def _roughed(layers: Sequence[Layer], cuts: list[Roughing]) -> list[Cut]:
