@@ -26,6 +26,7 @@ from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.setup.probing import touches_of, unprobed
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
@@ -116,6 +117,9 @@ class Machining:
         found = [finding for settings in every for finding in control.check(settings)]
         for job in self.jobs:
             found += control.check_tools(job.settings, job.tools)
+            if why := self._unprobed(job):
+                remedy = "leave tool of [cam.probe] out"
+                found.append(Finding.error("cam.probing", "cam.probe.tool", why, remedy=remedy))
         return [*at_stage(Stage.MACHINING, dict.fromkeys(found)), *self._prepared[0]]
 
     @cached_property
@@ -144,6 +148,24 @@ class Machining:
                 laid = self.assignments.carry(job, second_setup(made[-1], job))
             made.append(machine(laid, self.control, place, self.assignments, self.rules))
         return made
+
+    def _unprobed(self, job: Job) -> str:
+        """Why the zero of a first side is not probed as it is asked for."""
+        if job.settings.probe.tool is None or job.side != "top":
+            return ""
+        why = self.control.cannot_probe(job.tools) or unprobed(job)
+        return f"part {job.part.name}: {why}" if why else ""
+
+    @cached_property
+    def probing(self) -> dict[str, tuple[str, str]]:
+        """Name of a part's program to stem and text of the one that probes its zero."""
+        found = {}
+        for item in self.made:
+            job = item.job
+            if job.settings.probe.tool is not None and job.side == "top":
+                touches = touches_of(job)
+                found[item.program.name] = touches.name, self.control.probe(touches, job.settings.machine)
+        return found
 
     @cached_property
     def table(self) -> tuple[str, str]:

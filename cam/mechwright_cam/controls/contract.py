@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.designs.inches import FACTORS
+from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import EXACT, Corners
 from mechwright_cam.controls.offsets import G54_TO_G59, OffsetTables, WorkOffsets
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from mechwright_cam.controls.lookahead import Lookahead
     from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
+    from mechwright_cam.program.touches import Touches
     from mechwright_cam.shop.machine import Machine
     from mechwright_cam.shop.posting import ToolChange
     from mechwright_cam.shop.settings import CamSettings
@@ -204,6 +206,14 @@ class Control(Plugin):
     def unit_word(self) -> str:
         """The word for the units of its programs."""
         return INCH if self.units == "inch" else METRIC
+
+    def cannot_probe(self, tools: "Sequence[Tool]") -> str:  # noqa: ARG002 - for controls without a tool table
+        """Why it has no program that probes the zero of a job with these tools; nothing where it has one."""
+        return f"{self.title} has no program that probes here: set the zero by hand, or with its own cycles"
+
+    def probe(self, touches: "Touches", machine: "Machine") -> str:  # noqa: ARG002
+        """The text of a program that probes; raises ProgramError where it has none."""
+        raise ProgramError(f"program {touches.name}: {self.cannot_probe(())}")
 
     def rapid_words(self, z: str) -> str:
         """What goes to a height in the work, at a rapid."""

@@ -12,7 +12,7 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.read import interpret_files
 from mechwright_cam.controls.reading.run import Run
 from mechwright_cam.controls.writing.sections import Sections
-from mechwright_cam.controls.writing.writer import Writer, with_numbers
+from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
@@ -51,15 +51,6 @@ class GcodeControl(Sections):
         self.go_home(out)
         self.end(out)
         return "\n".join(self.finished(out)) + "\n"
-
-    def writer(self, program: Program) -> Writer:
-        """What the words of a program are written with."""
-        return Writer(program, self.decimals, self.dialect.point_needed, self.scale)
-
-    def finished(self, out: Writer) -> list[str]:
-        """The lines of a program that is written, with their numbers where they are asked for."""
-        step = out.program.posting.line_numbers
-        return with_numbers(out.lines, step) if step else out.lines
 
     def _check_program(self, program: Program) -> None:
         """Raise ProgramError for a program that it cannot run, or that does nothing."""

@@ -9,8 +9,10 @@ from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.writing.probing import Probing
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.program.touches import Touches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
@@ -20,7 +22,7 @@ _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
 
-class Grbl(GcodeControl):
+class Grbl(Probing, GcodeControl):
     """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
 
     Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
@@ -116,6 +118,23 @@ class Grbl(GcodeControl):
         message = f"at a stop (M0) Grbl can neither jog nor probe, so {names} cannot be touched off there"
         remedy = f"leave tool_change out for one file per tool, or give their lengths in {lengths}"
         return [*taps, Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
+
+    counts = False  # its parameters are told to the sender alone
+
+    def cannot_probe(self, tools: Sequence[Tool]) -> str:
+        """Z0 would be that of the probe, which no measured length of a cutter fits."""
+        if any(tool.length is not None for tool in tools):
+            return f"{self.title} has tool lengths in its programs, and not the probe's; set the zero by hand"
+        return ""
+
+    def take_probe(self, out: Writer, touches: Touches) -> None:  # noqa: ARG002 - it is in the spindle
+        """It is put in before the program starts."""
+        self.comment(out, "put the probe into the spindle before the start; touch off each tool afterwards")
+
+    def probe_length(self, out: Writer, touches: Touches) -> None:
+        """No length: tools are touched off one by one."""
+        out.line("G49")
+        out.line(f"G0 Z{self.length(touches.high)}")
 
     def blending(self, exact: bool) -> list[str]:
         """Grbl always follows the path exactly; it knows G61 only."""

@@ -62,6 +62,7 @@ class ProgramFiles(Page):
             return {}
         suffix = machining.control.suffix
         files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
+        files |= {stem + suffix: text for stem, text in machining.probing.values()}
         table, text = machining.table
         return files | ({table: text} if table else {})
 
@@ -114,6 +115,7 @@ class SetupSheets(Page):
                 deviation=walls_view(walls, item.job),
                 summary=SUMMARY,
                 files=files[name],
+                probing="".join(machining.probing.get(name, ("",))[:1]),
             )
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
         written = build.wanted.command in BillOfMaterials.commands

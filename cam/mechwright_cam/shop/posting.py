@@ -58,6 +58,21 @@ class Posting(Parameters):
     )
 
 
+class Probe(Parameters):
+    """A touch probe that finds the stock's zero."""
+
+    tool: int | None = Field(
+        None,
+        ge=1,
+        le=99999,
+        description="T number of a touch probe: a program of its own finds the stock's zero with it.",
+    )
+    diameter: Millimetres = Field(4.0, ge=0.5, le=20, description="Diameter of the probe's ball.")
+    doubt: Millimetres = Field(
+        3.0, ge=0.5, le=10, description="By so much the zero set by eye beforehand may be off."
+    )
+
+
 Compensation = Literal["computer", "control", "wear"]
 """Where the radius of a finishing cutter is allowed for: in the path, at the control (G41 and G42, D holds
 the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""

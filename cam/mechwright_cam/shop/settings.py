@@ -12,7 +12,7 @@ from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
 from mechwright_cam.shop.machine import Machine
-from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, WorkOffset
+from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, Probe, WorkOffset
 from mechwright_cam.shop.tool import CuttingChange
 
 DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
@@ -111,6 +111,7 @@ class CamSettings(Parameters):
     post: Posting = Field(Posting(), description="How the program is written.")
     sheet: Sheet = Field(Sheet(), description="Revision and date on the setup sheets.")
     second_side: SecondSide = Field(SecondSide(), description="The second side.")
+    probe: Probe = Field(Probe(), description="The touch probe.")
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
     hold: Hold = Field(Hold(), description="How the part is held.")

@@ -7,8 +7,8 @@ from mechwright_cam.controls.contract import METRIC, Control
 from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.controls.writing.text import comment_lines, number
-from mechwright_cam.controls.writing.writer import Writer
-from mechwright_cam.program.moves import ToolSection
+from mechwright_cam.controls.writing.writer import Writer, with_numbers
+from mechwright_cam.program.moves import Program, ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
 
@@ -62,6 +62,15 @@ class Spelling(Control):
     def m(self, code: int) -> str:
         """The control's word for a usual M code."""
         return f"M{self.dialect.m(code)}"
+
+    def writer(self, program: Program) -> Writer:
+        """What the words of a program are written with."""
+        return Writer(program, self.decimals, self.dialect.point_needed, self.scale)
+
+    def finished(self, out: Writer) -> list[str]:
+        """The lines of a program that is written, with their numbers where they are asked for."""
+        step = out.program.posting.line_numbers
+        return with_numbers(out.lines, step) if step else out.lines
 
     def frame(self, out: Writer) -> None:
         """Write what stands before everything else."""

@@ -14,6 +14,7 @@ from mechwright.contracts.part import Bore
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.setup_sheet.probing import about_probing
 from mechwright_cam.pages.setup_sheet.tapping import about_taps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
@@ -43,6 +44,7 @@ def steps(
     reach: tuple[float, float, float, float] | None = None,
     offsets: Sequence[DOffset] = (),
     by_file: bool = False,
+    probing: str = "",
 ) -> list[Step]:
     """The steps in order.
 
@@ -60,6 +62,8 @@ def steps(
         The D offsets of cutter compensation.
     by_file
         Whether tools that are changed by hand have a file each.
+    probing
+        The file of the program that probes the zero, if there is one.
     """
     offset, to = control.offset_words(job.settings.work_offset), Lengths(control.units)
     over = job.side == "underside"
@@ -73,6 +77,7 @@ def steps(
         *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
         _second_plane(job, offset, to) if over else _plane(job, offset, to),
+        *([Step("Or probe it", about_probing(job, offset, probing, to))] if probing else []),
         *([] if touched else [_height(job.settings.work_offset, control)]),
         *(
             [_touch_off(job, control, tools, by_file=by_file)]
@@ -336,7 +341,6 @@ def _lengths(offset: str, tools: Sequence[int], control: Control, *, with_d: boo
 def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
     first, to = tools[0] if tools else 1, Lengths(control.units)
     height = CHECK_HEIGHT if to.units == "mm" else round(CHECK_HEIGHT / to.scale) * to.scale
-    # Where the change puts the length in force the two are one.
     words = dict.fromkeys((control.change_words(first), offset, control.length_words(first)))
     return Step(
         "Check before the first cut",

@@ -35,6 +35,7 @@ def setup_html(
     deviation: str = "",
     summary: str = "",
     files: Sequence[str] = (),
+    probing: str = "",
 ) -> str:
     """The setup sheet of a program: a page that needs no other file and no network, and prints on A4.
 
@@ -57,6 +58,8 @@ def setup_html(
         The page of the whole job, to which the sheet leads.
     files
         The names of the program's files in order, without their ending; by default one of its own name.
+    probing
+        The name of the program that probes its zero, without its ending; empty if there is none.
     """
     proof, names = proof or {}, file_names(program, control.suffix, files)
     traced = trace(program)
@@ -86,6 +89,7 @@ def setup_html(
             deepest=deepest,
             reach=facts.reach(traced),
             offsets=tuple(offsets.values()),
+            probing=probing + control.suffix if probing else "",
             by_file=program.posting.tool_change == "files",
         ),
         "origin": origin_words(job),
