@@ -1,0 +1,177 @@
+"""Curves that are known by their formulae, met by linkages: ``python benchmarks/bench_curves.py [NAMES]``.
+
+Straight lines have the deviation of a named linkage of the same stroke beside them, computed here from its
+proportions: the greatest distance of the path from its middle line, over the stroke. The other curves are
+defined here, for the points of those in the literature could not be verified: an arc that is passed evenly, a
+lip of two arcs, a wing's tip (a figure of eight), the sun over a year at the same hour, which is a figure of
+eight as well, Viviani's curve, and the sun over a day at a latitude, a circle about the pole that every crank
+draws: there the mechanism has to keep its frame's limits alone.
+"""
+
+import argparse
+import math
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+from harness import require
+
+from mechwright.contracts.finding import errors
+from mechwright.plugins.host import host
+
+SECONDS = 60.0
+"""Of processor time that a search may take."""
+
+OBLIQUITY = math.radians(23.44)
+"""Of the ecliptic."""
+
+MISSED, FAR = 0.05, {"viviani": 0.3}
+"""What a linkage may miss of a curve that it cannot draw, as part of the curve's size; of Viviani's window,
+which reaches over half the sphere, no four-bar with good transmission draws both loops."""
+
+Rows = list[list[float]]
+
+
+def hoecken(count: int = 181) -> np.ndarray:
+    """Path of the linkage with crank 1, ground 2, coupler and rocker 2.5, point at 5, over half a turn."""
+    theta = math.pi + np.linspace(-math.pi / 2, math.pi / 2, count)
+    a = np.exp(1j * theta)
+    to = 2 - a
+    up = np.sqrt(2.5**2 - np.abs(to) ** 2 / 4)
+    b = a + to / 2 + 1j * to / np.abs(to) * up
+    return np.asarray(a + 2 * (b - a))
+
+
+def straightness(path: np.ndarray) -> tuple[float, float, float]:
+    """Length, and greatest and mean distance from a line over it, of a path of complex numbers."""
+    centred = np.stack((path.real, path.imag)) - np.array([[path.real.mean()], [path.imag.mean()]])
+    axis = np.linalg.svd(centred)[0][:, 0]
+    along, across = axis @ centred, np.array([-axis[1], axis[0]]) @ centred
+    length = float(np.ptp(along))
+    return length, float(np.ptp(across) / 2 / length), float(np.sqrt(np.mean(across**2)) / length)
+
+
+def line(stroke: float = 80.0, count: int = 21) -> Rows:
+    """Even points of a line."""
+    return [[x, 0.0] for x in np.linspace(-stroke / 2, stroke / 2, count).tolist()]
+
+
+def arc() -> Rows:
+    """A dwell's arc: 60 degrees about a point where a further link would be at rest, radius 60 mm."""
+    return [[60 * math.cos(t), 60 * math.sin(t)] for t in np.radians(np.linspace(60, 120, 13)).tolist()]
+
+
+def lip() -> Rows:
+    """Two arcs of 100 degrees over a chord of 80 mm: 24 points, corners included."""
+    half = math.radians(50)
+    radius = 40 / math.sin(half)
+    upper = [
+        [radius * math.sin(t), radius * (math.cos(t) - math.cos(half))]
+        for t in np.linspace(-half, half, 13).tolist()
+    ]
+    return [*upper, *[[x, -y] for x, y in upper[-2:0:-1]]]
+
+
+def on_sphere(azimuth: np.ndarray, elevation: np.ndarray) -> Rows:
+    """Directions about z, tilted so that azimuth and elevation 0 are on z."""
+    x, y = np.cos(elevation) * np.sin(azimuth), np.sin(elevation)
+    return np.stack([x, y, np.cos(elevation) * np.cos(azimuth)], axis=-1).tolist()
+
+
+def wing() -> Rows:
+    """A wing's tip: strokes of 50 degrees to either side, 10 degrees of deviation at twice the rate."""
+    t = math.tau * np.arange(24) / 24
+    return on_sphere(np.radians(50) * np.cos(t), np.radians(10) * np.sin(2 * t))
+
+
+def analemma() -> Rows:
+    """The mean sun's error over a year on a circular orbit: right ascension less longitude, declination."""
+    longitude = math.tau * (np.arange(24) + 0.5) / 24
+    ascension = np.unwrap(np.arctan2(np.cos(OBLIQUITY) * np.sin(longitude), np.cos(longitude)))
+    return on_sphere(np.arcsin(np.sin(OBLIQUITY) * np.sin(longitude)), ascension - longitude)
+
+
+def viviani() -> Rows:
+    """The window of Viviani, where a cylinder of half its radius meets the sphere: a figure of eight."""
+    t = math.tau * (np.arange(24) + 0.5) / 24
+    return np.stack([np.sin(t), np.sin(t) * np.cos(t), np.cos(t) ** 2], axis=-1)[:, [1, 0, 2]].tolist()
+
+
+def day() -> Rows:
+    """The sun from rise to set at 48 degrees of latitude, declination 23.44 degrees, by the hour angle."""
+    latitude = math.radians(48)
+    most = math.acos(-math.tan(latitude) * math.tan(OBLIQUITY))
+    hour = np.linspace(-most, most, 17)
+    east = -np.cos(OBLIQUITY) * np.sin(hour)
+    north = np.sin(OBLIQUITY) * np.cos(latitude) - np.cos(OBLIQUITY) * np.sin(latitude) * np.cos(hour)
+    up = np.sin(OBLIQUITY) * np.sin(latitude) + np.cos(OBLIQUITY) * np.cos(latitude) * np.cos(hour)
+    return np.stack([east, north, up], axis=-1).tolist()
+
+
+LIMITS = {"least_transmission_angle": 30.0, "longest_link": 250.0, "shortest_link": 12.0}
+HOECKEN = {"least_transmission_angle": 23.0, "longest_link": 100.0, "shortest_link": 20.0}
+"""Limits that Hoecken's linkage of the same stroke of 80 mm just keeps."""
+
+SPHERE = {"least_transmission": 30.0}
+EVENLY = [10.0 * k for k in range(13)]
+
+WANTED: dict[str, tuple[str, str, Callable[[], Rows], dict[str, object]]] = {
+    "line": ("four-bar", "path", line, LIMITS),
+    "line, Hoecken's sizes": ("four-bar", "path", line, HOECKEN),
+    "arc, timed": ("four-bar", "path", arc, {**LIMITS, "crank_turns": EVENLY}),
+    "lip": ("four-bar", "path", lip, {**LIMITS, "closed": True}),
+    "lip, slider-crank": ("slider-crank", "path", lip, {**LIMITS, "closed": True}),
+    "wing": ("spherical", "four-bar-path", wing, SPHERE),
+    "wing, five-bar": ("spherical", "five-bar-path", wing, {**SPHERE, "ratio": 2.0}),
+    "analemma": ("spherical", "four-bar-path", analemma, SPHERE),
+    "viviani": ("spherical", "four-bar-path", viviani, SPHERE),
+    "sun, a day": ("spherical", "four-bar-path", day, {**SPHERE, "closed": False}),
+}
+
+
+def measured(name: str) -> bool:
+    """Whether a curve is met as well as it has to be, in time, by designs without an error."""
+    family_name, kind, points, more = WANTED[name]
+    family = host().family(family_name)
+    rows = points()
+    wanted = family.requirements[kind].model_validate({"points": rows, **more})
+    start = time.process_time()
+    found = family.synthesise(kind, wanted, lambda done, what: None)  # noqa: ARG005
+    spent = time.process_time() - start
+    places = np.array(rows) * (wanted.radius if family_name == "spherical" else 1.0)  # type: ignore[attr-defined]
+    size = float(np.linalg.norm(places - places.mean(axis=0), axis=1).max())
+    if not found.candidates:
+        print(f"{name}: none, {spent:.1f} s: {found.findings[0].message}", flush=True)
+        return False
+    bad = sum(bool(errors(family.check(one.params))) for one in found.candidates)
+    best = min(found.candidates, key=lambda one: one.residual.value)
+    angle = next(value for key, value in best.figures.items() if key.startswith("least_transmission"))
+    print(
+        f"{name}: {best.residual.value:.3g} mm in the mean, {best.residual.value / size:.2g} of its size, "
+        f"{math.degrees(angle.value):.1f} degrees, {len(found.candidates)} designs, {spent:.1f} s",
+        flush=True,
+    )
+    return all(
+        (
+            require(f"{name}: missed, of its size", best.residual.value / size, FAR.get(name, MISSED)),
+            require(f"{name}: designs with errors", bad, 0.0),
+            require(f"{name}: seconds", spent, SECONDS),
+        )
+    )
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", default=list(WANTED))
+    length, most, mean = straightness(hoecken())
+    print(
+        f"Hoecken's linkage over half a turn: {length:.4f} cranks, straight to {most:.2e} of it, "
+        f"{mean:.2e} in the mean"
+    )
+    kept = [measured(name) for name in parser.parse_args().names]
+    return 0 if all(kept) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
