@@ -1,15 +1,18 @@
 """Requirements over a whole chain: what is found keeps its limits, and what cannot be is told."""
 
 import math
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 from by_night import by_night
+from jsonschema import Draft202012Validator
 from pydantic import ValidationError
 
 from mechwright import host
 from mechwright.designs.requirement import Requirement, requirement_of
+from mechwright.designs.schema import file_schema
 from mechwright.errors import DesignError
 from mechwright.mechanics.chain import ChainParams
 from mechwright.mechanics.chain.motion import rate_figures
@@ -133,3 +136,17 @@ def test_numbers_of_lists_and_whole_ones_are_set() -> None:
     assert isinstance(own.teeth, int)  # type: ignore[attr-defined]
     assert own.teeth < 36  # type: ignore[attr-defined]
     assert math.isfinite(best.figures["1.centre_distance"].value)
+
+
+def test_editors_know_the_file() -> None:
+    schema = file_schema(host(), requirement=True)
+    example = Path(__file__).parents[1] / "examples" / "chains" / "geneva-behind-gears-requirement.toml"
+    content = tomllib.loads(example.read_text(encoding="utf-8"))
+    validator = Draft202012Validator(schema)
+    assert not list(validator.iter_errors(content))
+    for wrong in (
+        {**content, "requirement": {**content["requirement"], "leest": 1}},
+        {**content, "stage": [{**content["stage"][0], "parameters": {"teth": 3}}, content["stage"][1]]},
+        {key: value for key, value in content.items() if key != "stage"},
+    ):
+        assert list(validator.iter_errors(wrong))

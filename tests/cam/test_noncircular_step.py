@@ -17,7 +17,11 @@ from mechwright_noncircular_gears.proof import prove_outlines
 sys.path.append(str(Path(__file__).parents[1] / "plugins"))
 from noncircular import TABLES
 
-SOUND = ("D1", "D2", "D3", "D4", "D5", "D6", "D7", "D8", "SL")
+SECTORS = {
+    "spiral": {"law": "spiral", "sector": 120, "teeth": 20},
+    "wave": {"law": "ratio", "ratio": "1+0.3*sin(phi)", "sector": 200, "teeth": 30, "tooth_offset": 0.3},
+}
+SOUND = ("D1", "D2", "D3", "D4", "D5", "D6", "D7", "D8", "SL", *SECTORS)
 
 CHORDS = 2.5e-5
 """Chord error, mm: coarser chords turn the gears by microradians of their own."""
@@ -26,7 +30,7 @@ CHORDS = 2.5e-5
 @by_night
 @pytest.mark.parametrize("name", SOUND)
 def test_transmission_error_of_the_file(name):
-    params = NoncircularParams.model_validate({"bore": 8, **TABLES[name]})
+    params = NoncircularParams.model_validate({"bore": 8, **{**TABLES, **SECTORS}[name]})
     one, two = (read_step_outline(StepExporter().part(part), CHORDS)[0] for part in parts_of(params))
     wall = (
         max(two.interiors, key=lambda hole: shapely.Polygon(hole).area) if params.internal else two.exterior

@@ -315,3 +315,30 @@ def test_lift_error_as_made(table):
         fat = np.asarray(shapely.Polygon(outline).buffer(0.01, 64).exterior.coords)
         lifted = error_of(params, TURN, contact, fat) * contact.share
         assert_allclose(lifted, 0.01, rtol=0, atol=FIT + 5e-5)
+
+
+def test_a_roller_on_an_eccentric_circle():
+    """Radius of curvature A and sin α = e sin θ/A, without any formula of cams: the roller's centre runs on a circle.
+
+    Radius and roller together A = 50 mm, 15 mm off the axis: greatest pressure angle arcsin(15/50) = 17.458 degrees.
+    """
+    whole, off, roller = 50.0, 15.0, 8.0
+    u = np.linspace(0, 1, 73)
+    away = np.sqrt(whole**2 - (off * np.sin(np.pi * u)) ** 2) - off * np.cos(np.pi * u)
+    rows = [[float(a), float(b)] for a, b in zip(u, (away - away[0]) / (2 * off), strict=True)]
+    rows[0], rows[-1] = [0.0, 0.0], [1.0, 1.0]
+    params = cam(
+        angles=(180, 180),
+        lifts=(2 * off, 0),
+        laws=("table", "cycloidal"),
+        table=rows,
+        base_radius=whole - off - roller,
+        roller_radius=roller,
+    )
+    theta = np.radians(np.linspace(30, 150, 481))
+    (contact,) = contacts_at(params, rates_at(params, theta))
+    assert_allclose(np.sin(contact.pressure_angle), off * np.sin(theta) / whole, rtol=0, atol=1e-6)
+    assert_allclose(contact.pitch_radius, whole, rtol=1e-4)
+    assert_allclose(contact.radius, whole - roller, rtol=1e-4)
+    # The contact lies on the eccentric circle itself, and the greatest pressure angle is the closed one.
+    assert math.degrees(contact.pressure_angle.max()) == pytest.approx(17.4576, abs=1e-4)

@@ -4,7 +4,7 @@ An editor with taplo, such as Even Better TOML, completes and checks a file whos
 ``#:schema ./four-bar.schema.json``.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel
@@ -14,6 +14,7 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.contracts.table import Table
 from mechwright.errors import DesignError
+from mechwright.mechanics.chain import Chain
 from mechwright.mechanics.chain.params import MOST_STAGES, StageTable
 from mechwright.plugins.host import Host
 
@@ -54,7 +55,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     DesignError
         It has no synthesis.
     """
-    families = [host.family(family)] if family else host.all(Family)
+    families = every = [host.family(family)] if family else host.all(Family)
     if requirement:
         families = [one for one in families if one.requirements]
         if not families:
@@ -68,14 +69,14 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
         for one in sorted(families, key=lambda one: one.name)
     }
     # Editors complete what stands under properties; what depends on the family they can only check.
-    cases = [
-        {
-            "if": {"properties": {"family": {"const": name}}, "required": ["family"]},
-            "then": {"properties": {own: table}},
-        }
-        for name, table in asked.items()
-    ]
-    chains = not requirement and not family
+    cases = [_case(name, own, table) for name, table in asked.items()]
+    chains = not family
+    stages: dict[str, Any] = {}
+    if chains:
+        stages = {"stage": _stages(every, defs)}
+    if chains and requirement:
+        least = _asked(Chain(()), defs)
+        cases.append({"if": {"required": ["stage"]}, "then": {"properties": {own: least}}})
     return {
         "$schema": DIALECT,
         "title": f"mechwright {own if requirement else 'design'}" + (f", {family}" if family else ""),
@@ -93,7 +94,7 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
                 "description": "Of bare lengths and feeds; cutting speeds are in m or feet per minute.",
             },
             own: asked[family] if family else {"type": "object"},
-            **({"stage": _stages(names, cases, defs)} if chains else {}),
+            **stages,
             **tables,
         },
         **(
@@ -107,12 +108,25 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     }
 
 
+def _case(family: str, table: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """Of files or stages of a family: what stands in one of their tables."""
+    return {
+        "if": {"properties": {"family": {"const": family}}, "required": ["family"]},
+        "then": {"properties": {table: schema}},
+    }
+
+
 def _needed(key: str) -> dict[str, Any]:
     return {"required": [key]}
 
 
-def _stages(names: list[str], cases: list[dict[str, Any]], defs: dict[str, Any]) -> dict[str, Any]:
+def _stages(families: Sequence[Family[Any]], defs: dict[str, Any]) -> dict[str, Any]:
     """The tables ``[[stage]]`` of a chain: each by its family, as a design of its own."""
+    names = sorted(one.name for one in families)
+    cases = [
+        _case(one.name, "parameters", placed_schema(one.Params, one.name, defs))
+        for one in sorted(families, key=lambda one: one.name)
+    ]
     fields = placed_schema(StageTable, "stage", defs)["properties"]
     return {
         "type": "array",
