@@ -281,3 +281,53 @@ def test_a_ring_of_a_fifth_of_a_millimetre_is_not_blamed_on_its_tabs(control: st
     assert "the part comes loose: " in str(error.value)
     assert "leave pieces of 100 mm² at least, or tabs" in str(error.value)
     assert "[tabs]" not in str(error.value)
+
+
+# -- a thread mill beside its helix -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("operation", "control"), thinned(2, ["thread", "thread-left", "thread-inch"], EVERY)
+)
+def test_a_thread_mill_does_not_go_round_beside_its_helix(operation: str, control: str) -> None:
+    """A full circle along the wall at the depth where the mill comes in, or goes out: it climbs by no pitch."""
+    (one,) = made(operation, control)
+    files = dict(one.files)
+    stem, text = list(files.items())[-1]
+    lines = text.split("\n")
+    out = max(k for k, line in enumerate(lines) if re.search(r"X-?0\.? Y0\.? I", line))
+    down = max((k for k in range(out) if re.match(r"G1 Z", lines[k])), default=0)
+    wall = out - 1 if "Z-" in lines[out - 1] else down + 1
+    at = re.search(r"X(-?[\d.]+) ", lines[wall])
+    assert at is not None
+    lines.insert(wall + 1, f"X{at[1]} Y0. I{-float(at[1])} J0.")
+    files[stem] = "\n".join(lines)
+    wrong = files if len(files) > 1 else files[stem]
+    found = asked("details", wrong, one.job, BY_NAME[control])
+    assert not found.passed
+    assert re.match(
+        rf"(?:\S+: )?line {found.line}: T\d+ \(thread-\w+\) cuts 0\.\d+ mm into the turns of ", found.message
+    )
+    assert found.line == wall + 2
+    assert found.value is not None
+    assert found.limit is not None
+    assert found.value > 3 * found.limit
+    right = asked("details", one.files if len(files) > 1 else one.text, one.job, BY_NAME[control])
+    assert right.passed
+
+
+@pytest.mark.parametrize("by", [0.25, 0.5, 0.9])
+def test_a_second_helix_beside_the_first_is_none(by: float) -> None:
+    """A thread mill that goes down and along the helix again, a part of a pitch lower, cuts two grooves."""
+    (one,) = made("thread", "linuxcnc")
+    lines = one.text.split("\n")
+    first = next(k for k, line in enumerate(lines) if "thread)" in line and "operation" in line)
+    down = next(k for k in range(first, len(lines)) if lines[k].startswith("G1 Z"))
+    up = next(k for k in range(down, len(lines)) if lines[k].startswith("G0 Z"))
+    off = [re.sub(r"Z(-?[\d.]+)", lambda z: f"Z{float(z[1]) - by:g}", line) for line in lines[down:up]]
+    again = "\n".join([*lines[:up], "G1 X0 Y0 F200", "G0 Z1", *off, *lines[up:]])
+    found = asked("details", again, one.job)
+    assert not found.passed
+    assert "off its helix" in found.message
+    same = [re.sub(r"Z(-?[\d.]+)", lambda z: f"Z{float(z[1]) - 0.0:g}", line) for line in lines[down:up]]
+    assert asked("details", "\n".join([*lines[:up], "G0 Z1", *same, *lines[up:]]), one.job).passed

@@ -12,13 +12,13 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.details import CORE_PLAY, Chamfer, Detail, Engraving, Thread
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.bands import Band
 from mechwright_cam.proof.fillets import Fillet
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.proof.thread_turns import FITS, unthreaded
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.setup.depths import core_of, makes, tapped_deep
 from mechwright_cam.setup.job import Job
@@ -35,8 +35,6 @@ EDGE_SPACING = 0.2
 FINE = 24
 """A fillet is looked at, at so many heights, for what is not as a mill: in between it is within 0.1 % of its
 radius of both."""
-FITS = 0.02
-"""A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
 BESIDE_CORNER = 0.003
 """A place of a chamfer this near to what its cutter cannot reach is not asked for, mm."""
 
@@ -124,7 +122,7 @@ def missing(paths: Paths, job: Job) -> str:
             case Engraving():
                 found = _engraving(paths, detail)
             case Thread():
-                found = "" if _tapped(paths, detail, job) else _thread(paths, detail)
+                found = "" if _tapped(paths, detail, job) else unthreaded(paths, detail)
         if found:
             return f"{detail.name}: {found}"
     return ""
@@ -188,24 +186,3 @@ def _tapped(paths: Paths, detail: Thread, job: Job) -> bool:
         if ((ends < FITS) & deep).any():
             return True
     return False
-
-
-def _thread(paths: Paths, detail: Thread) -> str:
-    run, steps = paths.run, paths.of_kinds({ToolKind.THREAD_MILL}).steps
-    arcs = steps[run.kind[steps] == Kind.ARC]
-    centred = np.hypot(*(run.centre[arcs] - detail.centre).T) < FITS
-    wide = np.abs(run.radius[arcs] + paths.radius[arcs] - detail.diameter / 2) < FITS
-    arcs = arcs[centred & wide]
-    rise = (paths.end[arcs, 2] - paths.start[arcs, 2]) / np.where(run.sweep[arcs] == 0, 1, run.sweep[arcs])
-    pitch = -detail.pitch if detail.left else detail.pitch
-    arcs = arcs[np.abs(rise * 2 * np.pi - pitch) < FITS]
-    if arcs.size == 0:
-        hand = "left-hand" if detail.left else "right-hand"
-        size = f"{detail.diameter:g} mm with a pitch of {detail.pitch:g} mm"
-        return f"no {hand} helix of {size} around its axis"
-    low = float(np.minimum(paths.start[arcs, 2], paths.end[arcs, 2]).min())
-    high = float(np.maximum(paths.start[arcs, 2], paths.end[arcs, 2]).max())
-    turns = float(np.abs(run.sweep[arcs]).sum()) / (2 * np.pi)
-    if low > -detail.depth + FITS or high < 0 or turns < detail.depth / detail.pitch:
-        return f"the thread runs from Z{low:.3f} to Z{high:.3f}, not from Z{-detail.depth:g} to the top"
-    return ""

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import shapely
 
+from mechwright.contracts.details import Thread
 from mechwright.contracts.part import Profile
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
@@ -15,6 +16,7 @@ from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.sweep import ROUNDING
+from mechwright_cam.proof.thread_turns import LEADS, off_helix
 
 
 def gouge(scene: Scene) -> Check:
@@ -49,9 +51,22 @@ def leftover(scene: Scene) -> Check:
 
 
 def details(scene: Scene) -> Check:
-    """Every chamfer, thread and engraving is there."""
+    """Every chamfer, thread and engraving is there, and no thread is cut where its mill should not."""
     lacking = missing(scene.paths, scene.job)
-    return Check(not lacking, lacking or "chamfers, threads and engravings are cut")
+    if lacking:
+        return Check(False, lacking)
+    for thread in (detail for detail in scene.job.details if isinstance(detail, Thread)):
+        found, limit = off_helix(scene.paths, thread), LEADS * thread.pitch
+        if found is None or found[1] <= limit:
+            continue
+        step, deep, at = found
+        tool = scene.tools[int(scene.run.tool[step])]
+        message = (
+            f"T{tool.number} ({tool.name}) cuts {deep:.2f} mm into the turns of {thread.name}, off its "
+            f"helix, the limit is {limit:.2f} mm; go down and up at the axis, and round on the helix alone"
+        )
+        return scene.bad(step, message, deep, limit, "mm", at)
+    return Check(True, "chamfers, threads and engravings are cut")
 
 
 AT_ONCE = 64
