@@ -27,7 +27,7 @@ EXAMPLES = [
 OTHERS = ("template", "pyproject", "/shops/")  # shop files have a schema of their own
 EXAMPLES = [path for path in EXAMPLES if not any(other in path.as_posix() for other in OTHERS)]
 KNOWN = {
-    *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "examples"),
+    *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "given", "examples"),
     *("type", "properties", "required", "additionalProperties", "enum", "const", "pattern", "format"),
     *("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "minLength", "maxLength"),
     *("items", "prefixItems", "minItems", "maxItems", "uniqueItems", "anyOf", "allOf", "if", "then"),
