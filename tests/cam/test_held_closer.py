@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+import shapely
 from by_control import BY_NAME
 from shop import plate_job
 
@@ -104,3 +106,19 @@ def test_wide_cells_never_allow_what_usual_ones_refuse(
     for width in (0.6, 0.9, 1.3):
         monkeypatch.setattr(footprint, "MOST_CELLS", int(120 * 100 / width**2))
         assert usual or not judged(corner(bridge)).passed
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.3, 0.8, 1.9, 4.0])
+def test_what_is_near_a_small_piece_is_near_it_wherever_it_lies(distance: float) -> None:
+    """Cells within a distance, against all distances between cells."""
+    mask = np.zeros((23, 31), dtype=np.bool_)
+    mask[20:22, 3:5] = mask[17, 9] = True
+    none = np.zeros(mask.shape, dtype=np.int32)
+    grid = footprint.Footprint(0.0, 0.0, 0.4, none, none, shapely.Polygon())
+    found = grid.within(mask, distance)
+    border = (found.shape[0] - mask.shape[0]) // 2
+    rows, columns = np.nonzero(mask)
+    y, x = np.mgrid[: found.shape[0], : found.shape[1]] - border
+    away = np.hypot(y[..., None] - rows, x[..., None] - columns).min(axis=-1)
+    assert (found == (away <= distance / 0.4)).all()
+    assert not grid.within(np.zeros_like(mask), distance).any()
