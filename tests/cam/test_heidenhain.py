@@ -1,18 +1,13 @@
 """HEIDENHAIN Klartext: what its blocks are read as, what is refused by name, and programs with one fault."""
 
-import math
 import re
 from dataclasses import replace
 from itertools import pairwise
 
-import numpy as np
 import pytest
 from by_control import BY_NAME, asked, interpret, prove
-from by_night import examples
 from golden_operations import made
 from golden_programs import every_operation
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from mechwright.contracts.finding import errors
 from mechwright.errors import ProgramError
@@ -20,7 +15,6 @@ from mechwright_cam.controls.heidenhain_tnc import HeidenhainTnc
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.machining import Machined
 from mechwright_cam.pages.setup_sheet.procedure import steps
-from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
 from mechwright_cam.shop.settings import CamSettings
 
 NAME = "heidenhain-tnc"
@@ -212,35 +206,6 @@ def test_a_feed_and_a_radius_word_hold_and_fmax_does_not() -> None:
 def test_an_arc_is_as_exact_as_the_control_wants_it() -> None:
     assert not said("CC X+5 Y+0", "C X+10 Y+0.3 DR+ F90")  # 9 µm
     assert "arc" in said("CC X+500 Y+0", "C X+1000.02 Y+0 DR+ F90")
-
-
-@given(
-    st.floats(0.5, 400),
-    st.lists(st.tuples(st.floats(-175, 175), st.booleans(), st.floats(-1, 1)), min_size=1, max_size=30),
-)
-@settings(max_examples=examples(20, 200), deadline=None)
-def test_helices_by_their_angle_end_where_they_should(radius: float, turns) -> None:
-    """However many follow each other: what is read is within half of a last decimal, and a little, of the plan."""
-    whole = every_operation()
-    tool = whole.sections[2].tool
-    x, y, z, moves = radius, 0.0, 0.0, [Rapid(radius, 0.0), Rapid(z=0.0)]
-    places = []
-    for turn, ccw, down in turns:
-        angle = math.atan2(y, x) + math.radians(abs(turn) * (1 if ccw else -1))
-        end = (radius * math.cos(angle), radius * math.sin(angle))
-        if math.hypot(end[0] - x, end[1] - y) < 0.01:
-            continue
-        z += down
-        moves.append(FeedArc(*end, z, -x, -y, ccw, 300.0))
-        x, y = end
-        places.append((x, y, z))
-    moves.append(Rapid(z=50.0))
-    section = ToolSection(tool, 8000, "off", (Operation("turns", tuple(moves)),))
-    text = TNC.write(Program("turns", "G54", 50.0, (section,)))
-    run = interpret(text, TNC)
-    ends = run.end[run.cutting]
-    for place in places:
-        assert np.abs(ends - place).max(axis=1).min() < 1.6e-3
 
 
 def test_lengths_hang_on_tool_call() -> None:

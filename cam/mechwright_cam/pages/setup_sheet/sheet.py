@@ -100,6 +100,7 @@ def setup_html(
         "control": control.name,
         "by_hand": not control.offsets.lengths,
         "length_place": control.length_place,
+        "length_words": control.length_words,
         "offset_name": control.offset_words(program.work_offset),
         "table_words": control.table_words(tool_table) if tool_table else "",
         "design": design,

@@ -1,0 +1,60 @@
+"""Helices in Klartext, which end where their angle says: what is written is read within the last decimal."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from by_control import BY_NAME, interpret
+from by_night import examples
+from golden_programs import every_operation
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
+
+TNC = BY_NAME["heidenhain-tnc"]
+
+
+@given(
+    st.floats(0.5, 400),
+    st.lists(st.tuples(st.floats(-175, 175), st.booleans(), st.floats(-1, 1)), min_size=1, max_size=30),
+)
+@settings(max_examples=examples(20, 200), deadline=None)
+def test_helices_by_their_angle_end_where_they_should(radius: float, turns) -> None:
+    """However many follow each other: what is read is within half of a last decimal, and a little, of the plan."""
+    whole = every_operation()
+    tool = whole.sections[2].tool
+    x, y, z, moves = radius, 0.0, 0.0, [Rapid(radius, 0.0), Rapid(z=0.0)]
+    places = []
+    for turn, ccw, down in turns:
+        angle = math.atan2(y, x) + math.radians(abs(turn) * (1 if ccw else -1))
+        end = (radius * math.cos(angle), radius * math.sin(angle))
+        if math.hypot(end[0] - x, end[1] - y) < 0.01:
+            continue
+        z += down
+        moves.append(FeedArc(*end, z, -x, -y, ccw, 300.0))
+        x, y = end
+        places.append((x, y, z))
+    moves.append(Rapid(z=50.0))
+    section = ToolSection(tool, 8000, "off", (Operation("turns", tuple(moves)),))
+    text = TNC.write(Program("turns", "G54", 50.0, (section,)))
+    run = interpret(text, TNC)
+    ends = run.end[run.cutting]
+    for place in places:
+        assert np.abs(ends - place).max(axis=1).min() < 1.6e-3
+
+
+@pytest.mark.parametrize("units", ["mm", "inch"])
+def test_what_roundings_leave_of_helices_does_not_add_up(units) -> None:
+    """Of two hundred arcs about a centre that no decimal hits."""
+    x, y, radius = 1 / 3, 1 / 7, 7.77
+    ends = [(x + radius * math.cos(k * 1.2), y + radius * math.sin(k * 1.2), -k / 100) for k in range(200)]
+    turns = [FeedArc(*end, x - at[0], y - at[1], True, 300.0) for at, end in pairwise(ends)]
+    moves = (Rapid(*ends[0][:2]), Rapid(z=0.0), *turns, Rapid(z=50.0))
+    tool = every_operation().sections[2].tool
+    section = ToolSection(tool, 8000, "off", (Operation("turns", moves),))
+    run = interpret(TNC.speaking(units).write(Program("turns", "G54", 50.0, (section,))), TNC)
+    cuts = run.end[run.cutting]
+    off = [np.abs(cuts - end).max(axis=1).min() for end in ends[1:]]
+    assert max(off) < (1.6e-3 if units == "mm" else 4e-3)
