@@ -19,7 +19,7 @@ from mechwright.mechanics.tracing.search import Trace, Traces, search
 from mechwright_spherical import checks
 from mechwright_spherical.fivebar_room import ARCS, FiveBarRoom
 from mechwright_spherical.fourbar_room import Bounds
-from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, MORE, SEARCH
+from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, MORE, SEARCH, directions
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import FiveBarPathRequirement
@@ -67,7 +67,8 @@ def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis
         targets = np.array([vector(point) for point in wanted.points])
     except GeometryError as error:
         return Synthesis((), (_fault("points", str(error), "give each point a direction"),))
-    if said := fault_of_points(wanted.points, bool(wanted.angles)):
+    timed = bool(wanted.angles)
+    if said := fault_of_points(wanted.points, timed) or fault_of_points(directions(targets), timed):
         wrong, _, remedy = said.partition("; ")
         return Synthesis((), (_fault("points", wrong, remedy or "give other points"),))
     rooms = rooms_of(wanted, targets)

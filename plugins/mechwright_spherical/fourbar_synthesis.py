@@ -62,7 +62,8 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
         targets = np.array([vector(point) for point in wanted.points])
     except GeometryError as error:
         return Synthesis((), (_fault("points", str(error), "give each point a direction"),))
-    if said := fault_of_points(wanted.points, bool(wanted.angles)):
+    timed = bool(wanted.angles)
+    if said := fault_of_points(wanted.points, timed) or fault_of_points(directions(targets), timed):
         wrong, _, remedy = said.partition("; ")
         return Synthesis((), (_fault("points", wrong, remedy or "give other points"),))
     rooms = rooms_of(wanted, targets)
@@ -107,6 +108,11 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
     )
     found.sort(key=lambda one: one.residual.value)
     return Synthesis(tuple(found), (note,), rejected.reasons)
+
+
+def directions(targets: Array) -> list[tuple[float, ...]]:
+    """Unit vectors (n, 3) as points: those of other lengths are one where they point the same way."""
+    return [tuple(one) for one in targets.round(DIGITS + 2).tolist()]
 
 
 def rooms_of(wanted: FourBarPathRequirement, targets: Array) -> list[FourBarRoom]:

@@ -171,6 +171,9 @@ def test_points_that_follow_each_other_in_one_place_are_named():
     result, _ = ask([[0, 0, 1], [0, 0.1, 1], [0, 0.1, 1], [0.1, 0.1, 1]])
     (finding,) = result.findings
     assert "points 2 and 3 are both (0, 0.1, 1)" in finding.message
+    result, _ = ask([[0, 0, 1], [0, 0, 2], [0, 0, 3]])  # lengths of directions say nothing
+    (finding,) = result.findings
+    assert "all 3 points are (0, 0, 1)" in finding.message
 
 
 @in_ci
