@@ -179,9 +179,10 @@ def last(place: Path) -> dict[str, dict[str, object]]:
     return {str(row["key"]): row for row in lines(place / "outcomes.jsonl")}
 
 
-def drawn(place: Path, name: str, sample: int, seed: int, share: str) -> list[Mutant]:
+def drawn(place: Path, name: str, sample: int, seed: int, share: str, watched_only: bool) -> list[Mutant]:
     """The part of a share of a draw that has no outcome yet."""
-    every = all_of(name)
+    known = known_tests(place)
+    every = [one for one in all_of(name) if not watched_only or known.of(one, 0.0)]
     draw = random.Random(seed).sample(every, min(sample, len(every)))
     which, of = map(int, share.split("/"))
     done = last(place)
@@ -214,6 +215,7 @@ def main() -> None:
     parser.add_argument("--sample", type=int, default=500, help="mutants of each area")
     parser.add_argument("--seed", type=int, default=25)
     parser.add_argument("--share", default="1/1")
+    parser.add_argument("--watched", action="store_true", help="only functions that tests of the map call")
     parser.add_argument("--only", default="", help="mutants whose line of outcome holds this text")
     parser.add_argument("--budget", type=float, default=20.0, help="seconds of tests for one mutant")
     parser.add_argument("--seconds", type=float, default=3600.0)
@@ -231,7 +233,9 @@ def main() -> None:
             draw = [one for name in names for one in all_of(name) if one.key in alive]
         else:
             draw = [
-                one for name in names for one in drawn(place, name, asked.sample, asked.seed, asked.share)
+                one
+                for name in names
+                for one in drawn(place, name, asked.sample, asked.seed, asked.share, asked.watched)
             ]
         tried(place, [one for one in draw if asked.only in one.key], asked.budget, end)
     sys.exit(0)

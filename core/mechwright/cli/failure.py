@@ -11,6 +11,9 @@ from mechwright.errors import MechwrightError, PluginFaultError, shortened
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
 
+_NO_ROOM = "failed to map segment"
+"""What the loader says of a library for which there is no memory."""
+
 
 def lines(error: Exception) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
@@ -42,7 +45,7 @@ def _printable(line: str) -> str:
 
 
 def _unexpected(error: Exception) -> str:
-    if isinstance(error, MemoryError):
+    if isinstance(error, MemoryError) or (isinstance(error, ImportError) and _NO_ROOM in str(error)):
         return "there is not enough memory for this; nothing was written"
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'output'}: {error.strerror}"

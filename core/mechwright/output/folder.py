@@ -46,6 +46,7 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     OutputError where it holds files of somebody else, or cannot be written: nothing has changed then.
     """
     target, old = _examined(target)
+    made = 0
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with staging_folder(target) as staging:
@@ -63,10 +64,14 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
             folder_to_disk(staging)
             if there:
                 shutil.copymode(target, staging)
+            made = staging.stat().st_ino
             _swap(staging, target)
             folder_to_disk(target.parent)
     except OSError as error:
         raise _refusal(target, error) from error
+    except (MemoryError, TypeError):  # the second is what becomes of the first where a path is read
+        if not made or not target.exists() or target.stat().st_ino != made:
+            raise  # else it came after the step that counts: the files are there, and that is what is told
 
 
 def _written(path: Path, content: bytes | Iterable[bytes]) -> str:

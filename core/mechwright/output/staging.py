@@ -32,17 +32,19 @@ def staging_folder(target: Path) -> Iterator[Path]:
     """
     remove_leftovers(target)
     while True:
-        folder = temporary_name(target)
-        with contextlib.suppress(FileExistsError):
+        folder, ours = temporary_name(target), True
+        try:
             folder.mkdir()  # unlike mkdtemp with the rights that the mask leaves
+        except FileExistsError:
+            continue
+        try:
             with locked(folder) as ours:
-                if not ours:
-                    continue
-                try:
+                if ours:
                     yield folder
-                finally:
-                    _removed_whole(folder)
-            return
+                    return
+        finally:
+            if ours:
+                _removed_whole(folder)
 
 
 def write_through(target: Path, content: bytes) -> None:
@@ -67,7 +69,9 @@ def to_disk(file: IO[bytes]) -> None:
 
 def folder_to_disk(folder: Path) -> None:
     """The same of the names in a folder, where the system can."""
-    with contextlib.suppress(OSError):
+    with contextlib.suppress(
+        OSError, MemoryError
+    ):  # what has got its name has it, also without room for this
         handle = os.open(folder, os.O_RDONLY)
         try:
             os.fsync(handle)
@@ -134,12 +138,19 @@ def locked(path: Path) -> Iterator[bool]:
 
 
 def _removed_whole(folder: Path) -> None:
-    """Remove a folder, also if the keyboard stops that once."""
+    """Remove a folder, also if the keyboard stops that once, or memory is short.
+
+    What stands in the place of the target is decided by then: a folder that cannot be removed is left for the
+    next run, and is no reason to say that nothing was written.
+    """
     try:
         _removed(folder)
     except KeyboardInterrupt:
         _removed(folder)
         raise
+    except Exception:
+        with contextlib.suppress(Exception):
+            _removed(folder)
 
 
 def _removed(folder: Path) -> None:
@@ -147,3 +158,5 @@ def _removed(folder: Path) -> None:
     with contextlib.suppress(OSError):
         folder.chmod(0o700)
     shutil.rmtree(folder, ignore_errors=True)
+    if folder.exists():  # a want of memory is passed over as well
+        shutil.rmtree(folder, ignore_errors=True)
