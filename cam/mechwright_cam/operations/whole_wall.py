@@ -43,7 +43,7 @@ class WholeWall(Finishing):
         self.beside = prepared(grow(tabs, away + BESIDE * self.radius, ROUGH))
         self.height = below.top
         self.free = prepared(shapely.difference(self.free, grow(tabs, away, ROUGH)))
-        self._parts: dict[int, list[tuple[Path, bool, bool]]] = {}
+        self._parts: dict[Path, list[tuple[Path, bool, bool]]] = {}
 
     def fits(self) -> bool:
         """Whether all its ways lead once round and have room for leads off the tabs."""
@@ -72,9 +72,9 @@ class WholeWall(Finishing):
 
     def _divided(self, path: Path) -> list[tuple[Path, bool, bool]]:
         """A path in parts, each with whether it is over a tab, and whether it is beside or over one."""
-        known = self._parts.get(id(path))
+        known = self._parts.get(path)
         if known is None:
-            known = self._parts[id(path)] = self._divide(path)
+            known = self._parts[path] = self._divide(path)
         return known
 
     def _divide(self, path: Path) -> list[tuple[Path, bool, bool]]:
