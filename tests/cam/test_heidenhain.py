@@ -8,6 +8,7 @@ import pytest
 from by_control import BY_NAME, asked, interpret, prove
 from golden_operations import made
 from golden_programs import every_operation
+from klartext_blocks import anew, numbered
 
 from mechwright.contracts.finding import errors
 from mechwright.errors import ProgramError
@@ -31,21 +32,6 @@ HEAD = (
 )
 AT = len(HEAD) + 1
 """The line behind the head."""
-
-
-def numbered(*blocks: str) -> str:
-    """A text of blocks with their numbers; what stands behind ~ has none."""
-    lines, count, joined = [], 0, False
-    for block in blocks:
-        lines.append(block if joined else f"{count} {block}")
-        count += not joined
-        joined = block.endswith("~")
-    return "\n".join(lines) + "\n"
-
-
-def anew(text: str) -> str:
-    """A text that has been changed, with its blocks numbered anew."""
-    return numbered(*(re.sub(r"^\d+ ", "", line).strip() for line in text.splitlines()))
 
 
 def program(*blocks: str) -> str:

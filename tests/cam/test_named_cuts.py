@@ -14,6 +14,7 @@ import pytest
 from by_control import BY_NAME, EVERY, asked, interpret, prove
 from by_night import thinned
 from golden_operations import made
+from klartext_blocks import anew
 from machine_programs import job_of, text_of
 from rs274 import needs_rs274, run_rs274
 from test_cutting_faults import before, changed, fed, files_of, fitted, found_by, only, turned_round
@@ -49,7 +50,8 @@ def with_the_stop(control: str, where: str) -> str:
     place = operation_lines("\n".join(rest))
     into = {"before the bore": place["bore: bore"], "after the part is free": place["outside: finish"]}
     into |= {"never": 0}
-    return "\n".join(rest if where == "never" else rest[: into[where]] + stop + rest[into[where] :])
+    moved = rest if where == "never" else rest[: into[where]] + stop + rest[into[where] :]
+    return anew("\n".join(moved))
 
 
 @pytest.mark.parametrize("control", EVERY)
@@ -69,7 +71,7 @@ def test_a_stop_is_no_clamp_whenever_it_comes(control: str, where: str) -> None:
 @pytest.mark.parametrize("control", EVERY)
 def test_a_part_without_tabs_is_cut_free(control: str) -> None:
     """The last pass goes straight through where the tabs should be; it does not rise over them."""
-    text = re.sub(r"\nZ-4\.9(?=\n)", "", text_of(control))
+    text = anew(re.sub(r"\n(?:\d+ L )?Z-4\.9(?=\n)", "", text_of(control)))
     assert text.count("Z-4.9") == 0
     job = replace(job_of(control), tabs=())
     line, message = reasons(text, job, control)["holding"]
@@ -169,9 +171,9 @@ def test_climb_reversed_is_told_and_refused_where_it_is_asked_for(control: str) 
 def test_coolant_is_off_at_a_stop(control: str) -> None:
     (one,) = made("profile-outside", control)
     lines = one.text.split("\n")
-    stop = next(k for k, line in enumerate(lines) if re.fullmatch(r"(N\d+ )?M0", line))
-    off = max(k for k in range(stop) if re.fullmatch(r"(N\d+ )?M9", lines[k]))
-    wet = "\n".join(lines[:off] + lines[off + 1 :])
+    stop = next(k for k, line in enumerate(lines) if re.fullmatch(r"(N?\d+ )?M0", line))
+    off = max(k for k in range(stop) if re.fullmatch(r"(N?\d+ )?M9", lines[k]))
+    wet = anew("\n".join(lines[:off] + lines[off + 1 :]))
     line, message = reasons(wet, one.job, control)["stops"]
     assert line == stop  # one line less stands before it
     assert "M0 stops the program while coolant runs; write M9 before it" in message
@@ -287,10 +289,14 @@ def test_a_ring_of_a_fifth_of_a_millimetre_is_not_blamed_on_its_tabs(control: st
 
 
 @pytest.mark.parametrize(
-    ("operation", "control"), thinned(2, ["thread", "thread-left", "thread-inch"], EVERY)
+    ("operation", "control"),
+    thinned(2, ["thread", "thread-left", "thread-inch"], [c for c in EVERY if c != "heidenhain-tnc"]),
 )
 def test_a_thread_mill_does_not_go_round_beside_its_helix(operation: str, control: str) -> None:
-    """A full circle along the wall at the depth where the mill comes in, or goes out: it climbs by no pitch."""
+    """A full circle along the wall at the depth where the mill comes in, or goes out: it climbs by no pitch.
+
+    The rule asks for paths, whatever the words; those of Klartext come with a centre in a block of its own.
+    """
     (one,) = made(operation, control)
     files = dict(one.files)
     stem, text = list(files.items())[-1]

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from by_control import BY_NAME, CONTROLS, EVERY, prove
 from by_night import by_night, thinned
+from klartext_blocks import anew
 from machine_programs import job_of, text_of
 
 from mechwright.build import Build, Wanted
@@ -44,7 +45,7 @@ def blamed(found: dict[str, tuple[int | None, str]], rule: str, line: int, word:
 def put(text: str, at: int, words: str) -> tuple[str, int]:
     """The program with lines in front of one, counted from 0, and the number of the last of them."""
     lines = text.splitlines()
-    return "\n".join([*lines[:at], words, *lines[at:]]) + "\n", at + 1 + words.count("\n")
+    return anew("\n".join([*lines[:at], words, *lines[at:]]) + "\n"), at + 1 + words.count("\n")
 
 
 def in_the_cut(text: str) -> int:
@@ -56,7 +57,7 @@ def before_the_last_retract(text: str) -> int:
 
 
 def at_the_end(text: str) -> int:
-    return text.splitlines().index("M30")
+    return max(k for k, line in enumerate(text.splitlines()) if re.fullmatch(r"(?:\d+ )?M30", line))
 
 
 INSIDE = {"in the cut": (in_the_cut, "Z-4.8"), "at the clearance plane": (before_the_last_retract, "Z5")}
@@ -134,13 +135,22 @@ TABLES = (
     *("G10 L20 P1 X0. Y0. Z0.", "G10 L2 P0 X10.", "G10 L20 P0 Z0.", "G10 L2 P1 Z-400."),
 )
 WRITES = ("#5221=10", "#5221 = 10", "#5403=1", "#5161=1", "#5220=2", "#0=1", "#5241=10.")
-SIEMENS_WRITES = (
-    "$P_UIFR[1,X,TR]=10",
-    "$TC_DP6[3,1]=3.1",
-    "$TC_DP3[3,1]=50",
-    "R1=5",
-    "$P_PFRAME=CTRANS(X,5)",
-)
+OWN_WRITES = {
+    "siemens-840d": (
+        "$P_UIFR[1,X,TR]=10",
+        "$TC_DP6[3,1]=3.1",
+        "$TC_DP3[3,1]=50",
+        "R1=5",
+        "$P_PFRAME=CTRANS(X,5)",
+    ),
+    "heidenhain-tnc": (
+        "Q1 = +5",
+        "FN 0: Q1 = +5",
+        "CYCL DEF 7.0 DATUM SHIFT",
+        "FN 17: SYSWRITE ID 530 NR2 = +5",
+    ),
+}
+"""Controls with words of their own for it."""
 
 
 @pytest.mark.parametrize(
@@ -162,7 +172,7 @@ def test_a_table_is_written_with_the_job_s_own_values_alone(control: str, words:
 @pytest.mark.parametrize("control", EVERY)
 def test_parameters_of_the_machine_are_not_written(control: str, place: str) -> None:
     find = in_the_cut if place == "in the cut" else at_the_end
-    for words in SIEMENS_WRITES if control == "siemens-840d" else WRITES:
+    for words in OWN_WRITES.get(control, WRITES):
         text, line = put(text_of(control), find(text_of(control)), words)
         found = reasons(text, job_of(control), control)
         assert found.keys() <= {"reading", "offset-tables"}, (words, found)
@@ -227,15 +237,20 @@ def test_text_that_no_control_reads(control: str, name: str) -> None:
     assert found["reading"][0] == line
 
 
+IN_MACHINE = {"siemens-840d": "G1 SUPA Z0 D0", "heidenhain-tnc": "L Z+0 M91"}
+"""Feed moves in machine coordinates, where they are not G53 G1."""
+
+
 @pytest.mark.parametrize("control", EVERY)
 def test_a_feed_in_machine_coordinates_without_f(control: str) -> None:
     """Before the first F of the program; the word for machine coordinates is each control's own."""
     text = text_of(control)
-    words = "G1 SUPA Z0 D0" if control == "siemens-840d" else "G53 G1 Z0."
-    at = next(k for k, line in enumerate(text.splitlines()) if line.startswith(("T1", "M6 T1")))
+    words = IN_MACHINE.get(control, "G53 G1 Z0.")
+    first = re.compile(r"T1|M6 T1|\d+ TOOL CALL 1 ")
+    at = next(k for k, line in enumerate(text.splitlines()) if first.match(line))
     found = reasons(*put(text, at, words)[:1], job_of(control), control)
     assert found["reading"][0] == at + 1
-    assert re.search(r"feed move without a feed|SUPA|G53", found["reading"][1])
+    assert re.search(r"feed move without a feed|SUPA|G53|M91", found["reading"][1])
 
 
 @pytest.mark.parametrize("name", RUN)

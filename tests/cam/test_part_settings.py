@@ -25,6 +25,7 @@ def design(tmp_path, text):
 OVERRIDES = {
     "sheet": {"revision": "B"},
     "fitting_marks": True,
+    "probe": {"tool": 99, "diameter": 4.0},
     "work_offset": "G57",
     "origin": "corner",
     "tools": ["mill-3"],

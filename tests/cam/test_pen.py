@@ -16,6 +16,7 @@ from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import Rates
 from mechwright_cam.plane.path import circle
 from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.shop.settings import CamSettings
 
 RATES = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
 
@@ -59,7 +60,8 @@ def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
 class Cuts:
     """A layer of which it is known how much of a heavy area of 100 mm² each allowance takes off."""
 
-    rough_heavy = Layer.rough_heavy
+    rough_heavy, _writing = Layer.rough_heavy, Layer._writing
+    settings = CamSettings()
 
     def __init__(self, **taken: float) -> None:
         self.taken, self.ran, self.left = taken, [], 100.0
@@ -74,7 +76,10 @@ class Cuts:
         share = self.taken["coarse" if allowance == COARSE_FROM else "exact"]
         after = self.left * (1 - share)
         return SimpleNamespace(
-            taken=share * thick.area, write=lambda *_: None, after_core=lambda: after, allowance=allowance
+            taken=share * thick.area,
+            write=lambda *_, **__: None,
+            after_core=lambda: after,
+            allowance=allowance,
         )
 
     def add(self, what, mill, write):

@@ -11,6 +11,9 @@ from collections.abc import Sequence
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 
+NO_LINE_END = "a carriage return (CR) ends no line; save the program with line feeds (LF, or CR and LF)"
+"""Said of lines that end as those of old systems did."""
+
 _ODD = re.compile(r"[^\t\n -~]")
 _CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f-\x9f\u2028\u2029]")
 _IN_BRACKETS = re.compile(r"\([^()]*\)?")
@@ -43,7 +46,7 @@ class Faults:
     def _fault(self, line: str, most: int) -> str:
         name = self.dialect.name
         if "\r" in line:
-            return "a carriage return (CR) ends no line; save the program with line feeds (LF, or CR and LF)"
+            return NO_LINE_END
         if _ODD.search(line):
             comment = _COMMENT if self.dialect.semicolon_comments else _IN_BRACKETS
             if (odd := _ODD.search(comment.sub("", line))) is not None:

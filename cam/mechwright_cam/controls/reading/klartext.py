@@ -20,6 +20,7 @@ from collections.abc import Callable
 
 from mechwright_cam.controls.reading.arcs import rotated
 from mechwright_cam.controls.reading.blocks import fail
+from mechwright_cam.controls.reading.characters import NO_LINE_END
 from mechwright_cam.controls.reading.klartext_words import (
     CYCLES,
     NAME,
@@ -121,6 +122,8 @@ class _Reading:
         """One line translated."""
         if not text.strip() and self.joined is None:
             return ""
+        if "\r" in text:
+            raise fail(number, NO_LINE_END)
         if len(text) > LONGEST:
             raise fail(number, f"{len(text)} characters; {NAME} reads {LONGEST} in a block")
         if self.closed:
