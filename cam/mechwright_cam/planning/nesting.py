@@ -279,7 +279,9 @@ def _bottom_left(
             beside = (xs[:, None] < boxes[:, 2] + gap - SNAP) & (xs[:, None] + a > boxes[:, 0] - gap + SNAP)
             above = (ys[:, None] < boxes[:, 3] + gap - SNAP) & (ys[:, None] + b > boxes[:, 1] - gap + SNAP)
             # How many boxes a place would meet, as a product of matrices; both ways ascend.
-            free = np.argwhere(above.astype(np.float32) @ beside.T.astype(np.float32) == 0)
+            with np.errstate(invalid="ignore"):  # kernels compute lanes beside the matrices as well, of anything
+                met = above.astype(np.float32) @ beside.T.astype(np.float32)
+            free = np.argwhere(met == 0)
             if free.size == 0:
                 continue
             row, column = free[0]
