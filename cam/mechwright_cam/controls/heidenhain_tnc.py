@@ -11,7 +11,7 @@ from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import klartext
-from mechwright_cam.controls.reading.klartext_words import M_CODES
+from mechwright_cam.controls.reading.klartext_words import LONGEST, M_CODES
 from mechwright_cam.controls.writing.klartext import KlartextWriter, numbered, signed
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
@@ -51,7 +51,7 @@ class HeidenhainTnc(GcodeControl):
         arc_absolute=0.016,  # the machine parameter of circles allows no more
         arc_relative=0.0,
         arc_chord=0.0,
-        line_length=4 * klartext.LONGEST,
+        line_length=4 * LONGEST,
         tables=frozenset(),
         length_write=None,
         decimals=3,

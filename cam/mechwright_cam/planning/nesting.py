@@ -278,8 +278,9 @@ def _bottom_left(
             xs, ys = xs[xs + a <= width + SNAP], ys[ys + b <= height + SNAP]
             beside = (xs[:, None] < boxes[:, 2] + gap - SNAP) & (xs[:, None] + a > boxes[:, 0] - gap + SNAP)
             above = (ys[:, None] < boxes[:, 3] + gap - SNAP) & (ys[:, None] + b > boxes[:, 1] - gap + SNAP)
-            # How many boxes a place would meet, as a product of matrices; both ways ascend.
-            with np.errstate(invalid="ignore"):  # kernels compute lanes beside the matrices as well, of anything
+            # How many boxes a place would meet, as a product of matrices; both ways ascend. Kernels compute
+            # with what lies beside the matrices as well, and may warn of that.
+            with np.errstate(invalid="ignore"):
                 met = above.astype(np.float32) @ beside.T.astype(np.float32)
             free = np.argwhere(met == 0)
             if free.size == 0:

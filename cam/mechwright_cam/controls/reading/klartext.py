@@ -20,12 +20,12 @@ from collections.abc import Callable
 
 from mechwright_cam.controls.reading.arcs import rotated
 from mechwright_cam.controls.reading.blocks import fail
-from mechwright_cam.controls.reading.characters import NO_LINE_END
 from mechwright_cam.controls.reading.klartext_words import (
     CYCLES,
     NAME,
     NO_CYCLE,
     NUMBER,
+    check_length,
     functions_of,
     plain,
     refused,
@@ -33,8 +33,6 @@ from mechwright_cam.controls.reading.klartext_words import (
     worked_out,
 )
 
-LONGEST = 128
-"""Characters of a block."""
 TENTHS = 10.0
 """Feeds of a program in inches are in tenths of an inch a minute."""
 LAST_PRESET = 6
@@ -122,10 +120,7 @@ class _Reading:
         """One line translated."""
         if not text.strip() and self.joined is None:
             return ""
-        if "\r" in text:
-            raise fail(number, NO_LINE_END)
-        if len(text) > LONGEST:
-            raise fail(number, f"{len(text)} characters; {NAME} reads {LONGEST} in a block")
+        check_length(number, text)
         if self.closed:
             raise fail(number, "stands behind END PGM, where nobody reads it; take it out")
         code, mark, comment = text.partition(";")

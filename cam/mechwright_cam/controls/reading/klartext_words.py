@@ -4,8 +4,11 @@ import re
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.blocks import fail
+from mechwright_cam.controls.reading.characters import NO_LINE_END
 
 NAME = "HEIDENHAIN"
+LONGEST = 128
+"""Characters of a block."""
 MOST_M = 2
 """M functions of a block."""
 M_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
@@ -51,6 +54,14 @@ NUMBER = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)"
 """A number, with a point or a comma."""
 _WORD = re.compile(rf"([A-Z]+)(?:({NUMBER})|(?<=DR)([+-]))?(?= |$)")
 _NAMED = re.compile(r"[A-Z]*")
+
+
+def check_length(number: int, text: str) -> None:
+    """Raise ProgramError for a line that is longer than a block."""
+    if "\r" in text:
+        raise fail(number, NO_LINE_END)
+    if len(text) > LONGEST:
+        raise fail(number, f"{len(text)} characters; {NAME} reads {LONGEST} in a block")
 
 
 def plain(value: str) -> str:
