@@ -39,7 +39,7 @@ from line_faults import STATES
 from mutant_traces import differences, trace
 from mutants import FAULTS, Mutant, mutant
 
-from mechwright.contracts.details import Chamfer, Engraving
+from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
@@ -217,7 +217,8 @@ def on_details(job: Job, spots: np.ndarray, off: np.ndarray, depths: Sequence[fl
 
     On the slope of a chamfer a cell is uncertain. A line of a mark may be a little longer or run a little
     aside while it keeps within the width and the depth that the design gives it; that all strokes are there,
-    ``details`` asks.
+    ``details`` asks. So it does of the turns of a thread, and how far a mill may go beside them; a way out
+    that leaves its groove sooner takes less of the wall.
     """
     if shapely.dwithin(slopes(job), spots, WALL).all() and off.max() < PITCH:
         return "a cell of the height map on a chamfer, which details measures"
@@ -226,6 +227,12 @@ def on_details(job: Job, spots: np.ndarray, off: np.ndarray, depths: Sequence[fl
             strokes = shapely.MultiLineString(list(mark.strokes))
             if shapely.dwithin(strokes, spots, mark.width / 2 + PITCH / 2).all():
                 return "a line of a mark, within the width and the depth that it may have"
+        if isinstance(mark, Thread):
+            reach = np.hypot(shapely.get_x(spots) - mark.centre[0], shapely.get_y(spots) - mark.centre[1])
+            if (
+                np.abs(reach - (mark.core + mark.diameter) / 4) <= (mark.diameter - mark.core) / 4 + PITCH
+            ).all():
+                return "in the turns of a thread, which details measures"
     return UNEXPLAINED
 
 
