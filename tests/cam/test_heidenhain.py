@@ -234,6 +234,16 @@ def test_what_the_control_lacks_is_found_in_the_design() -> None:
         TNC.write(replace(every_operation(), posting=CamSettings.model_validate(cam).post))
 
 
+def test_steps_of_block_numbers_are_refused_and_gone_where_they_are_left_out() -> None:
+    stepped, plain = (
+        CamSettings.model_validate({"control": NAME, "post": post}) for post in ({"line_numbers": 10}, {})
+    )
+    (found,) = errors(HeidenhainTnc().check(stepped))
+    assert (found.code, found.parameter) == ("cam.line-numbers", "cam.post.line_numbers")
+    assert found.remedy == "leave line_numbers out"
+    assert not errors(HeidenhainTnc().check(plain))
+
+
 def test_the_tool_table_has_the_columns_of_the_control() -> None:
     tools = every_operation().tools
     name, text = TNC.tool_table([tool.model_copy(update={"length": 81.5}) for tool in tools])

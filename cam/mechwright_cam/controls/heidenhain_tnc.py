@@ -204,11 +204,15 @@ class HeidenhainTnc(GcodeControl):
         return f"{self.title} programs write no row of the preset table here: the sheet says what to type in"
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
-        """As others, and offsets that the program should set."""
+        """As others, offsets that the program should set, and steps of its numbers."""
         found = list(super().check(settings))
         if settings.post.offsets:
             remedy = "leave offsets out"
             found.append(Finding.error("cam.offsets", "cam.post.offsets", self._sets_none, remedy=remedy))
+        if settings.post.line_numbers:
+            said = f"{self.title} numbers its blocks from 0 one by one, and has no other step"
+            remedy = "leave line_numbers out"
+            found.append(Finding.error("cam.line-numbers", "cam.post.line_numbers", said, remedy=remedy))
         return found
 
     def retract_words(self, machine: "Machine") -> str:
