@@ -3,8 +3,9 @@
 import re
 
 import pytest
-from by_control import BY_NAME, CONTROLS, asked
+from by_control import BY_NAME, CONTROLS, EVERY, asked
 from golden_operations import made
+from klartext_blocks import anew
 
 from mechwright_cam.proof import Check
 
@@ -73,3 +74,48 @@ def test_a_spindle_that_starts_in_the_material_is_refused() -> None:
 def test_a_text_that_breaks_off_there_is_no_error() -> None:
     lines = lines_of("pocket-contour", "linuxcnc")
     assert not judged([*lines[: in_cut(lines)], "M5"], "pocket-contour", "linuxcnc").passed
+
+
+def after_m5(control: str, operation: str, *blocks: str) -> tuple[Check, int]:
+    """The check where blocks stand behind the last M5, and the line of the last of those blocks."""
+    lines = lines_of(operation, control)
+    last = max(k for k, line in enumerate(lines) if line.split()[-1] == "M5") + 1
+    text = anew("\n".join([*lines[:last], *blocks, *lines[last:], ""]))
+    one = made(operation, control)[0]
+    return asked("spindle", text, one.job, BY_NAME[control]), last + len(blocks)
+
+
+def rapid(control: str, x: float | None = None, z: float | None = None) -> str:
+    """A rapid of X, of Z, or of both in one, in the words of a control."""
+    klartext = control == "heidenhain-tnc"
+    words = (f"{name}{value:+.3f}" for name, value in (("X", x), ("Z", z)) if value is not None)
+    return f"L {' '.join(words)} R0 FMAX" if klartext else f"G0 {' '.join(words).replace('+', '')}"
+
+
+@pytest.mark.parametrize("control", EVERY)
+@pytest.mark.parametrize("ways", [[{"z": -1.5}], [{"z": 5}, {"x": 1, "z": -1.5}]])
+def test_a_standing_cutter_does_not_go_into_what_it_has_cut(
+    ways: list[dict[str, float]], control: str
+) -> None:
+    """The recess is open there, as wide as the mill or wider: only the spindle forbids it."""
+    found, line = after_m5(control, "pocket-contour", *(rapid(control, **way) for way in ways))
+    assert re.match(
+        f"line {line}: goes below the top of the stock at rapid while the spindle turns not at all",
+        found.message,
+    )
+    assert found.line == line
+    high = [rapid(control, **{**way, "z": 5}) for way in ways]
+    assert after_m5(control, "pocket-contour", *high)[0].passed
+
+
+@pytest.mark.parametrize("control", EVERY)
+def test_only_the_way_up_is_free_from_where_the_spindle_stopped(control: str) -> None:
+    """In the middle of the recess, clear of floor and walls."""
+    klartext = control == "heidenhain-tnc"
+    feed, turn = ("L Z-1.5 R0 F500", "L M3") if klartext else ("G1 Z-1.5 F500", "M3")
+    stop = [rapid(control, x=0), turn, feed, "M5"]
+    assert after_m5(control, "pocket-contour", *stop, rapid(control, z=5))[0].passed
+    for way in ({"x": 0.5}, {"z": -1.6}, {"x": 0.5, "z": 5}):
+        found, line = after_m5(control, "pocket-contour", *stop, rapid(control, **way))
+        assert found.line == line, way
+        assert "at rapid" in found.message

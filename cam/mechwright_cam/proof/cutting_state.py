@@ -6,16 +6,17 @@ What the control may cut where it leaves the path, and what the path cuts, are o
 from copy import copy
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.machine_rules import retract
 from mechwright_cam.proof.off_path import deepest_off_path
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
 from mechwright_cam.proof.stock import UNEVEN
-from mechwright_cam.proof.tap_rules import turns
-from mechwright_cam.shop.tool import ToolKind
+from mechwright_cam.proof.tap_rules import of_taps, turns
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
@@ -24,14 +25,16 @@ MAX_DWELL = 10.0
 def spindle(scene: Scene) -> Check:
     """The spindle turns as the cutter asks while it is in the work, and starts and stops clear of it."""
     turning, wanted = scene.run.of_states(lambda state: state.turning), turns(scene)
-    if (step := first(in_work(scene) & (turning != wanted))) is not None:
+    working = in_work(scene)
+    if (step := first((working | _goes_in(scene)) & (turning != wanted))) is not None:
         names = {
             1: f"clockwise ({scene.control.m(3)})",
             -1: f"backwards ({scene.control.m(4)})",
             0: "not at all",
         }
-        message = f"feeds into the work while the spindle turns {names[int(turning[step])]}; "
-        if scene.tools[int(scene.run.tool[step])].kind is ToolKind.TAP:
+        goes = "feeds into the work" if working[step] else "goes below the top of the stock at rapid"
+        message = f"{goes} while the spindle turns {names[int(turning[step])]}; "
+        if of_taps(scene)[step]:
             message += f"there this tap has to turn {names[int(wanted[step])]}: tap with a tapping cycle"
         else:
             message += f"write S and {scene.control.m(3)}"
@@ -46,6 +49,20 @@ def spindle(scene: Scene) -> Check:
             message = f"{scene.spot(change.line, change.file)}: {message}"
             return Check(False, message, change.line, None, UNEVEN, "mm", change.place)
     return Check(True, "the spindle turns the right way whenever the cutter is in the work")
+
+
+def _goes_in(scene: Scene) -> NDArray[np.bool_]:
+    """(n,) rapids of a cutter below the top of the stock, but for those straight up.
+
+    The way up from where the spindle stopped is free: there the tool stood clear of all that is left, and
+    material does not come back. Whatever else lies below the top is no place for a cutter that stands: a way
+    that was cut is a wall on both sides. Rapids of taps are judged with their thread.
+    """
+    run = scene.run
+    low = np.fmin(run.start[:, 2], run.end[:, 2]) < -NEAR
+    still = (np.abs(run.end[:, :2] - run.start[:, :2]) <= NEAR).all(axis=1)
+    up = still & (run.end[:, 2] >= run.start[:, 2])
+    return (run.kind == Kind.RAPID) & low & ~up & ~of_taps(scene)
 
 
 def coolant(scene: Scene) -> Check:

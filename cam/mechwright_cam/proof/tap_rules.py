@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Kind
@@ -25,6 +26,11 @@ def turns(scene: Scene) -> Ints:
         mine = scene.run.tool == tool.number
         wanted[mine] = np.where(down[mine], hand, -hand)
     return wanted
+
+
+def of_taps(scene: Scene) -> NDArray[np.bool_]:
+    """(n,) whether a tap is in the spindle."""
+    return np.isin(scene.run.tool, [tool.number for tool in _taps(scene)])
 
 
 def tapping(scene: Scene) -> Check:
