@@ -33,7 +33,7 @@ def taken_out(lines: list[str]) -> list[str]:
     at = next(k for k, line in enumerate(lines) if re.search(r"\b(G1|L) Z\+?0\.? F", line))
     call = next(k for k, line in enumerate(lines) if CALL.fullmatch(line))
     again = [*another(lines[call : call + 1], 0), *(line for line in ["M6"] if line in lines)]
-    up = [line for line in lines[:call] if re.search(r"SUPA|M91|G28|G53", line)]
+    up = [line for line in lines[:call] if re.search(r"SUPA|M91|G28|G53|^G90$", line)]
     places = [line for line in lines[call:at] if re.search(r"\b(G0|L|D1|G43|Z5)\b", line)]
     return [*lines[:at], *up, *again, *places, *lines[at:]]
 
