@@ -15,27 +15,39 @@ from dataclasses import replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
+import bound_controls
 import bound_cuts
 import bound_hostile
+import bound_nested
 import bound_rapids
 import bound_words
 from bound_places import MANY
-from by_control import prove
+from by_control import BY_NAME, prove
 from golden_operations import made
+from klartext_blocks import anew
 
 from mechwright.errors import ProgramError
 
-CASES = bound_cuts.CASES | bound_rapids.CASES | bound_words.CASES | bound_hostile.CASES
+CASES = (
+    bound_cuts.CASES
+    | bound_rapids.CASES
+    | bound_words.CASES
+    | bound_hostile.CASES
+    | bound_nested.CASES
+    | bound_controls.CASES
+)
 LONGEST = 120
 """A program may take so long before it is given up, s."""
 
 
 def one(name: str) -> None:
     """Prove one program and tell what it took."""
-    job = made("profile-outside", "linuxcnc")[0]
+    control = bound_controls.control_of(name)
+    job = made("profile-outside", control)[0]
     lines = job.text.splitlines()
-    last = next(k for k, line in enumerate(lines) if line.startswith("M9"))
-    text = "\n".join([*lines[:last], "G0 Z5", *CASES[name](), "G0 Z5", *lines[last:], ""])
+    last = next(k for k, line in enumerate(lines) if re.fullmatch(r"(\d+ )?M9", line))
+    up = "L Z+5 R0 FMAX" if control == "heidenhain-tnc" else "G0 Z5."
+    text = anew("\n".join([*lines[:last], up, *CASES[name](), up, *lines[last:], ""]))
     words = re.compile("([A-Z])([-+.0-9]+)")
     if "holder" in name:
         short = {"flute_length": 0.5, "stick_out": 0.5, "holder_diameter": 12.0}
@@ -46,7 +58,7 @@ def one(name: str) -> None:
         words.findall(line)
     anchor, start, clock = processor() - start, processor(), time.perf_counter()
     try:
-        proof = prove(text, job.job)
+        proof = prove(text, job.job, BY_NAME[control])
         said = "proven" if proof.ok else f"refused by {proof.failures[0].name}"
     except ProgramError as error:
         said = str(error)

@@ -1,5 +1,6 @@
 """O-words that LinuxCNC refuses: labels used twice, ends of nothing, words behind them."""
 
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ from by_control import interpret
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading.o_words import OWords
 
 HEAD = "G21 G90 G17 G40 G91.1 G94\nG0 X1 Y1 Z5\n"
 REFUSED = {
@@ -60,3 +62,46 @@ def test_labels_as_linuxcnc_takes_them(lines: str) -> None:
 )
 def test_linuxcnc_says_the_same_of_labels(lines: str, taken: bool, tmp_path: Path) -> None:
     assert run_rs274(f"{HEAD}{lines}\nG0 X2\nM2\n", tmp_path).ok == taken
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        ["o1 sub", *["(on)"] * 500, "o1 endsub"],  # passed, and never called
+        ["o2 if [1]", "#1 = 2", *["o2 elseif [1]"] * 500, "o2 endif"],
+        ["o2 while [1]", *["o2 continue", "o2 break"] * 250, "o2 endwhile"],
+        ["o2 while [1]", "o2 break", *["(on)"] * 500, "o2 endwhile"],
+    ],
+)
+def test_where_structures_end_is_looked_for_once(body: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """However often a loop passes them, and whatever stands between."""
+    looked: list[int] = []
+    find = OWords._find
+
+    def counted(self: OWords, index: int, wanted: frozenset[str]) -> int:
+        looked.append(index)
+        return find(self, index, wanted)
+
+    monkeypatch.setattr(OWords, "_find", counted)
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 5_000)
+    with suppress(ProgramError):
+        interpret("\n".join(["o9 repeat [1000]", *body, "o9 endrepeat", "M2"]))
+    assert len(looked) == len(set(looked))
+
+
+def test_every_branch_that_is_asked_is_a_line_that_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 5_000)
+    body = ["o2 if [0]", *["o2 elseif [0]"] * 500, "o2 endif"]
+    with pytest.raises(ProgramError, match="more than 5000 lines are run"):
+        interpret("\n".join(["o9 repeat [20]", *body, "o9 endrepeat", "M2"]))
+
+
+def test_subroutines_may_name_their_branches_alike() -> None:
+    body = ["o1 if [#1 gt 1]", "G1 X#1", "o1 else", "G1 X-1", "o1 endif"]
+    text = ["o7 sub", *body, "o7 endsub", "o8 sub", *body, "o8 endsub", "G0 X0 Y0 Z5", "F100"]
+    run = interpret("\n".join([*text, "o8 call [5]", "o7 call [1]", "M2"]))
+    assert run.end[:, 0].tolist()[1:3] == [5, -1]
+    with pytest.raises(ProgramError, match="line 3: O1 begins something in line 1 already"):
+        interpret("o1 if [1]\no1 endif\no1 if [1]\no1 endif\nM2")
+    with pytest.raises(ProgramError, match="line 3: O7 begins something in line 1 already"):
+        interpret("o7 sub\no7 endsub\no7 sub\no7 endsub\nM2")

@@ -3,20 +3,24 @@
 LinuxCNC has parameters, expressions and O-words (loops, branches, subroutines) in programs. What comes out of
 them is plain lines, one at a time, so that each value is worked out when the machine gets there.
 
-Glossary
---------
-O-word
-    A line such as ``O100 while [#1 lt 5]``; the label ties the lines of one structure together.
+Where structures begin and end: :mod:`mechwright_cam.controls.reading.o_words`.
 """
 
 import re
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator, Sequence, Set
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from mechwright_cam.controls.reading.blocks import check_comments, fail
 from mechwright_cam.controls.reading.expressions import Reader
+from mechwright_cam.controls.reading.o_words import (
+    BRANCHES,
+    ENDIF,
+    ENDREPEAT,
+    ENDSUB,
+    ENDWHILE,
+    OWords,
+)
 from mechwright_cam.controls.reading.plain import PlainLines, Row
 from mechwright_cam.controls.reading.values import COMMENT, OWN, BehindError, Frame, Values, whole
 
@@ -43,17 +47,6 @@ FEW_LINES = 500
 """Fewer plain lines wait for what follows on them."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
-BEGIN = frozenset({"sub", "if", "repeat", "while", "do"})
-"""Words with which something begins that has a label."""
-BARE = frozenset({"sub", "else", "endif", "do", "endwhile", "endrepeat", "break", "continue"})
-"""Words that nothing stands behind."""
-_O_WORD = re.compile(
-    r"(?:n[0-9]+)?o([0-9]+|<[^<>]+>)"
-    r"(sub|endsub|return|call|do|while|endwhile|if|elseif|else|endif|repeat|endrepeat|break|continue|$)(.*)"
-)
-_WORKED_OUT = re.compile(r"(?:n[0-9]+)?o((?:#|\[).*)call(.*)")
-"""A call whose label is a value."""
-_M98 = re.compile(r"(?:n[0-9]+)?m0*9([89])(?![0-9.])(.*)")
 
 
 class Macros(Values):
@@ -72,37 +65,16 @@ class Macros(Values):
         """Index of the first line that no control reads."""
         self.follow: Sequence[int] = [0] * len(lines)
         """How many plain lines follow on each other from each line on, 0 where it is not plain."""
-        self.words: dict[int, tuple[str, str, str]] = {}
-        self.places: dict[str, list[int]] = {}
-        """Lines of each label, in order."""
-        self.inside: dict[int, str] = {}
-        """The subroutine that each of these lines stands in, empty for the main program."""
-        percents, inside = 0, ""
-        for index, line in enumerate(lines):
-            code = "".join(COMMENT.sub("", line).split()).lower()
-            percents += code == "%"
-            if percents == 2:
-                break
-            if not code.lstrip("n0123456789").startswith(("o", "m")):
-                continue
-            if match := _O_WORD.fullmatch(code):
-                label = str(int(match[1])) if match[1].isdigit() else match[1]
-                self.words[index] = (label, match[2], match[3])
-                self.places.setdefault(label, []).append(index)
-                inside = label if match[2] == "sub" else inside
-                self.inside[index] = inside
-                inside = "" if match[2] == "endsub" else inside
-            elif match := _WORKED_OUT.fullmatch(code):
-                self.words[index] = (match[1], "call", match[2])
-            elif match := _M98.fullmatch(code):
-                self.words[index] = ("", f"m9{match[1]}", match[2])
+        self.o_words = OWords(lines)
+        self.words = self.o_words.words
+        self.done = 0
+        """How many lines have been run."""
 
     def run(self) -> Iterator[tuple[int, str | list[Row]]]:
         """What the machine has to obey, in the order of running: a line by index and text, or rows."""
-        done = 0
         while self.at < len(self.lines):
-            done += 1
-            if done > MOST_LINES:
+            self.done += 1
+            if self.done > MOST_LINES:
                 yield from self._rows()
                 raise fail(self.at + 1, f"more than {MOST_LINES} lines are run; does a loop not end?")
             index = self.at
@@ -128,7 +100,7 @@ class Macros(Values):
             elif line is not None:
                 yield from self._rows()
                 yield index, line
-                done += self.at - index - 1
+                self.done += self.at - index - 1
                 continue
             else:
                 continue
@@ -157,34 +129,12 @@ class Macros(Values):
 
     # -- structures -------------------------------------------------------------------------------------
 
-    def _check_label(self, index: int, label: str, word: str, rest: str) -> None:
-        """Refuse what LinuxCNC does: words behind an O-word, a second use of a label, an end of nothing."""
-        if rest and word in BARE:
-            raise ValueError(f"{rest[:12]!r} stands behind O{label} {word}")
-        if word in BEGIN and not (word == "while" and self._ends_do(index, label)):
-            for other in self.places[label][: bisect_left(self.places[label], index)]:
-                before, same = self.words[other][1], self.inside[other] == self.inside[index]
-                if before == word == "sub" or (same and before in BEGIN - {"sub"} and word != "sub"):
-                    raise ValueError(
-                        f"O{label} begins something in line {other + 1} already; use another number"
-                    )
-        if word == "endif" and self._before(index, label, {"if"}) is None:
-            raise ValueError(f"O{label} has no if")
-
-    def _ends_do(self, index: int, label: str) -> bool:
-        """Whether a while is the end of do ... while."""
-        before = self._before(index, label, {"do", "while"})
-        return before is not None and self.words[before][1] == "do"
-
     def _obey(self, index: int, label: str, word: str, rest: str) -> None:
-        self._check_label(index, label, word, rest)
+        o_words = self.o_words
+        o_words.check(index)
         match word:
             case "sub":
-                self.at = self._find(index, label, {"endsub"}) + 1
-                if any(self.words.get(k, ("", "", ""))[1] == "sub" for k in range(index + 1, self.at)):
-                    raise ValueError(
-                        f"a subroutine is defined inside of O{label}; define one after the other"
-                    )
+                self.at = o_words.find(index, ENDSUB) + 1
             case "":  # the number of a program, or of a subroutine that M98 calls
                 if self.frames[-1].start >= 0 and not self.frames[-1].by_m98:
                     raise ValueError(f"O{label} stands inside of a subroutine that call has begun")
@@ -195,33 +145,31 @@ class Macros(Values):
             case "return" | "endsub" | "m99":
                 self._return(word, rest)
             case "if":
-                self._branch(index, label, rest)
+                self._branch(index, rest)
             case "elseif" | "else":
-                self.at = self._find(index, label, {"endif"}) + 1
+                self.at = o_words.find(index, ENDIF) + 1
             case "while":
-                self._while(index, label, rest)
+                self._while(index, rest)
             case "endwhile":
-                self.at = self._find_back(index, label, "while")
+                self.at = o_words.find_back(index, "while")
             case "repeat":
                 count = whole(self.alone(rest))
                 self.frames[-1].repeats[index] = count
                 if count <= 0:
-                    self.at = self._find(index, label, {"endrepeat"}) + 1
+                    self.at = o_words.find(index, ENDREPEAT) + 1
             case "endrepeat":
-                start = self._find_back(index, label, "repeat")
+                start = o_words.find_back(index, "repeat")
                 self.frames[-1].repeats[start] -= 1
                 if self.frames[-1].repeats[start] > 0:
                     self.at = start + 1
             case "break":
-                self.at = self._end(index, label, word) + 1
+                self.at = o_words.end_of_loop(index) + 1
             case "continue":
-                self.at = self._end(index, label, word)
+                self.at = o_words.end_of_loop(index)
 
     def _start(self, label: str, word: str) -> int:
         """The first line of the subroutine of a label, which has the word."""
-        start = next((place for place in self.places.get(label, ()) if self.words[place][1] == word), None)
-        if start is None:
-            raise ValueError(f"there is no subroutine {label} in this file; no other is read")
+        start = self.o_words.start(label, word)
         if len(self.frames) > DEEPEST:
             raise ValueError(f"calls are nested more than {DEEPEST} deep")
         return start
@@ -289,49 +237,18 @@ class Macros(Values):
         self.frames.pop()
         self.at = frame.back
 
-    def _branch(self, index: int, label: str, rest: str) -> None:
+    def _branch(self, index: int, rest: str) -> None:
         taken = self.condition(rest)
         while not taken:
-            index = self._find(index, label, {"elseif", "else", "endif"})
+            self.done += 1
+            index = self.o_words.find(index, BRANCHES)
             _, word, condition = self.words[index]
             taken = word != "elseif" or self.condition(condition)
         self.at = index + 1
 
-    def _while(self, index: int, label: str, rest: str) -> None:
-        if self._ends_do(index, label):
-            start = self._find_back(index, label, "do")
+    def _while(self, index: int, rest: str) -> None:
+        if self.o_words.ends_do(index):
+            start = self.o_words.find_back(index, "do")
             self.at = start + 1 if self.condition(rest) else index + 1
         elif not self.condition(rest):
-            self.at = self._find(index, label, {"endwhile"}) + 1
-
-    def _end(self, index: int, label: str, word: str) -> int:
-        """The line that closes the loop of a label, which is no repeat."""
-        begun = self._before(index, label, BEGIN)
-        if begun is None or self.words[begun][1] not in {"while", "do"}:
-            raise ValueError(f"O{label} {word} stands in no while or do of this number")
-        return self._find(index, label, {"endwhile", "while"})
-
-    def _find(self, index: int, label: str, wanted: set[str]) -> int:
-        places = self.places[label]
-        for at in range(bisect_right(places, index), len(places)):
-            if self.words[places[at]][1] in wanted:
-                return places[at]
-            if self.words[places[at]][1] in {"if", "repeat", "do"} and wanted != {"endsub"}:
-                raise ValueError(
-                    f"O{label} begins something in line {places[at] + 1} as well; use another number"
-                )
-        raise ValueError(f"O{label} has no {' or '.join(sorted(wanted))}")
-
-    def _before(self, index: int, label: str, wanted: Set[str]) -> int | None:
-        """The last line before another, of the same label, that has one of the words."""
-        places = self.places[label]
-        for at in range(bisect_right(places, index - 1) - 1, -1, -1):
-            if self.words[places[at]][1] in wanted:
-                return places[at]
-        return None
-
-    def _find_back(self, index: int, label: str, wanted: str) -> int:
-        place = self._before(index, label, {wanted})
-        if place is None:
-            raise ValueError(f"O{label} has no {wanted}")
-        return place
+            self.at = self.o_words.find(index, ENDWHILE) + 1
