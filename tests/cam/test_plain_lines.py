@@ -34,16 +34,16 @@ def stretches_from(lines: int) -> Iterator[None]:
         stretch.FEWEST_LINES = before
 
 
-def outcome(text: str, dialect: Dialect, lines: int) -> Run | str:
+def outcome(text: str, dialect: Dialect, lines: int, *, skipping: bool = False) -> Run | str:
     with stretches_from(lines):
         try:
-            return interpret(text, dialect)
+            return interpret(text, dialect, block_delete=skipping, diameters={1: 0.2})
         except ProgramError as error:
             return str(error)
 
 
-def assert_alike(text: str, dialect: Dialect) -> None:
-    at_once, singly = outcome(text, dialect, 1), outcome(text, dialect, 10**9)
+def assert_alike(text: str, dialect: Dialect, *, skipping: bool = False) -> None:
+    at_once, singly = (outcome(text, dialect, lines, skipping=skipping) for lines in (1, 10**9))
     if isinstance(at_once, str) or isinstance(singly, str):
         assert at_once == singly
         return
@@ -137,6 +137,8 @@ STATES = [
     "G91",
     "G94",
     "G20",
+    "G40",
+    "G41 D1 ",
     "G54",
     "G55 ",
     "M3",
@@ -174,6 +176,25 @@ def test_words_of_state_and_speeds_beside_moves(
 ) -> None:
     said = (" ".join([*filter(None, words), line]) for words, line in body)
     assert_alike(head + "\n".join(said), BY_NAME[control])
+
+
+@settings(max_examples=examples(70, 200))
+@given(
+    st.sampled_from([STATED, SAFE]),
+    st.lists(
+        st.tuples(st.sampled_from(["", "", "/", "/ ", " /", "N7/", "//"]), beside, lines()), max_size=14
+    ),
+    st.sampled_from(sorted(BY_NAME)),
+    st.booleans(),
+    st.booleans(),
+)
+def test_lines_that_may_be_skipped(
+    head: str, body: list[tuple[str, tuple[str, ...], str]], control: str, skipping: bool, looped: bool
+) -> None:
+    said = [start + " ".join([*filter(None, words), line]) for start, words, line in body]
+    if looped and control == "linuxcnc":
+        said = ["o1 repeat [2]", *said, "G1 X[1+1]", "o1 endrepeat"]
+    assert_alike(head + "\n".join(said), BY_NAME[control], skipping=skipping)
 
 
 steps = st.integers(-3000, 3000).map(lambda number: number / 1000)

@@ -6,7 +6,7 @@ out before plain lines are read, and kept: comments as remarks, words of state f
 Glossary
 --------
 words of state
-    G17, G20, G21, G54 to G59, G90, G91, G94 and M3 to M9, of which a line may have several.
+    G17, G20, G21, G40, G54 to G59, G90, G91, G94 and M3 to M9, of which a line may have several.
 """
 
 import re
@@ -18,7 +18,7 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, read_block
 from mechwright_cam.controls.reading.run import Ints
 
-_STATE = r"(?:G(?:17|2[01]|5[4-9]|9[014])|M0?[345789])(?![ \t]*[0-9.])"
+_STATE = r"(?:G(?:17|2[01]|40|5[4-9]|9[014])|M0?[345789])(?![ \t]*[0-9.])"
 _EITHER = re.compile(r"[(;Mm]|[Gg][1-9][0-9]")
 """What lines of either kind have, and few others."""
 _ONE_COMMENT = re.compile(r"([^();]*)\(([^()]*)\)[ \t]*")

@@ -137,6 +137,7 @@ class Modal(Compensation):
             "units": {200 if self.scale != 1.0 else 210},
             "distance": {900 if self.absolute else 910},
             "plane": {self.plane},
+            "cutter compensation": set() if self.side else {400},
             "feed mode": set() if self.dialect.mode_ends_feed else {940},
         }
         said = {code for group, codes in groups.items() if group in state.stated for code in codes}

@@ -206,9 +206,12 @@ class PlainLines(Rows):
     ([True, False, True], [1.5, nan, -0.5])
     """
 
-    def __init__(self, text: str, dialect: Dialect) -> None:
-        most = dialect.line_length
-        beside = Beside([line if len(line) <= most else _TOO_LONG for line in text.split("\n")], dialect)
+    def __init__(self, text: str, dialect: Dialect, *, block_delete: bool = False) -> None:
+        most, lines = dialect.line_length, text.split("\n")
+        optional = [index for index, line in enumerate(lines) if line[:1] == "/"] if "/" in text else []
+        for index in optional:  # what is left is a line as any other, or is skipped as an empty one is
+            lines[index] = lines[index][1:] if len(lines[index]) <= most else _TOO_LONG
+        beside = Beside([line if len(line) <= most else _TOO_LONG for line in lines], dialect)
         data = b"\n" + beside.text.encode("utf-8", "surrogatepass") + b"\n"
         kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
@@ -223,7 +226,13 @@ class PlainLines(Rows):
         self.number = np.arange(1, length.size + 1)
         self._fill(clean, dialect)
         self.kind, self.states = np.where(self.plain, beside.kind, 0), beside.states
-        self.comments = [told for told in beside.comments.items() if self.plain[told[0]]]
+        skipped = set(optional) if block_delete else ()
+        self.comments = [
+            told for told in beside.comments.items() if self.plain[told[0]] and told[0] not in skipped
+        ]
+        if skipped:
+            self.words[:, optional] = np.nan
+            self.kind[optional] = 0
 
     def strike(self, index: int) -> None:
         """Have a line read word by word, though it looks plain; one behind the last may be named."""

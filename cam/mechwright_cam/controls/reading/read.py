@@ -51,7 +51,7 @@ def interpret(
     text = text.replace("\r\n", "\n")
     if dialect.translate is not None:
         text = dialect.translate(text, block_delete)
-    lines, plain = text.split("\n"), PlainLines(text, dialect)
+    lines, plain = text.split("\n"), PlainLines(text, dialect, block_delete=block_delete)
     source = Lines(lines)
     others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.line_length)
     if dialect.macros and uses_macros("\n".join(others)):
@@ -62,7 +62,7 @@ def interpret(
     source.read(plain, faults.at)
     for index, raw in source.run():
         if not isinstance(raw, str):
-            _run_rows(machine, raw, plain, lines, blocks)
+            _run_rows(machine, raw, plain, lines, blocks, block_delete=block_delete)
             continue
         faults.check(index)
         # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
@@ -110,7 +110,13 @@ class Blocks:
 
 
 def _run_rows(
-    machine: Machine, rows: Sequence[Row], text: PlainLines, lines: Sequence[str], blocks: Blocks
+    machine: Machine,
+    rows: Sequence[Row],
+    text: PlainLines,
+    lines: Sequence[str],
+    blocks: Blocks,
+    *,
+    block_delete: bool,
 ) -> None:
     """Run rows of numbers: those that are motions together, others one by one."""
     worked, at = WorkedOut(rows, text) if len(rows) >= stretch.FEWEST_LINES else None, 0
@@ -118,7 +124,9 @@ def _run_rows(
         after = stretch.run_stretch(machine, worked, at) if worked and worked.plain[at] else at
         if after == at:
             row, after = rows[at], at + 1
-            machine.run(blocks.read(row.index + 1, lines[row.index] if row.columns is None else row.text))
+            block = blocks.read(row.index + 1, lines[row.index] if row.columns is None else row.text)
+            if not (block.deleted and block_delete):
+                machine.run(block)
         machine.check_steps(rows[after - 1].index + 1)
         at = after
 
