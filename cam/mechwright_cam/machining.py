@@ -117,6 +117,10 @@ class Machining:
         found = [finding for settings in every for finding in control.check(settings)]
         for job in self.jobs:
             found += control.check_tools(job.settings, job.tools)
+            if job.settings.more_offsets and not control.several:
+                lack = f"{control.title} has no programs for several work offsets here"
+                remedy = "leave more_offsets out"
+                found.append(Finding.error("cam.more-offsets", "cam.more_offsets", lack, remedy=remedy))
             if why := self._unprobed(job):
                 remedy = "leave tool of [cam.probe] out"
                 found.append(Finding.error("cam.probing", "cam.probe.tool", why, remedy=remedy))

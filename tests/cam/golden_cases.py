@@ -202,6 +202,20 @@ CASES: dict[str, Case] = {
         thickness=3,
         settings={"hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},
     ),
+    "offsets": Case(
+        (Profile("outside", PLATE, "outside", 0, 3), hole("hole", 0, 0, 5, 3)),
+        ("mill-8", "spot-6", "drill-5"),
+        (
+            "spot drill",
+            "drill 5",
+            "outside: rough",
+            "outside below the tabs: rough",
+            "outside: finish",
+        ),
+        thickness=3,
+        settings={"more_offsets": ["G55"], "hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},
+        says="o101 call",
+    ),
     "floor": Case(
         (Pocket("recess", rounded_box(22, 12, 5), (), 0, 2), hole("seat", 15, 0, 6, 1)),
         ("mill-8", "mill-4"),

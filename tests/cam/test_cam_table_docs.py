@@ -13,13 +13,17 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "cam-table.md").read_text(encoding="utf-8")
 
 
+NAMED = {"more": "OFFSET"}
+"""What the keys of a table are named by, where that is no tool."""
+
+
 def fields(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, object, str]]:
     for key, field in model.model_fields.items():
         default = field.get_default(call_default_factory=True)
         inner = [kind for kind in get_args(field.annotation) if isinstance(kind, type)]
         for kind in inner:  # a table that may be left out
             if issubclass(kind, BaseModel):
-                by_name = "TOOL." if get_origin(field.annotation) is dict else ""
+                by_name = f"{NAMED.get(key, 'TOOL')}." if get_origin(field.annotation) is dict else ""
                 yield from fields(kind, f"{prefix}{key}.{by_name}")
         if isinstance(default, BaseModel):
             yield from fields(type(default), f"{prefix}{key}.")

@@ -28,7 +28,7 @@ HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": 
         ("haas", "G1 Z-2 F100.", "Z-2 has no decimal point"),
         ("fanuc", "G0 X1. ; note", "starts no word"),
         ("fanuc", "G65 P9000", "macros and subprograms"),
-        ("fanuc", "M98 P100", "M98 is no code that is read in programs for Fanuc"),
+        ("fanuc", "M98 P100", "there is no O100 in this file; no other is read"),
         ("fanuc", "G54.1 X1.", "needs its number, P"),
         ("fanuc", "G91.1", "G91.1 is no code"),
         ("haas", "G54.1 P3", "G54.1 is no code that is read in programs for Haas"),

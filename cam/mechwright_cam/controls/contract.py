@@ -165,6 +165,8 @@ class Control(Plugin):
             )
         return f"{self.title} does not turn the spindle back in step with the feed: it has no tapping cycle"
 
+    several: ClassVar[bool] = False
+    """Whether it writes programs for several work offsets."""
     stages: ClassVar[bool] = False
     """Whether a T word alone makes the next tool ready while the present one cuts."""
     tap_needs: ClassVar[str] = ""

@@ -165,6 +165,8 @@ class Dialect:
     macros: Callable[..., Any] | None = None
     """Gives the lines that are run of a program that works out its values and its way, such as
     :class:`mechwright_cam.controls.reading.macros.Macros`; None if the control has no such programs."""
+    calls: Literal["98", "97"] | None = None
+    """The M code that calls subprograms of the same file; None if none are read so."""
     translate: Callable[[str, bool], str] | None = None
     """Gives a program of another language in words that are read here, line by line; with True lines that
     start with ``/`` are skipped. None if the control has these words itself."""

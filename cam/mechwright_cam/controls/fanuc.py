@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
@@ -16,6 +17,8 @@ RIGID = 29
 """M code of rigid tapping, as the makers of most machines have set it."""
 OFFSETS_NUMBER = 7999
 """O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""
+SUBPROGRAMS = 100
+"""So many O numbers belong to each program of a job: O0102 is the second subprogram of O0001."""
 
 
 class Fanuc(GcodeControl):
@@ -31,6 +34,7 @@ class Fanuc(GcodeControl):
         "earlier program: look that the common offset (EXT) is 0, and G50, G50.1 and G69 in force"
     )
     dialect = Dialect(
+        calls="98",
         g_codes=MILLING | {541, 740},
         tapping="M29",
         unsupported=NOT_SIMULATED,
@@ -71,6 +75,7 @@ class Fanuc(GcodeControl):
     offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)
     work_offsets = (G54_TO_G59, FANUC_OFFSETS)
     stages = True
+    subprograms = "behind"
     taps = EVERY_WAY
     tap_needs = (
         "M29 has to be the machine's code of rigid tapping (parameter 5210; the builder may have another)."
@@ -88,6 +93,25 @@ class Fanuc(GcodeControl):
     def retract_lines(self, z: float) -> Sequence[str]:  # noqa: ARG002 - the reference point is the control's
         """To the reference point of Z, from where the tool stands: G91 makes that the way."""
         return f"G91 G28 Z{self.length(0.0)}", "G90"
+
+    def subprogram_number(self, out: Writer, number: int) -> int:
+        """An O number of its own, which no other program of the job has."""
+        own = out.program.posting.program_number * SUBPROGRAMS + number
+        if number >= SUBPROGRAMS or own >= OFFSETS_NUMBER:
+            raise ProgramError(
+                f"cam.post.program_number: subprograms of O{out.program.posting.program_number:04d} would be "
+                f"O{own}, and {OFFSETS_NUMBER - 1} is the highest; use at most "
+                f"{OFFSETS_NUMBER // SUBPROGRAMS - 1}"
+            )
+        return own
+
+    def subprogram_begins(self, out: Writer, number: int) -> str:
+        """Its O number, as four digits."""
+        return f"O{self.subprogram_number(out, number):04d}"
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """M98 with its number."""
+        return f"M98 P{self.subprogram_number(out, number):04d}"
 
     def tap(self, out: Writer, hole: Tap) -> None:
         """M29 before the cycle keeps feed and spindle together; a floating holder does without."""

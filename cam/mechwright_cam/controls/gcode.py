@@ -11,14 +11,14 @@ from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.read import interpret_files
 from mechwright_cam.controls.reading.run import Run
-from mechwright_cam.controls.writing.sections import Sections
+from mechwright_cam.controls.writing.subprograms import RESTARTS_NONE, Subprograms
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 
-class GcodeControl(Sections):
+class GcodeControl(Subprograms):
     """A control that reads RS274 words."""
 
     no_compensation: ClassVar[str] = "has no cutter compensation (G41, G42)"
@@ -37,6 +37,7 @@ class GcodeControl(Sections):
         out = self.writer(program)
         self.frame(out)
         self.head(out)
+        before = len(out.lines)
         self.safe_start(out)
         if program.posting.offsets:
             self.set_offsets(out)
@@ -49,6 +50,8 @@ class GcodeControl(Sections):
             out.staged = following if ahead else 0
             self.section(out, section)
         self.go_home(out)
+        if self.subprograms == "first":
+            out.lines[before:before] = [line for lines in out.subprograms for line in lines]
         self.end(out)
         return "\n".join(self.finished(out)) + "\n"
 
@@ -56,6 +59,8 @@ class GcodeControl(Sections):
         """Raise ProgramError for a program that it cannot run, or that does nothing."""
         if program.posting.stage_tools and not self.stages:
             raise ProgramError(f"program {program.name}: {self._stages_none}; leave post.stage_tools out")
+        if program.posting.restart and program.more_offsets:
+            raise ProgramError(f"program {program.name}: {RESTARTS_NONE}; leave post.restart out")
         title, compensates = self.title, self.offsets.d is not None
         if not any(operation.moves for section in program.sections for operation in section.operations):
             raise ProgramError(f"program {program.name} has no moves; nothing is written")
@@ -83,10 +88,15 @@ class GcodeControl(Sections):
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
         found, rows = [], self.work_offsets
-        if not any(row.has(settings.work_offset) for row in rows):
-            lack = f"{self.title} has no work offset {settings.work_offset}"
-            remedy = f"use one of: {', '.join(row.name for row in rows)}"
-            found.append(Finding.error("cam.work-offset", "cam.work_offset", lack, remedy=remedy))
+        for offset in settings.offsets:
+            if not any(row.has(offset) for row in rows):
+                lack = f"{self.title} has no work offset {offset}"
+                remedy = f"use one of: {', '.join(row.name for row in rows)}"
+                key = "cam.work_offset" if offset == settings.work_offset else "cam.more_offsets"
+                found.append(Finding.error("cam.work-offset", key, lack, remedy=remedy))
+        if settings.post.restart and settings.more_offsets:
+            remedy = "leave restart out"
+            found.append(Finding.error("cam.restart", "cam.post.restart", RESTARTS_NONE, remedy=remedy))
         if settings.compensation != "computer" and self.offsets.d is None:
             lack = f"{self.title} {self.no_compensation}"
             remedy = 'use compensation = "computer"'
@@ -122,17 +132,27 @@ class GcodeControl(Sections):
         self.comment(out, f"program {program.name}, {self.title}")
         for note in program.notes:
             self.comment(out, note)
-        zero, unit = self.offset_words(program.work_offset), self.units
+        zero, unit = self.zeros(program), self.units
         self.comment(out, f"origin {zero}, Z0 on top of the stock, units {unit} and {unit}/min")
         for tool in program.tools:
             self.comment(out, self.tool_note(tool))
         for offset in self.offsets.of_program(program):
             self.comment(out, self.d_note(offset))
 
+    def zeros(self, program: Program) -> str:
+        """What people at the control call the work offsets of a program."""
+        return ", ".join(map(self.offset_words, program.offsets))
+
     def set_offsets(self, out: Writer) -> None:
-        """Write the measured work offset and tool lengths into the control's tables."""
-        program, places = out.program, out.program.measured
-        missing = [f"cam.measured.{axis}" for axis in "xyz" if getattr(places, axis) is None]
+        """Write the measured work offsets and tool lengths into the control's tables."""
+        program, places = out.program, {out.program.work_offset: out.program.measured}
+        places |= {offset: program.measured.of(offset) for offset in program.more_offsets}
+        missing = [
+            f"cam.measured.{axis if offset == program.work_offset else f'more.{offset}.{axis}'}"
+            for offset, place in places.items()
+            for axis in "xyz"
+            if getattr(place, axis) is None
+        ]
         missing += [f"cam.measured.lengths.{tool.name}" for tool in program.tools if tool.length is None]
         if missing:
             raise ProgramError(
@@ -140,9 +160,8 @@ class GcodeControl(Sections):
                 "given; measure it, or leave the offsets to the operator"
             )
         self.comment(out, "measured offsets")
-        out.line(
-            self.write_offset(program.work_offset, {axis.upper(): getattr(places, axis) for axis in "xyz"})
-        )
+        for offset, place in places.items():
+            out.line(self.write_offset(offset, {axis.upper(): getattr(place, axis) for axis in "xyz"}))
         for tool in program.tools:
             for line in self.tool_words(tool):
                 out.line(line)

@@ -77,7 +77,7 @@ class Grbl(Probing, GcodeControl):
         runs = [list(run) for _, run in groupby(program.sections, key=lambda section: section.tool.number)]
         files = {}
         for place, run in enumerate(runs, start=1):
-            note = f"file {place} of {len(runs)}, {self._load(run[0])}"
+            note = f"file {place} of {len(runs)}, {self._load(run[0], program)}"
             name = f"{program.name}-{place}-t{run[0].tool.number}"
             one = replace(
                 program, name=name, sections=tuple(run), notes=(*program.notes, note), posting=posting
@@ -154,13 +154,14 @@ class Grbl(Probing, GcodeControl):
         out.tool = section.tool.number
         out.line(f"T{section.tool.number}")
         if out.program.posting.tool_change != "files":
-            self.message(out, self._load(section))
+            self.message(out, self._load(section, out.program))
             out.line(self.m(0))
             self.retract(out)  # whoever has touched off has left the tool low
 
-    def _load(self, section: ToolSection) -> str:
+    def _load(self, section: ToolSection, program: Program) -> str:
         tool = section.tool
-        touch = "" if tool.length is not None else ", touch it off on the stock as Z0"
+        at = f" of {self.zeros(program)}, each on its own stock" if program.more_offsets else ""
+        touch = "" if tool.length is not None else f", touch it off on the stock as Z0{at}"
         return f"load T{tool.number} {tool.name}{touch}"
 
     def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from mechwright.contracts.finding import Finding
 from mechwright_cam.controls.dialect import Corners
-from mechwright_cam.controls.fanuc import Fanuc
+from mechwright_cam.controls.fanuc import SUBPROGRAMS, Fanuc
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import G54_TO_G59, HAAS_OFFSETS
 from mechwright_cam.controls.writing.writer import Writer
@@ -26,6 +27,7 @@ class Haas(Fanuc):
     )
     dialect = replace(
         Fanuc.dialect,
+        calls="97",
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},
         m_codes=Fanuc.dialect.m_codes - {29},
         tapping="always",
@@ -44,6 +46,27 @@ class Haas(Fanuc):
     tap_needs = "G84 taps rigidly where the machine has the option; look whether it is turned on."
     highest_tool = 200
     retract_motion = "G0"
+
+    def subprogram_number(self, out: Writer, number: int) -> int:  # noqa: ARG002 - blocks are of one program
+        """The N number of its first block."""
+        return SUBPROGRAMS + number
+
+    def subprogram_begins(self, out: Writer, number: int) -> str:
+        """Its first block, within the program itself."""
+        return f"N{self.subprogram_number(out, number)}"
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """M97 stays within the program."""
+        return f"M97 P{self.subprogram_number(out, number)}"
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """As Fanuc; N numbers are the places of subprograms, too."""
+        found = list(super().check(settings))
+        if settings.post.line_numbers and settings.more_offsets:
+            said = "with more_offsets N numbers say where subprograms begin (M97)"
+            remedy = "leave line_numbers out"
+            found.append(Finding.error("cam.line-numbers", "cam.post.line_numbers", said, remedy=remedy))
+        return found
 
     def retract_lines(self, z: float) -> Sequence[str]:
         """To the upper end of travel, in machine coordinates."""

@@ -41,6 +41,7 @@ class HeidenhainTnc(GcodeControl):
     title = "HEIDENHAIN TNC"
     suffix = ".h"
     dialect = Dialect(
+        calls="98",
         # The codes of the interpreter that the blocks of the control come to.
         g_codes=frozenset(
             {0, 10, 20, 30, 40, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 580, 590, 640}
@@ -67,6 +68,7 @@ class HeidenhainTnc(GcodeControl):
     work_offsets = (PRESETS,)
     no_length = "TOOL CALL 0 Z"
     stages = True
+    subprograms = "behind"
     highest_tool = 32767
     forbidden = "~;"
     tolerances = (ROUGH, TOLERANCES.arc_fit, EXACT)
@@ -104,11 +106,37 @@ class HeidenhainTnc(GcodeControl):
 
     def safe_start(self, out: Writer) -> None:
         """The preset, and how far corners are rounded; BEGIN PGM brings all other modes back."""
-        offset = out.program.work_offset
-        out.line("CYCL DEF 247 DATUM SETTING ~")
-        out.line(f"Q339={signed(str(PRESETS.place(offset)))} ;DATUM NUMBER")
+        if not out.program.more_offsets:  # else each is put in force before its work
+            self._preset(out, out.program.work_offset)
         out.corners = self.blending(out.program.posting.exact_stop)
         self.corner_lines(out, out.corners)
+
+    def _preset(self, out: Writer, offset: str) -> None:
+        """A row of the preset table in force."""
+        out.line("CYCL DEF 247 DATUM SETTING ~")
+        out.line(f"Q339={signed(str(PRESETS.place(offset)))} ;DATUM NUMBER")
+
+    def take_offset(self, out: Writer, section: ToolSection, *, turns: bool) -> None:
+        """The preset, and the spindle unless it turns."""
+        self._preset(out, out.offset)
+        if not turns:
+            self._offset_and_spindle(out, section)
+
+    def subprogram_number(self, out: Writer, number: int) -> int:  # noqa: ARG002 - labels are of one program
+        """From 1 on: older controls have 254."""
+        return number
+
+    def subprogram_begins(self, out: Writer, number: int) -> str:
+        """The label of a number."""
+        return f"LBL {self.subprogram_number(out, number)}"
+
+    def subprogram_ends(self, out: Writer, number: int) -> str:  # noqa: ARG002 - there is one
+        """The label that ends all subprograms."""
+        return "LBL 0"
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """Once."""
+        return f"CALL LBL {self.subprogram_number(out, number)}"
 
     def corner_lines(self, out: Writer, words: Sequence[str]) -> None:
         """A cycle of two blocks."""
@@ -221,9 +249,9 @@ class HeidenhainTnc(GcodeControl):
 
     def needs(self, settings: CamSettings) -> Sequence[str]:
         """Presets without turns, tools without deltas, machine Z of the retract, feeds in inches."""
-        offset = self.offset_words(settings.work_offset)
+        offsets = ", ".join(map(self.offset_words, settings.offsets))
         said = [
-            f"The program takes {offset} (CYCL DEF 247): its columns SPA, SPB and SPC (ROT) have to be 0.",
+            f"The program takes {offsets} (CYCL DEF 247): its columns SPA, SPB and SPC (ROT) have to be 0.",
             "Length and radius come from the tool table at TOOL CALL: DL, DR and DR2 there are wear "
             "alone, at first 0.",
             f"{self.retract_words(settings.machine)} goes to machine Z, without the tool's length: it has to "

@@ -73,6 +73,7 @@ class LinuxCnc(Probing, GcodeControl):
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
     stages = True
+    subprograms = "first"
     taps = EVERY_WAY
     tap_needs = "G33.1 needs an encoder on the spindle, whose index is wired to spindle.0.index-enable."
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
@@ -111,6 +112,18 @@ class LinuxCnc(Probing, GcodeControl):
         out.line("G33.1", "Z" + out.height(hole.bottom), "K" + out.pitch(out.tapping.pitch or 0.0))
         out.motion = ""
         self.rapid(out, Rapid(z=above))
+
+    def subprogram_begins(self, out: Writer, number: int) -> str:
+        """An O-word; the control passes over what stands up to its end until it is called."""
+        return f"o{self.subprogram_number(out, number)} sub"
+
+    def subprogram_ends(self, out: Writer, number: int) -> str:
+        """The O-word of the same number."""
+        return f"o{self.subprogram_number(out, number)} endsub"
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """The O-word of the same number."""
+        return f"o{self.subprogram_number(out, number)} call"
 
     def message(self, out: Writer, text: str) -> None:
         """Show a message on the control's screen."""

@@ -18,6 +18,7 @@ class Mach3(GcodeControl):
     name = "mach3"
     title = "Mach3"
     dialect = Dialect(
+        calls="98",
         g_codes=MILLING | {901, 911, 921},
         unsupported=NOT_SIMULATED,
         inert=((500, ""), (690, ""), (970, "")),
@@ -28,6 +29,7 @@ class Mach3(GcodeControl):
         tables=frozenset({1, 2}),
         corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
     )
+    subprograms = "behind"
     taps = frozenset({"floating"})
     forbidden = "%;"
     highest_tool = 254
@@ -36,6 +38,10 @@ class Mach3(GcodeControl):
         "G69 before zero is set"
     )
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """M98, once."""
+        return super().subprogram_call(out, number) + " L1"
 
     def head(self, out: Writer) -> None:
         """Tell the setting that the program relies on, where it does."""

@@ -133,3 +133,19 @@ G54_TO_G59 = WorkOffsets("G54 to G59", r"G(5[4-9])", "G10 L2 P{}", 53)
 LINUXCNC_OFFSETS = WorkOffsets("G59.1 to G59.3", r"G59\.([1-3])", "G10 L2 P{}", -6)
 FANUC_OFFSETS = WorkOffsets("G54.1 P1 to P48", r"G54\.1 P([1-9]|[123]\d|4[0-8])", "G10 L20 P{}")
 HAAS_OFFSETS = WorkOffsets("G154 P1 to P99", r"G154 P([1-9]\d?)", "G10 L20 P{}")
+
+
+_ROWS = (
+    (r"G(5[4-9])", 2, -53),
+    (r"G59\.([1-3])", 2, 6),
+    (r"(?:G54\.1|G154) P(\d+)", 20, 0),
+)
+"""How work offsets are spelt, the L of G10 that sets them, and what to add to their number for its P."""
+
+
+def place_of(offset: str) -> tuple[int, int]:
+    """L and P of the G10 that sets a work offset."""
+    for pattern, table, more in _ROWS:
+        if match := re.fullmatch(pattern, offset):
+            return table, int(match[1]) + more
+    return 0, 0

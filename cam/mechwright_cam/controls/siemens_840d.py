@@ -27,6 +27,7 @@ class Siemens840D(GcodeControl):
     title = "SINUMERIK 840D"
     suffix = ".mpf"
     dialect = Dialect(
+        calls="98",
         # The codes of the interpreter that the words of the control come to.
         g_codes=frozenset(
             {0, 10, 20, 30, 40, 100, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 610, 640}
@@ -52,6 +53,7 @@ class Siemens840D(GcodeControl):
     work_offsets = (G54_TO_G57,)
     no_length = "D0"
     stages = True
+    subprograms = "behind"
     highest_tool = 32000
     forbidden = '%;"$'
     modes = ("G17", sinumerik.METRIC, "G40", "G90", "G94", "COMPOF")
@@ -78,6 +80,19 @@ class Siemens840D(GcodeControl):
     def machine_words(self) -> Sequence[str]:
         """The words before axes that are machine coordinates."""
         return ("G0", "SUPA")
+
+    def subprogram_begins(self, out: Writer, number: int) -> str:
+        """The label at its beginning."""
+        return f"SUB_{self.subprogram_number(out, number)}:"
+
+    def subprogram_ends(self, out: Writer, number: int) -> str:
+        """The label at its end."""
+        return f"SUB_{self.subprogram_number(out, number)}_END:"
+
+    def subprogram_call(self, out: Writer, number: int) -> str:
+        """The blocks between both labels are run as a subprogram."""
+        one = f"SUB_{self.subprogram_number(out, number)}"
+        return f"CALL BLOCK {one} TO {one}_END"
 
     def change_words(self, tool: int) -> str:
         """What changes to a tool."""

@@ -15,7 +15,7 @@ class MilledPlates(RawStock):
     def blanks(self, build: Build) -> Sequence[Blank]:
         """One for each plate or nest; the second side of a plate is no second plate."""
         from mechwright_cam.machining import Machining
-        from mechwright_cam.pages.setup_sheet.procedure import quantity
+        from mechwright_cam.pages.setup_sheet.several import quantity
 
         found = []
         for job in build.made(Machining).jobs:

@@ -86,6 +86,7 @@ class _Planner:
             ),
             compensation=job.settings.compensation,
             wear_limit=job.settings.wear_limit,
+            more_offsets=job.settings.more_offsets,
         )
 
     def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:

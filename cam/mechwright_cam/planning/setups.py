@@ -87,10 +87,14 @@ def _second(
 ) -> tuple[Job | None, list[Finding]]:
     """The job of the underside: the plate is the part, and keeps all but the underside's features."""
     side = first.settings.second_side
-    if side.work_offset == first.settings.work_offset:
-        raise DesignError(
-            f"cam.second_side.work_offset: {side.work_offset} is the first side's; the second needs its own"
-        )
+    own = (side.work_offset, *side.more_offsets)
+    for before, offset in enumerate(own):
+        if offset in first.settings.offsets:
+            raise DesignError(
+                f"cam.second_side.work_offset: {offset} is the first side's; the second needs its own"
+            )
+        if offset in own[:before]:
+            raise DesignError(f"cam.second_side.more_offsets: {offset} is named twice; name it once")
     if first.settings.hold.method != "tabs":
         raise DesignError(
             f"cam.hold.method: part {part.name} has features on its underside and would be loose by then; "
@@ -116,10 +120,11 @@ def _second(
         frame=_frame(first, dowels, side.flip),
     )
     # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
-    place = {"x": side.x, "y": side.y, "z": side.z}
+    place = {"x": side.x, "y": side.y, "z": side.z, "more": {}}
     post = first.settings.post
     changes = {
         "work_offset": side.work_offset,
+        "more_offsets": side.more_offsets,
         "stock": Stock(margin=0.0),
         "hold": Hold(),
         "measured": first.settings.measured.model_copy(update=place),

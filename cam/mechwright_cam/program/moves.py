@@ -149,6 +149,8 @@ class Program:
         What D holds where the moves turn cutter compensation on.
     wear_limit
         By so much D may differ from what is planned, up or down, as a radius, mm.
+    more_offsets
+        Further work offsets, at which each tool makes the same moves before the next is changed to.
     """
 
     name: str
@@ -161,6 +163,12 @@ class Program:
     measured: Measured = field(default=Measured())
     compensation: Compensation = field(default="computer")
     wear_limit: float = field(default=0.0)
+    more_offsets: tuple[str, ...] = field(default=())
+
+    @property
+    def offsets(self) -> tuple[str, ...]:
+        """All work offsets, in the order in which they are gone to."""
+        return (self.work_offset, *self.more_offsets)
 
     @cached_property
     def compensated(self) -> tuple[Tool, ...]:

@@ -11,12 +11,14 @@ from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.cores import together
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.holding import remarks
 from mechwright_cam.proof.report import Check, Proof, Spot
 from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.several import together as operations_at_all
 from mechwright_cam.proof.timing import operations, step_times
 from mechwright_cam.setup.job import Job
 
@@ -48,12 +50,12 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES, progress: Progress = unhe
     PluginError
         A rule cannot tell; the message names the rule.
     """
-    proof, text = _judged(scene, rules, progress), scene.text
+    proof, text = _at_all(scene, rules, progress), scene.text
     if not proof.ok or not any(map(SWITCHED.search, [text] if isinstance(text, str) else text.values())):
         return proof
     words = "with lines that start with / skipped, "
     try:
-        other = _judged(replace(scene, block_delete=True), rules)
+        other = _at_all(replace(scene, block_delete=True), rules)
     except ProgramError as error:
         raise ProgramError(words + str(error)) from error
     if other.ok:
@@ -67,6 +69,36 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES, progress: Progress = unhe
 
 READ, SIMULATED = 0.05, 0.4
 """Parts of a proof that are done when the program is read, and when its cuts are simulated: as measured."""
+
+
+def _at_all(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -> Proof:
+    """What the rules say of one run at all work offsets of the job: what one of them finds is found."""
+    first = _judged(scene, rules, progress)
+    more = scene.job.settings.more_offsets
+    if not more or not first.ok:
+        return first
+    proofs = [first]
+    for offset in more:
+        proofs.append(_judged(scene.at(offset), rules))
+        if not proofs[-1].ok:
+            said = f"at {scene.control.offset_words(offset)}, "
+            checks = {
+                name: check if check.passed else replace(check, message=said + check.message)
+                for name, check in proofs[-1].checks.items()
+            }
+            return replace(proofs[-1], checks=checks)
+    changes = int(np.count_nonzero(scene.run.kind == Kind.TOOL)) * scene.job.settings.machine.tool_change
+    times = [proof.operations for proof in proofs]
+    return replace(
+        first,
+        gouge_max_mm=max(proof.gouge_max_mm for proof in proofs),
+        leftover_reachable_max_mm=max(proof.leftover_reachable_max_mm for proof in proofs),
+        # Each of them counts the changes of tools, which are made once.
+        time_estimate_s=sum(proof.time_estimate_s for proof in proofs) - changes * len(more),
+        cutting_length_mm=sum(proof.cutting_length_mm for proof in proofs),
+        operations=operations_at_all(times),
+        notes=tuple(dict.fromkeys(note for proof in proofs for note in proof.notes)),
+    )
 
 
 def _judged(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -> Proof:

@@ -1,11 +1,11 @@
 """Rules about offsets: lengths and diameters of tools, what a program writes into the control's tables."""
 
-import re
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mechwright_cam.controls.offsets import place_of
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import TableWrite
 from mechwright_cam.proof.report import Check
@@ -94,14 +94,6 @@ def diameter_offset(scene: Scene) -> Check:
     return Check(True, "compensation takes the D of the tool in the spindle")
 
 
-_ROWS = (
-    (r"G(5[4-9])", 2, -53),
-    (r"G59\.([1-3])", 2, 6),
-    (r"(?:G54\.1|G154) P(\d+)", 20, 0),
-)
-"""How work offsets are spelt, the L of G10 that sets them, and what to add to their number for its P."""
-
-
 def offset_tables(scene: Scene) -> Check:
     """G10 sets the job's work offset and the lengths of its tools to what was measured, and nothing else."""
     for write in scene.run.writes:
@@ -118,7 +110,7 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
     job = scene.job
     offset, lengths = job.settings.work_offset, scene.control.length_write
     own: dict[str, tuple[str, float | None]] = {}
-    if (write.table, write.number) == _place_of(offset):
+    if (write.table, write.number) == place_of(offset):
         own = {
             axis: (f"cam.measured.{axis.lower()}", getattr(job.settings.measured, axis.lower()))
             for axis in "XYZ"
@@ -142,18 +134,10 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
     return ""
 
 
-def _place_of(offset: str) -> tuple[int, int]:
-    """L and P of the G10 that sets a work offset."""
-    for pattern, table, more in _ROWS:
-        if match := re.fullmatch(pattern, offset):
-            return table, int(match[1]) + more
-    return 0, 0
-
-
 def _allowed(scene: Scene) -> str:
     """The G10 that may stand in a program of this job."""
     offset = scene.job.settings.work_offset
-    words = "its own: G10 L{} P{} for {}".format(*_place_of(offset), offset)
+    words = "its own: G10 L{} P{} for {}".format(*place_of(offset), offset)
     if scene.control.length_write is not None:
         words += f", L{scene.control.length_write[0]} for the lengths of its tools"
     return words

@@ -70,6 +70,7 @@ _HOMES = (
     ("power_rules", "power"),
     ("cutting_state", "dwells"),
     ("motion_rules", "travel flutes underside beside"),
+    ("neighbours", "neighbours"),
     ("entry_rules", "rapid_height rapids_in_stock entries"),
     ("held", "holder clamp"),
     ("part_rules", "gouge"),

@@ -1,7 +1,7 @@
 """What all rules look at."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.lookahead import Motion
+from mechwright_cam.controls.offsets import place_of
 from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
@@ -22,11 +23,29 @@ from mechwright_cam.proof.off_path import OffPath
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.several import alike, at_offset
 from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
+
+_OF_MOVES = frozenset(
+    {
+        "motion",
+        "off_path",
+        "sweeps",
+        "stock",
+        "footprint",
+        "pieces",
+        "simulation",
+        "gouge",
+        "in_tab",
+        "remains",
+    }
+    | {"misfit"}
+)
+"""What follows from the moves and the part alone, and not from the work offset in which they are made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,16 +64,32 @@ class Scene:
 
     @cached_property
     def run(self) -> Run:
-        """The program as run; raises ProgramError that names file and line."""
+        """The program as run; raises ProgramError that names file and line.
+
+        Of a program for several plates it is what is done at the work offset of the job.
+        """
         return self.read()
 
     def read(self, more: float = 0.0) -> Run:
         """Run the program on the machine of the job, each D as a radius ``more`` mm larger than planned."""
         diameters = {number: 2 * (d + more) for number, d in planned_offsets(self.job).items()}
         upper_end = self.job.settings.machine.retract_z
-        return self.control.read(
+        run = self.control.read(
             self.text, block_delete=self.block_delete, upper_end=upper_end, diameters=diameters
         )
+        others = self.job.settings.more_offsets
+        return at_offset(run, others, [place_of(other) for other in others]) if others else run
+
+    def at(self, offset: str) -> "Scene":
+        """The same program at another of the work offsets of the job.
+
+        What is worked out here is not worked out again where it does the same there.
+        """
+        other = replace(self, job=replace(self.job, settings=self.job.settings.at(offset)))
+        if alike(self.run, other.run):
+            worked = {name: found for name, found in self.__dict__.items() if name in _OF_MOVES}
+            other.__dict__.update(worked)
+        return other
 
     @cached_property
     def tools(self) -> dict[int, Tool]:

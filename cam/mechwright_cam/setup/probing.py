@@ -34,6 +34,8 @@ def unprobed(job: Job) -> str:
     probe = job.settings.probe
     if probe.tool is None:
         return "no probe is named"
+    if job.settings.more_offsets:
+        return "it finds one zero, and there are more_offsets; find them by hand"
     if job.side != "top":
         return "the second side is picked up by bore, dowels or edges by hand"
     if job.jaws or job.toes:

@@ -121,6 +121,9 @@ class SecondSide(Parameters):
     """How the plate is turned over for features that only the underside shows."""
 
     work_offset: WorkOffset = Field("G55", description="Work offset of the second side.")
+    more_offsets: tuple[WorkOffset, ...] = Field(
+        (), description="Further work offsets of second sides: the same is milled at each."
+    )
     flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
     locate: Literal["bore", "edges", "dowels"] = Field(
         "bore", description="What X0 Y0 is picked up by: the largest bore, the plate's edges, or two dowels."
@@ -136,4 +139,6 @@ class SecondSide(Parameters):
     def _whole(self) -> Self:
         if 0 < [self.x, self.y, self.z].count(None) < 3:
             raise ValueError("give x, y and z of the measured work offset, or none of them")
+        if self.x is not None and self.more_offsets:
+            raise ValueError("x, y and z are of one work offset; leave them out with more_offsets")
         return self

@@ -78,6 +78,14 @@ Compensation = Literal["computer", "control", "wear"]
 the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
 
 
+class MachinePlace(Parameters):
+    """Where a work offset lies."""
+
+    x: Place = Field(None, description="Machine X of the work offset.")
+    y: Place = Field(None, description="Machine Y of the work offset.")
+    z: Place = Field(None, description="Machine Z of the work offset.")
+
+
 class Measured(Parameters):
     """What was read at the machine; the setup sheet says how."""
 
@@ -87,3 +95,11 @@ class Measured(Parameters):
     lengths: dict[str, Annotated[Millimetres, Field(ge=-1000, le=1000)]] = Field(
         default_factory=dict, description="Tool name to its length offset H."
     )
+    more: dict[WorkOffset, MachinePlace] = Field(
+        default_factory=dict, description="Work offset of more_offsets to its machine X, Y and Z."
+    )
+
+    def of(self, offset: str) -> "Measured":
+        """The same with the place of one of the further work offsets; unknown where it is not measured."""
+        place = self.more.get(offset, MachinePlace())
+        return self.model_copy(update={"x": place.x, "y": place.y, "z": place.z})

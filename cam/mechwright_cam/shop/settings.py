@@ -12,7 +12,15 @@ from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
 from mechwright_cam.shop.machine import Machine
-from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, Probe, WorkOffset
+from mechwright_cam.shop.posting import (
+    LEAST_CLEARANCE,
+    Compensation,
+    MachinePlace,
+    Measured,
+    Posting,
+    Probe,
+    WorkOffset,
+)
 from mechwright_cam.shop.tool import CuttingChange
 
 DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
@@ -88,6 +96,11 @@ class CamSettings(Parameters):
     work_offset: WorkOffset = Field(
         "G54",
         description="Work offset: G54 to G59; G59.3, G54.1 P48 or G154 P99 where the control has it.",
+        json_schema_extra=FIRST,
+    )
+    more_offsets: tuple[WorkOffset, ...] = Field(
+        (),
+        description="Further work offsets: the same is milled at each, every tool being changed to once.",
         json_schema_extra=FIRST,
     )
     origin: Literal["axis", "corner", "centre"] = Field(
@@ -178,6 +191,35 @@ class CamSettings(Parameters):
         False, description="Whether dots that show how parts stand to each other are engraved."
     )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
+
+    @model_validator(mode="after")
+    def _offsets_once(self) -> Self:
+        for place, offset in enumerate(self.offsets):
+            if offset in self.offsets[:place]:
+                raise ValueError(
+                    f"more_offsets: {offset} is named twice; give each plate a work offset of its own"
+                )
+        for offset in self.measured.more:
+            if offset not in self.more_offsets:
+                raise ValueError(
+                    f"measured.more: {offset} is none of more_offsets; name it there, or leave it out"
+                )
+        return self
+
+    @property
+    def offsets(self) -> tuple[str, ...]:
+        """The work offsets at which the same is milled, each once."""
+        return (self.work_offset, *self.more_offsets)
+
+    def at(self, offset: str) -> Self:
+        """The same seen from another of its work offsets, whose place is that measured for it."""
+        if offset == self.work_offset:
+            return self
+        own = MachinePlace(x=self.measured.x, y=self.measured.y, z=self.measured.z)
+        rest = {other: place for other, place in self.measured.more.items() if other != offset}
+        measured = self.measured.of(offset).model_copy(update={"more": {self.work_offset: own, **rest}})
+        others = tuple(other for other in self.offsets if other != offset)
+        return self.model_copy(update={"work_offset": offset, "more_offsets": others, "measured": measured})
 
 
 class Hole(Parameters):

@@ -1,7 +1,7 @@
 """Whether a control reads what it writes, and says one thing of its offsets everywhere."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -95,3 +95,12 @@ def assert_one_d(control: Control, job: Job, program: Program) -> None:
             assert [row for row in rows if re.search(rf"(?<![\d.-]){value}(\.0*)?(?![\d.])", row)], (
                 f"{offset.planned:g} for D{offset.number} is not in the file of offsets"
             )
+
+
+def assert_same_at(run: Run, offsets: Sequence[str]) -> None:
+    """Assert that a run makes the same cuts, with the same tools and feeds, at each of some work offsets."""
+    offset = run.of_states(lambda state: state.work_offset)
+    cuts = [np.column_stack((run.end, run.feed, run.tool))[run.cutting & (offset == one)] for one in offsets]
+    assert len(cuts[0]), f"nothing is cut at {offsets[0]}"
+    for name, own in zip(offsets, cuts, strict=True):
+        assert np.array_equal(own, cuts[0]), f"the cuts at {name} are not those at {offsets[0]}"

@@ -9,12 +9,13 @@ import pytest
 from mechwright.contracts.finding import errors
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.program.moves import Pause, Program
 from mechwright_cam.shop.posting import Compensation
 from mechwright_cam.shop.tool import Tool
-from mechwright_cam.testing.agreement import assert_one_d, assert_read_back
+from mechwright_cam.testing.agreement import assert_one_d, assert_read_back, assert_same_at
 from mechwright_cam.testing.changes import changed
 from mechwright_cam.testing.programs import compensated_sample, plate_job, sample_program
 
@@ -169,6 +170,18 @@ class ControlContract:
     def test_reads_back_what_it_writes(self) -> None:
         """Every cut is read where the program has it, with its tool, feed, spindle, coolant and offset."""
         assert_read_back(self.control(), self.program())
+
+    def test_does_the_same_at_every_work_offset(self) -> None:
+        """With further work offsets every cut is read at each, and every tool is changed to once."""
+        control, program = self.control(), self.program()
+        if not control.several:
+            pytest.skip("the control has programs for one work offset alone")
+        other = next(o for o in ("G54", "G55") if o != program.work_offset)
+        program = replace(program, more_offsets=(other,))
+        files = control.files(program)
+        run = control.read(files if len(files) > 1 else next(iter(files.values())))
+        assert_same_at(run, program.offsets)
+        assert (run.kind == Kind.TOOL).sum() <= len(program.sections), "a tool is changed to more than once"
 
     @pytest.mark.parametrize("way", ["control", "wear"])
     @pytest.mark.parametrize("quantity", ["radius", "diameter"])

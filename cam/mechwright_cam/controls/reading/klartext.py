@@ -20,15 +20,18 @@ from collections.abc import Callable
 
 from mechwright_cam.controls.reading.arcs import rotated
 from mechwright_cam.controls.reading.blocks import fail
+from mechwright_cam.controls.reading.klartext_labels import Labels
 from mechwright_cam.controls.reading.klartext_words import (
     CYCLES,
     NAME,
     NO_CYCLE,
     NUMBER,
     check_length,
+    dwell_of,
     functions_of,
     plain,
     refused,
+    tolerance_of,
     words_of,
     worked_out,
 )
@@ -52,8 +55,6 @@ _CALL_WORD = re.compile(rf"(S|F|DL|DR)({NUMBER})")
 _DEF = re.compile(r"TOOL DEF (\d+)")
 _CYCL = re.compile(r"CYCL DEF (\d+)(?:\.(\d))?(?: (.*))?")
 _DATUM = re.compile(r"(?:[A-Z][A-Z .-]*?)?(?: ?Q339 ?= ?([+]?\d+))?")
-_DWELL = re.compile(rf"(?:DWELL|V\.ZEIT) ?({NUMBER})")
-_TOLERANCE = re.compile(rf"(?:T ?({NUMBER}))?")
 _NAMED = re.compile(r"([A-Z]+)")
 _ODD = re.compile(r"[^\t -~]")
 
@@ -100,6 +101,7 @@ class _Reading:
         """A cycle of several blocks, and the part that has to come next."""
         self.axis = False
         """Whether a tool with its axis has been called, so that arcs have a plane."""
+        self.labels = Labels()
         self.centre: tuple[str, str] | None = None
         self.place: dict[str, float | None] = dict.fromkeys("XYZ")
         """Where the tool stands, as the text says; None where it does not."""
@@ -171,7 +173,11 @@ class _Reading:
             return self._begin(number, match)
         if not self.name:
             raise fail(number, "a block before BEGIN PGM; write 0 BEGIN PGM NAME MM first")
-        if self.ended and not code.startswith("END"):
+        if called := self.labels.read(number, code, self.ended):
+            # Where the tool stands in a subprogram, and behind it, another place of the text says.
+            self.place, self.centre = dict.fromkeys("XYZ"), None
+            return called
+        if self.ended and not self.labels.inside and not code.startswith("END"):
             raise fail(number, "a block behind the end of the program, where only labels stand; take it out")
         if self.cycle is not None and not code.startswith(f"CYCL DEF {self.cycle[0]}.{self.cycle[1]}"):
             cycle, part = self.cycle
@@ -191,6 +197,7 @@ class _Reading:
         return f"{'G20' if self.units == 'INCH' else 'G21'} {HEAD}"
 
     def _end(self, number: int, code: str) -> str:
+        self.labels.finish(number)
         match = _END.fullmatch(code)
         if match is None or (match[1], match[2]) != (self.name, self.units):
             raise fail(number, f"{code}: the program ends with END PGM {self.name} {self.units}")
@@ -251,7 +258,7 @@ class _Reading:
             return ""
         if cycle in {9, 32} and part == "1" and self.cycle == (cycle, 1):
             self.cycle = None
-            return self._dwell(number, rest) if cycle == 9 else self._path_tolerance(number, rest)
+            return dwell_of(number, rest) if cycle == 9 else tolerance_of(number, rest)
         if cycle in {9, 32} and part == "1":
             raise fail(number, f"CYCL DEF {cycle}.1 without CYCL DEF {cycle}.0 before it")
         name = f"CYCL DEF {cycle}" + (f".{part}" if part else "")
@@ -268,22 +275,6 @@ class _Reading:
             raise fail(number, f"preset {preset}: those of a job are 1 to {LAST_PRESET}, its G54 to G59")
         self.place = dict.fromkeys("XYZ")
         return f"G{53 + preset}"
-
-    def _dwell(self, number: int, rest: str) -> str:
-        match = _DWELL.fullmatch(rest)
-        if match is None:
-            raise fail(number, "CYCL DEF 9.1 needs DWELL and its seconds")
-        return f"G4 P{plain(match[1])}"
-
-    def _path_tolerance(self, number: int, rest: str) -> str:
-        match = _TOLERANCE.fullmatch(rest)
-        if match is None:
-            raise fail(number, "CYCL DEF 32.1 is read with T alone, how far the control may leave the path")
-        if match[1] is None:
-            return "G64"
-        if not float(plain(match[1])) > 0:
-            raise fail(number, "T of CYCL DEF 32.1 has to be above 0; without T the machine's setting holds")
-        return f"G64 P{plain(match[1])} Q0"
 
     # -- moves ----------------------------------------------------------------------------------------------
 

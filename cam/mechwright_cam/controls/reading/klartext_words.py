@@ -123,3 +123,27 @@ def refused(number: int, word: str) -> ProgramError:
     name = word if word in REFUSED or found is None else found[0]
     what = REFUSED.get(name, _M if name == "M" else "post the program without it")
     return fail(number, f"{word} is no word that is read in programs for {NAME}; {what}")
+
+
+_DWELL = re.compile(rf"(?:DWELL|V\.ZEIT) ?({NUMBER})")
+_TOLERANCE = re.compile(rf"(?:T ?({NUMBER}))?")
+
+
+def dwell_of(number: int, rest: str) -> str:
+    """The second block of cycle 9 as the interpreter has it."""
+    match = _DWELL.fullmatch(rest)
+    if match is None:
+        raise fail(number, "CYCL DEF 9.1 needs DWELL and its seconds")
+    return f"G4 P{plain(match[1])}"
+
+
+def tolerance_of(number: int, rest: str) -> str:
+    """The second block of cycle 32 as the interpreter has it."""
+    match = _TOLERANCE.fullmatch(rest)
+    if match is None:
+        raise fail(number, "CYCL DEF 32.1 is read with T alone, how far the control may leave the path")
+    if match[1] is None:
+        return "G64"
+    if not float(plain(match[1])) > 0:
+        raise fail(number, "T of CYCL DEF 32.1 has to be above 0; without T the machine's setting holds")
+    return f"G64 P{plain(match[1])} Q0"

@@ -1,7 +1,7 @@
 """A program read from its first line to its end."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -10,6 +10,7 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading import stretch
 from mechwright_cam.controls.reading.blocks import Block, fail, read_block
+from mechwright_cam.controls.reading.calls import Calls, uses_calls
 from mechwright_cam.controls.reading.characters import Faults
 from mechwright_cam.controls.reading.machine import Machine
 from mechwright_cam.controls.reading.macros import uses_macros
@@ -52,10 +53,13 @@ def interpret(
     if dialect.translate is not None:
         text = dialect.translate(text, block_delete)
     lines, plain = text.split("\n"), PlainLines(text, dialect, block_delete=block_delete)
-    source = Lines(lines)
+    source, called = Lines(lines), set[int]()
     others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.line_length)
     if dialect.macros and uses_macros("\n".join(others)):
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
+    elif dialect.calls and uses_calls(list(compress(lines, ~plain.plain))):
+        source = Calls(lines, dialect.calls)
+        called = source.covered
     percents = 0
     faults, blocks = Faults(text, lines, dialect), Blocks(dialect)
     plain.strike(faults.at)
@@ -78,7 +82,7 @@ def interpret(
                 raise fail(index + 1, "a % without one in the first line; put one there, or take this out")
             if percents == 2:
                 machine.ended = machine.ended or dialect.percent_ends
-                return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
+                return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect, called))
             continue
         block = blocks.read(index + 1, raw)
         if block.title and any(map(CODE.match, lines[:index])):
@@ -88,7 +92,7 @@ def interpret(
         machine.run(block)
         machine.check_steps(index + 1)
         if machine.ended:
-            return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
+            return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect, called))
     return machine.result(len(lines))
 
 
@@ -131,14 +135,16 @@ def _run_rows(
         at = after
 
 
-def _beyond(lines: Sequence[str], end: int, dialect: Dialect) -> int:
+def _beyond(lines: Sequence[str], end: int, dialect: Dialect, called: Set[int]) -> int:
     """Number of the first line of a program behind the line of index ``end``, 0 if there is none.
 
-    Subroutines may stand there.
+    Subroutines may stand there, those of indices ``called``.
     """
     for index, raw in enumerate(lines[end + 1 :], end + 1):
         if raw.strip() == "%":
             break
+        if index in called:
+            continue
         if CODE.match(raw):
             subroutine = dialect.macros is not None and raw.strip()[0] in "oO"
             return 0 if subroutine else index + 1

@@ -12,6 +12,7 @@ SUPA
 """
 
 import re
+from collections.abc import Sequence
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.blocks import NUMBER, fail
@@ -69,6 +70,8 @@ _WORD = re.compile(rf"\s*(?:([A-Z]{{2,}})(?:=({NUMBER}))?(?![\w=.+-])|([A-Z])=?(
 _UNKNOWN = re.compile(r"\s*([A-Z_$]+[0-9]*|.)")
 _ODD = re.compile(r"[^\t -~]")
 _AXES = frozenset("XYZ")
+_BLOCKS = re.compile(r"\s*(?:N[0-9]+\s*)?CALL\s+BLOCK\s+(\w+)\s+TO\s+(\w+)\s*", re.IGNORECASE)
+_LABEL = re.compile(r"\s*(?:N[0-9]+\s*)?([A-Z_]{2}\w{0,30})\s*:\s*", re.IGNORECASE)
 
 
 def translated(text: str, block_delete: bool) -> str:
@@ -84,13 +87,14 @@ def translated(text: str, block_delete: bool) -> str:
     >>> translated("G17 G710 G90 ; modes\nG0 SUPA Z0 D0\nG2 X5 Y5 CR=5 F90\nG4 F0.5", False)
     'G17 G21 G90 ; modes\nG0 G53 Z0 G49\nG2 X5 Y5 R5 F90\nG4 P0.5'
     """
-    lines, reading = text.split("\n"), _Reading()
+    lines = text.split("\n")
+    reading = _Reading(lines)
     for index, line in enumerate(lines):
         if index == 0 and _HEADER.fullmatch(line):
             lines[0] = ""
             continue
         lines[index] = reading.line(index + 1, line, block_delete)
-        if reading.ended:
+        if reading.ended and not reading.called:
             break
     return "\n".join(lines)
 
@@ -98,7 +102,13 @@ def translated(text: str, block_delete: bool) -> str:
 class _Reading:
     """What the words of a program say together."""
 
-    def __init__(self) -> None:
+    def __init__(self, lines: Sequence[str]) -> None:
+        found = (_BLOCKS.fullmatch(line.partition(";")[0]) for line in lines if "CALL" in line.upper())
+        pairs = dict.fromkeys((match[1].upper(), match[2].upper()) for match in found if match)
+        self.called = {pair: number for number, pair in enumerate(pairs, start=1)}
+        """First and last label of each stretch that is called as a subprogram, and a number for it."""
+        self.begins = {first: number for (first, _), number in self.called.items()}
+        self.lasts = {last for _, last in self.called}
         self.edge: int | None = None
         """D in force; None while a setting of the machine decides."""
         self.units = ""
@@ -122,8 +132,25 @@ class _Reading:
                 raise fail(number, f"/{bare[0]} is a level of its own; write / for lines that may be skipped")
             if block_delete:
                 return "/" + mark + comment
-        made = self._frame(bare) or self._block(number, bare)
+        made = self._subprogram(number, bare) or self._frame(bare) or self._block(number, bare)
         return ("/" if deleted else "") + made + (" " + mark if made and mark else mark) + comment
+
+    def _subprogram(self, number: int, code: str) -> str:
+        """A call of a stretch between two labels, or one of the labels."""
+        if match := _BLOCKS.fullmatch(code):
+            self.edge = None
+            return f"M98 P{self.called[match[1].upper(), match[2].upper()]}"
+        match = _LABEL.fullmatch(code)
+        if match is None:
+            return ""
+        label, self.edge = match[1].upper(), None
+        if label not in self.begins and label not in self.lasts:
+            raise fail(number, f"{label} is a label of no CALL BLOCK; take it out")
+        if not self.ended:
+            raise fail(number, f"{label} before M30; what is called is read behind the end of the program")
+        if label in self.begins and label in self.lasts:
+            raise fail(number, f"{label} is the first label of one CALL BLOCK and the last of another")
+        return f"O{self.begins[label]}" if label in self.begins else "M99"
 
     def _frame(self, code: str) -> str:
         """A work offset that is written by the program."""

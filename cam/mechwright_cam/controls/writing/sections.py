@@ -40,10 +40,9 @@ class Sections(Drilling):
     def section(self, out: Writer, section: ToolSection) -> None:
         """Write everything from one tool change to the next."""
         machine, named = out.program.machine, False
-        last = [move for operation in section.operations for move in operation.moves][-1]
         for operation in section.operations:
             self.comment(out, OPERATION_COMMENT + operation.name)
-            moves, begins = operation.moves, bool(operation.moves) and not named
+            begins = bool(operation.moves) and not named
             if begins:
                 self._take_corners(out, operation)
                 self._machine_place(out, machine.change_x, machine.change_y)
@@ -56,18 +55,39 @@ class Sections(Drilling):
                 out.lost_height()
                 begins = True
             if begins:
-                out.lost_place()
-                self._begin(out, section, moves[0])
-                moves = moves[1:]
-            else:
-                self._take_corners(out, operation)
-            for move in moves:
-                if move is last and isinstance(move, Pause):
-                    # The next section starts the spindle: here it would turn beside the operator's hands.
-                    self._stop(out, move)
-                    return
-                self._move(out, section, move)
+                out.offset = out.program.work_offset
+                self._offset_and_spindle(out, section)
+            if self._operation(out, section, operation, begins=begins):
+                return
         self._halt(out)
+
+    def cuts(self, out: Writer, section: ToolSection) -> None:
+        """Write all operations of a section, with tool and work offset in force, up to the last move."""
+        begins = True
+        for operation in section.operations:
+            self.comment(out, OPERATION_COMMENT + operation.name)
+            if begins and operation.moves:
+                self._take_corners(out, operation)
+            if self._operation(out, section, operation, begins=begins and bool(operation.moves)):
+                return
+            begins = begins and not operation.moves
+
+    def _operation(self, out: Writer, section: ToolSection, operation: Operation, *, begins: bool) -> bool:
+        """Write the moves of an operation; whether the last one of the section is a stop, with all off."""
+        last = [move for one in section.operations for move in one.moves][-1]
+        moves = operation.moves
+        if begins:
+            self._approach(out, section, moves[0])
+            moves = moves[1:]
+        else:
+            self._take_corners(out, operation)
+        for move in moves:
+            if move is last and isinstance(move, Pause):
+                # The next section starts the spindle: here it would turn beside the operator's hands.
+                self._stop(out, move)
+                return True
+            self._move(out, section, move)
+        return False
 
     def safe_start(self, out: Writer) -> None:
         """Set every mode that the program relies on; an operation may ask for other corners."""
@@ -101,18 +121,26 @@ class Sections(Drilling):
         first = operation.moves[0]
         return isinstance(first, Rapid) and None not in (first.x, first.y)
 
-    def _begin(self, out: Writer, section: ToolSection, first: Move) -> None:
-        """Spindle, place, length offset and coolant, in that order."""
-        assert isinstance(first, Rapid)  # noqa: S101 - the caller has seen to it
-        out.resumed = None
-        offset = out.program.work_offset
+    def _offset_and_spindle(self, out: Writer, section: ToolSection) -> None:
+        """The work offset and the spindle, in one line where that cannot be mistaken."""
+        offset = out.offset
         if " " in offset:  # its P must not be taken for another word's
             out.line(offset)
             offset = ""
         self._start_spindle(out, section, offset)
+
+    def _approach(self, out: Writer, section: ToolSection, first: Move) -> None:
+        """Place, length offset and coolant, in that order."""
+        assert isinstance(first, Rapid)  # noqa: S101 - the caller has seen to it
+        out.lost_place()
+        out.resumed = None
         out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
         self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
         out.line(self._coolant(section))
+        self._stage(out)
+
+    def _stage(self, out: Writer) -> None:
+        """The tool that is to be made ready, once."""
         if out.staged:
             out.line(f"T{out.staged}")
             out.staged = 0

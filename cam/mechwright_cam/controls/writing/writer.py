@@ -37,6 +37,10 @@ class Writer:
         self.tapping: Tool
         self.speed = ""
         self.staged = 0
+        self.offset = program.work_offset
+        """The work offset that the next section begins in."""
+        self.subprograms: list[list[str]] = []
+        """The lines of each subprogram so far."""
         """The tool that the next change takes, where it is to be made ready ahead; 0 for none."""
         self.corners: list[str] = []
         # By identity: the program holds its moves as long as it is written.
@@ -220,4 +224,4 @@ def with_numbers(lines: list[str], step: int) -> list[str]:
 
 
 def _is_code(line: str) -> bool:
-    return not line.startswith(("%", "O", "(", ";"))
+    return not line.startswith(("%", "O", "o", "(", ";"))

@@ -13,8 +13,16 @@ from dataclasses import dataclass
 from mechwright.contracts.part import Bore
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
+from mechwright_cam.pages.setup_sheet.beds import held_from_below
 from mechwright_cam.pages.setup_sheet.compensation import lines
 from mechwright_cam.pages.setup_sheet.probing import about_probing
+from mechwright_cam.pages.setup_sheet.several import (
+    about_others,
+    active_words,
+    how_many,
+    in_order,
+    quantity,
+)
 from mechwright_cam.pages.setup_sheet.tapping import about_taps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
@@ -80,6 +88,11 @@ def steps(
         *([Step("Or probe it", about_probing(job, offset, probing, to))] if probing else []),
         *([] if touched else [_height(job.settings.work_offset, control)]),
         *(
+            [Step("The other plates", about_others(job, control, reach, to, touched=touched))]
+            if job.settings.more_offsets
+            else []
+        ),
+        *(
             [_touch_off(job, control, tools, by_file=by_file)]
             if by_hand
             else [_lengths(offset, tools, control, with_d=bool(offsets)), _check(offset, tools, control)]
@@ -90,7 +103,7 @@ def steps(
             else []
         ),
         *([Step("Tapping", taps)] if (taps := about_taps(used, control)) else []),
-        _run(job, offset, file_names, to, touched=touched),
+        _run(job, control, file_names, to, touched=touched),
     ]
 
 
@@ -103,11 +116,6 @@ def origin_words(job: Job) -> str:
         "corner": "the lower left corner of the stock",
         "centre": "the centre of the stock",
     }[job.settings.origin]
-
-
-def quantity(job: Job) -> int:
-    """How many of the part the mechanism needs."""
-    return max(1, len(job.part.instances))
 
 
 def _stock(job: Job, deepest: float, to: Lengths) -> Step:
@@ -130,29 +138,10 @@ def _stock(job: Job, deepest: float, to: Lengths) -> Step:
             f"Z {to.signed(job.settings.clearance, 1)} where rapids cross."
         )
     elif job.settings.hold.method == "none":
-        lines += _held_from_below(job, to)
+        lines += held_from_below(job, to)
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
-
-
-BEDS = {
-    "vacuum": "The plate lies on a vacuum table: all of it, with no leak under what is cut through.",
-    "tape": "Stick the plate down with double-sided tape all over, on a flat board; degrease both.",
-}
-
-
-def _held_from_below(job: Job, to: Lengths) -> list[str]:
-    """What holds the plate where neither tabs nor a bore nor a vice do."""
-    bed = job.settings.hold.bed
-    lines = [] if bed is None else [BEDS[bed]]
-    for toe in job.toes:
-        x0, y0, x1, y1 = (to.signed(value, 1) for value in toe.shape.bounds)
-        lines.append(
-            f"Toe clamp {toe.number}: from X {x0} to {x1} and Y {y0} to {y1}, bolt and all, and no higher "
-            f"than Z {to.signed(toe.top, 1)}."
-        )
-    return lines
 
 
 def _vice(job: Job, deepest: float, to: Lengths) -> Step:
@@ -204,12 +193,12 @@ def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: boo
             f"Check each by hand before the first cut: {word} with its length, then the tip over the stock.",
         ]
     else:
-        offset = control.offset_words(job.settings.work_offset)
+        offset = " and ".join(map(control.offset_words, job.settings.offsets))
         when = "Before each file" if by_file else "At each stop"
         lines = [
             f"The control keeps no lengths: {listed} are touched off one by one. {when} load the tool, bring "
             f"its tip on the stock with the setter (height h), and set {offset} Z so that "
-            "Z reads h.",
+            "Z reads h" + (", for each on its own plate." if job.settings.more_offsets else "."),
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
         if not by_file:
@@ -352,16 +341,11 @@ def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
     )
 
 
-def _in_order(file_names: Sequence[str]) -> str:
-    if len(file_names) == 1:
-        return file_names[0]
-    return f"{', '.join(file_names[:-1])} and {file_names[-1]}, one after the other"
-
-
-def _run(job: Job, offset: str, file_names: Sequence[str], to: Lengths, *, touched: bool) -> Step:
+def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, touched: bool) -> Step:
+    offset = control.offset_words(job.settings.work_offset)
     lines = [
-        f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
-        f"{offset} must be the active offset.",
+        f"Load {in_order(file_names)}. Single block and low feed override until the first cut looks right. "
+        f"{active_words(job, control)}",
     ]
     if job.settings.post.stage_tools:
         lines.append("Behind each tool change a T alone makes the next tool ready; the last one the first.")
@@ -377,7 +361,7 @@ def _run(job: Job, offset: str, file_names: Sequence[str], to: Lengths, *, touch
         else:
             stops = "on the same dowels" if job.side == "underside" else "against the same stops"
             same = f"A further plate {stops} keeps {offset} X and Y"
-        lines.append(f"Make {quantity(job)}. {same}; {again}")
+        lines.append(f"Make {how_many(job)}. {same}; {again}")
     fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
     if fits:
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")

@@ -16,7 +16,8 @@ from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.inspection import inspection
 from mechwright_cam.pages.setup_sheet.levels import side_view
-from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
+from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, steps
+from mechwright_cam.pages.setup_sheet.several import how_many
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
@@ -96,12 +97,13 @@ def setup_html(
         "edges": datum_edges(job, to),
         "inspection": inspection(job, to),
         **words(to),
-        "quantity": quantity(job),
+        "quantity": how_many(job),
         "control": control.name,
         "by_hand": not control.offsets.lengths,
         "length_place": control.length_place,
         "length_words": control.length_words,
-        "offset_name": control.offset_words(program.work_offset),
+        "offset_words": control.offset_words,
+        "offset_name": ", ".join(map(control.offset_words, program.offsets)),
         "table_words": control.table_words(tool_table) if tool_table else "",
         "design": design,
         "summary": summary,

@@ -6,7 +6,7 @@ from typing import Any
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.setup_sheet import facts
-from mechwright_cam.pages.setup_sheet.procedure import quantity
+from mechwright_cam.pages.setup_sheet.several import quantity, runs
 from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span, words
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
@@ -90,10 +90,10 @@ def _row(
         "quantity": count,
         "stock": f"{to.fixed(x1 - x0, 1)} × {to.fixed(y1 - y0, 1)} × {to.plain(job.thickness)}",
         "material": job.part.material,
-        "work_offset": control.offset_words(program.work_offset),
+        "work_offset": ", ".join(map(control.offset_words, program.offsets)),
         "tools": len(program.tools),
         "seconds": seconds,
-        "all_seconds": None if seconds is None else count * seconds,
+        "all_seconds": None if seconds is None else runs(job) * seconds,
         "verdict": facts.verdict(proof),
         "figures": [proof.get(figure) for figure in _FIGURES],
         "failed": [title for title, passed, _ in facts.check_rows(proof) if not passed],
@@ -128,5 +128,5 @@ def _tools(
             mine["bottom"] = min(mine["bottom"], row.bottom)
             mine["stick_out"] = max(mine["stick_out"], row.stick_out)
             if row.seconds is not None:
-                mine["seconds"] = (mine["seconds"] or 0.0) + quantity(job) * row.seconds
+                mine["seconds"] = (mine["seconds"] or 0.0) + runs(job) * row.seconds
     return [found[number] for number in sorted(found)]
