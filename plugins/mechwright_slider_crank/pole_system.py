@@ -60,6 +60,10 @@ def equations(unknowns: Sequence[Any], parameters: Sequence[Any]) -> list[Any]:
 TWO_POLES = System(equations)
 """Two poles, the rotation between them, constant speed."""
 
+MOVING = 4
+"""Parameters that move where solutions are counted: the places. Solutions with the others as they are are as
+irreducible as all."""
+
 
 def any_parameters(rng: np.random.Generator) -> Plane:
     """Complex parameters (5,) in general position, of the order of 1."""

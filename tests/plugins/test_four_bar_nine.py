@@ -70,9 +70,21 @@ def test_slopes_and_rates_are_those_of_the_values():
     assert change == pytest.approx(along, abs=1e-7 * np.abs(along).max())
 
 
+def test_the_equations_have_their_degree():
+    """On a line through the unknowns values are polynomials of that degree, and of no lower one."""
+    rng, degree = np.random.default_rng(2), fact("nine_point.equation_degree")["expected"]
+    z, way = rng.normal(size=(2, 8)) + 1j * rng.normal(size=(2, 8))
+    points = any_points(rng)
+    round_ = np.exp(2j * np.pi * np.arange(16) / 16)
+    powers = np.abs(np.fft.fft([at(z + one * way, points)[0] for one in round_], axis=0))
+    assert (powers[degree] > 1e-6 * powers.max(axis=0)).all()
+    assert (powers[degree + 1 :] < 1e-12 * powers.max(axis=0)).all()
+
+
 def test_the_start_has_all_triples_each_once():
     base = start()
     assert len(base.solutions) == TRIPLES == fact("nine_point.generic_triples")["expected"]
+    assert fact("nine_point.generic_four_bars")["expected"] == 3 * TRIPLES
     assert fact("nine_point.generic_solutions")["expected"] == 6 * TRIPLES
     assert len(new_ones(base.solutions, np.empty((0, 12)))) == TRIPLES
     for z in base.solutions:

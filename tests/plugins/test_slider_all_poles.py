@@ -11,11 +11,12 @@ from by_night import by_night
 from mechwright.mechanics.continuation import closed, read
 from mechwright.mechanics.continuation.loops import new_ones
 from mechwright.mechanics.continuation.paths import tracked
+from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_slider_crank.all_poles import FILE, SOLUTIONS, all_linkages
+from mechwright_slider_crank.all_poles import CUT, FILE, SOLUTIONS, all_linkages
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.pole_equations import PoleProblem
-from mechwright_slider_crank.pole_system import TWO_POLES, any_parameters, any_solution
+from mechwright_slider_crank.pole_system import MOVING, TWO_POLES, any_parameters, any_solution
 from mechwright_slider_crank.poles_synthesis import completed, through_poles
 from mechwright_slider_crank.requirements import PolesRequirement
 from mechwright_slider_crank.synthesis import from_poles
@@ -100,6 +101,18 @@ def test_a_loop_leads_from_kept_solutions_to_kept_solutions():
         one = tracked(TWO_POLES, one, begin, end).arrived
     assert len(one) > 0
     assert len(new_ones(one, start.solutions)) == 0
+
+
+def test_the_sums_of_a_cut_prove_that_these_are_all():
+    """The kept cut goes through the kept solutions, no two of which have one crank pin, and its sums are linear."""
+    start, cut = read(FILE, TWO_POLES), read_cut(CUT)
+    np.testing.assert_array_equal(cut.base, start.parameters)
+    assert (cut.way[:MOVING] != 0).all()
+    pins = start.solutions[:, cut.unknown]
+    assert np.abs(pins[:, None] - pins + np.eye(SOLUTIONS)).min() > 1e-6
+    found = trace(TWO_POLES, cut)
+    assert found is not None
+    assert found.proves(SOLUTIONS, EXACT)
 
 
 @by_night
