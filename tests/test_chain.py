@@ -65,30 +65,6 @@ def after(at: float, omega: float = 1.0, alpha: float = 0.0, jerk: float = 0.0) 
 # Rates
 
 
-def test_two_laws_in_a_row_give_the_reference() -> None:
-    """Figures of 40 digits of another hand: both pairs reverse, so that the output turns as the input."""
-    out = last(chain(("noncircular-gears", D1), ("noncircular-gears", D1)), after(0.5))
-    expected = (0.8239060246516774, 1.5663864421975826, -0.465718266499516, -0.712012585567656)
-    assert (out.theta[1], out.omega[1], out.alpha[1], out.jerk[1]) == pytest.approx(expected, abs=1e-12)
-
-
-def test_slider_behind_a_law_gives_the_reference() -> None:
-    """Place and rates per radian, and the jerk of an input that itself speeds up."""
-    crank = {"crank": 30, "rod": 100, "offset": 0}
-    links = linked(chain(("noncircular-gears", D1), ("slider-crank", crank)))
-    drives = after(0.5), after(0.5, 4.0, 2.0, -5.0)
-    for drive, jerk, tolerance in zip(
-        drives, (91.4595732961092, 5047.818634882881), (1e-9, 1e-6), strict=True
-    ):
-        *_, own = inputs_of(links, drive)
-        motion = links[-1].transmission.motion(own, np.array([0.0, 1.0]))
-        assert motion["s"][1] == pytest.approx(122.35934750991008, abs=1e-9)
-        assert motion["jerk"][1] == pytest.approx(jerk, abs=tolerance)
-        if drive is drives[0]:
-            assert motion["v"][1] == pytest.approx(-28.29794585770076, abs=1e-9)
-            assert motion["a"][1] == pytest.approx(-39.46182438985879, abs=1e-9)
-
-
 @pytest.mark.parametrize("phase", [0.0, 90.0, 135.0])
 def test_train_of_the_seed_is_a_chain_of_two_pairs(phase: float) -> None:
     """Gear 5 of the figure-eight train and its point Q, from position to jerk, to 1e-12 of their sizes."""
