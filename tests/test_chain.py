@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from core.disc_family import Disc
 
 from mechwright import DesignError, MechwrightError, Turning, host
 from mechwright.designs.change import changed
 from mechwright.designs.design import Design, design_of
-from mechwright.mechanics.chain import Chain, ChainParams
+from mechwright.mechanics.chain import Chain, ChainParams, StageTable
 from mechwright.mechanics.chain.checks import torques_of
 from mechwright.mechanics.chain.links import Link, links_of, turns_of
 from mechwright.mechanics.chain.running import finely, inputs_of
@@ -225,7 +226,9 @@ def test_a_head_with_a_family_is_refused() -> None:
             "chain.assembly",
             "stage.2.parameters.screw_hole",
         ),
-        ([("elliptic-gears", {}), ("spherical", {})], "chain.family", "stage.2.family"),
+        ([("elliptic-gears", {}), ("spherical", {})], "chain.stage", "stage.2.family"),
+        ([("elliptic-gears", {}), ("cam-follower", {"bore": 0})], "chain.stage", "stage.2.parameters.bore"),
+        ([("cam-follower", {}), ("geneva", {})], "chain.output", "stage.1.family"),
         ([("elliptic-gears", {}), ("geneva", {"speed": 30})], "chain.driven", "stage.2.parameters.speed"),
         (
             [("elliptic-gears", {}), ("four-bar", {"swing_from": 10, "swing_to": 50})],
@@ -338,3 +341,11 @@ def test_live_fields_of_a_chain_are_those_of_its_stages() -> None:
     assert not fields["stage.1.parameters.bore"]["given"]
     again = design.changed({"stage.2.parameters.slots": 5})
     assert {one["key"]: one for one in fields_of(again)}["stage.2.parameters.slots"]["value"] == 5
+
+
+def test_a_family_that_knows_no_shafts_is_refused() -> None:
+    """One that says nothing of being a stage."""
+    families = (host().family("elliptic-gears"), Disc())
+    stages = tuple(StageTable(family=one.name, parameters=one.Params()) for one in families)
+    found = Chain(families).check(ChainParams(stage=stages))
+    assert [(one.code, one.parameter) for one in found] == [("chain.family", "stage.2.family")]
