@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from core.disc_family import Disc
 
 from mechwright import DesignError, MechwrightError, Turning, host
 from mechwright.designs.change import changed
 from mechwright.designs.design import Design, design_of
-from mechwright.mechanics.chain import Chain, ChainParams
+from mechwright.mechanics.chain import Chain, ChainParams, StageTable
 from mechwright.mechanics.chain.checks import torques_of
 from mechwright.mechanics.chain.links import Link, links_of, turns_of
 from mechwright.mechanics.chain.running import finely, inputs_of
@@ -63,30 +64,6 @@ def after(at: float, omega: float = 1.0, alpha: float = 0.0, jerk: float = 0.0) 
 
 
 # Rates
-
-
-def test_two_laws_in_a_row_give_the_reference() -> None:
-    """Figures of 40 digits of another hand: both pairs reverse, so that the output turns as the input."""
-    out = last(chain(("noncircular-gears", D1), ("noncircular-gears", D1)), after(0.5))
-    expected = (0.8239060246516774, 1.5663864421975826, -0.465718266499516, -0.712012585567656)
-    assert (out.theta[1], out.omega[1], out.alpha[1], out.jerk[1]) == pytest.approx(expected, abs=1e-12)
-
-
-def test_slider_behind_a_law_gives_the_reference() -> None:
-    """Place and rates per radian, and the jerk of an input that itself speeds up."""
-    crank = {"crank": 30, "rod": 100, "offset": 0}
-    links = linked(chain(("noncircular-gears", D1), ("slider-crank", crank)))
-    drives = after(0.5), after(0.5, 4.0, 2.0, -5.0)
-    for drive, jerk, tolerance in zip(
-        drives, (91.4595732961092, 5047.818634882881), (1e-9, 1e-6), strict=True
-    ):
-        *_, own = inputs_of(links, drive)
-        motion = links[-1].transmission.motion(own, np.array([0.0, 1.0]))
-        assert motion["s"][1] == pytest.approx(122.35934750991008, abs=1e-9)
-        assert motion["jerk"][1] == pytest.approx(jerk, abs=tolerance)
-        if drive is drives[0]:
-            assert motion["v"][1] == pytest.approx(-28.29794585770076, abs=1e-9)
-            assert motion["a"][1] == pytest.approx(-39.46182438985879, abs=1e-9)
 
 
 @pytest.mark.parametrize("phase", [0.0, 90.0, 135.0])
@@ -249,7 +226,9 @@ def test_a_head_with_a_family_is_refused() -> None:
             "chain.assembly",
             "stage.2.parameters.screw_hole",
         ),
-        ([("elliptic-gears", {}), ("spherical", {})], "chain.family", "stage.2.family"),
+        ([("elliptic-gears", {}), ("spherical", {})], "chain.stage", "stage.2.family"),
+        ([("elliptic-gears", {}), ("cam-follower", {"bore": 0})], "chain.stage", "stage.2.parameters.bore"),
+        ([("cam-follower", {}), ("geneva", {})], "chain.output", "stage.1.family"),
         ([("elliptic-gears", {}), ("geneva", {"speed": 30})], "chain.driven", "stage.2.parameters.speed"),
         (
             [("elliptic-gears", {}), ("four-bar", {"swing_from": 10, "swing_to": 50})],
@@ -362,3 +341,11 @@ def test_live_fields_of_a_chain_are_those_of_its_stages() -> None:
     assert not fields["stage.1.parameters.bore"]["given"]
     again = design.changed({"stage.2.parameters.slots": 5})
     assert {one["key"]: one for one in fields_of(again)}["stage.2.parameters.slots"]["value"] == 5
+
+
+def test_a_family_that_knows_no_shafts_is_refused() -> None:
+    """One that says nothing of being a stage."""
+    families = (host().family("elliptic-gears"), Disc())
+    stages = tuple(StageTable(family=one.name, parameters=one.Params()) for one in families)
+    found = Chain(families).check(ChainParams(stage=stages))
+    assert [(one.code, one.parameter) for one in found] == [("chain.family", "stage.2.family")]

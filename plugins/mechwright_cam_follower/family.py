@@ -9,7 +9,7 @@ from mechwright_cam_follower.params import CamParams
 from mechwright_cam_follower.requirement import SizeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis, Transmission
 
 
 class CamFollower(Family[CamParams]):
@@ -59,6 +59,12 @@ class CamFollower(Family[CamParams]):
         from mechwright_cam_follower.mounting import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: CamParams) -> "Transmission":
+        """Camshaft in, a lever's axis out; behind a slide stands nothing."""
+        from mechwright_cam_follower.stage import CamStage
+
+        return CamStage(params)
 
     def as_made(self, params: CamParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """How far the follower is from its law with the cam as its program leaves it."""

@@ -1,7 +1,8 @@
 """What presses follower and cam together, and what turns the cam.
 
 Source: R. L. Norton, Design of Machinery, chapter 15 (force-closed followers), without friction and damping.
-Force of a slide, N, and torque of a lever, N·m, at the angle θ of a cam of constant speed ω:
+Force of a slide, N, and torque of a lever, N·m, at the angle θ of a cam of constant speed ω (of another
+motion, s'' ω² is the follower's acceleration):
 
     F = m ω² s'' + F0 + k s + F_load        T = J ω² ψ'' + T0 + k ψ + T_load
     N = F/cos α                             N = T/(l cos α), l from the lever's axis to the contact
@@ -25,13 +26,11 @@ SHARPEST = 1e-3
 """Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
 
 
-def inertia_at(params: CamParams, rates: Rates) -> Array:
-    """Force or torque that the acceleration asks for, N or N·m."""
+def inertia_at(params: CamParams, acceleration: Array) -> Array:
+    """Force or torque, N or N·m, that an acceleration of the follower asks for, mm/s² or rad/s²."""
     moved: Array = (
-        (params.value("mass") / 1000 if params.translating else params.value("inertia"))
-        * rates.a
-        * params.omega**2
-    )
+        params.value("mass") / 1000 if params.translating else params.value("inertia")
+    ) * acceleration
     return moved
 
 
@@ -46,10 +45,15 @@ def spring_of(params: CamParams) -> tuple[float, float, float]:
     return preload, rate, load
 
 
-def force_at(params: CamParams, rates: Rates) -> Array:
-    """F or T: below 0 a follower with a spring leaves its cam."""
+def force_at(params: CamParams, rates: Rates, acceleration: Array | None = None) -> Array:
+    """F or T: below 0 a follower with a spring leaves its cam.
+
+    ``acceleration`` of the follower, mm/s² or rad/s²; left out, that at the cam's own constant speed.
+    """
+    if acceleration is None:
+        acceleration = rates.a * params.omega**2
     preload, rate, load = spring_of(params)
-    force: Array = inertia_at(params, rates) + preload + rate * rates.s + load
+    force: Array = inertia_at(params, acceleration) + preload + rate * rates.s + load
     return force
 
 
@@ -72,9 +76,11 @@ class Loads:
     torque: Array
 
 
-def loads_at(params: CamParams, rates: Rates, contacts: tuple[Contact, ...]) -> Loads:
-    """Loads of one contact, or of both of a conjugate pair."""
-    whole = force_at(params, rates)
+def loads_at(
+    params: CamParams, rates: Rates, contacts: tuple[Contact, ...], acceleration: Array | None = None
+) -> Loads:
+    """Loads of one contact, or of both of a conjugate pair; ``acceleration`` as of :func:`force_at`."""
+    whole = force_at(params, rates, acceleration)
     scale = 1.0 if params.translating else 1000.0
     forces = tuple(
         np.maximum(sign * whole, 0.0) * scale / contact.share

@@ -1,4 +1,4 @@
-"""The motion: one turn of the cam at constant speed."""
+"""The motion: one turn of the cam at constant speed, or what another motion of the cam makes of it."""
 
 import math
 
@@ -50,14 +50,34 @@ def motion_of(params: CamParams, samples: Samples) -> Motion:
     KinematicsError
         The follower does not reach its cam, or the law is none.
     """
+    refuse_unclosed(params)
+    theta = travelled(math.tau, samples)
+    cam = Turning.of(params.sense * theta, params.sense * params.omega)
+    return driven_by(params, cam, theta / params.omega)
+
+
+def refuse_unclosed(params: CamParams) -> None:
+    """KinematicsError where the follower does not reach its cam, or the law is none."""
     for finding in errors(closure_findings(params), Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    theta = travelled(math.tau, samples)
-    rates, omega, zero = cycle_of(params).at(theta), params.omega, np.zeros_like(theta)
-    cam = Turning(params.sense * theta, zero + params.sense * omega, zero, zero)
+
+
+def turned_by(params: CamParams, cam: Turning) -> Array:
+    """Angles (n,), rad, within a turn of the cam: how far it has come by a motion of its shaft."""
+    way = params.sense * cam.theta
+    within: Array = np.where((way < 0) | (way > math.tau), np.mod(way, math.tau), way)
+    return within
+
+
+def driven_by(params: CamParams, cam: Turning, time: Array) -> Motion:
+    """All that moves for any motion of the camshaft, counted about +z, and its times (n,), s."""
+    rates = cycle_of(params).at(turned_by(params, cam))
     contacts = contacts_at(params, rates)
-    channels = {"time": Channel(theta / omega, "s", "time"), **turning_channels(cam, "theta", "1", "the cam")}
-    channels |= _follower(params, rates) | _contact(params, contacts, rates)
+    sense = params.sense
+    over_time = cam.carried(sense * rates.v, rates.a, sense * rates.j)
+    channels = {"time": Channel(time, "s", "time"), **turning_channels(cam, "theta", "1", "the cam")}
+    channels |= _follower(params, rates.s, over_time)
+    channels |= _contact(params, contacts, rates, over_time[1])
     return Motion(
         "theta",
         channels,
@@ -128,10 +148,10 @@ def _guide(params: CamParams) -> Joint:
     return Joint("revolute", GROUND, FOLLOWER, (params.value("centre_distance"), 0.0, 0.0))
 
 
-def _follower(params: CamParams, rates: Rates) -> dict[str, Channel]:
-    omega, unit = params.omega, "mm" if params.translating else "rad"
+def _follower(params: CamParams, lift: Array, over_time: tuple[Array, Array, Array]) -> dict[str, Channel]:
+    unit = "mm" if params.translating else "rad"
     names = ("lift", "velocity", "acceleration", "jerk")
-    values = (rates.s, rates.v * omega, rates.a * omega**2, rates.j * omega**3)
+    values = (lift, *over_time)
     units = (unit, f"{unit}/s", f"{unit}/s^2", f"{unit}/s^3")
     return {
         name: Channel(value, one, f"{name} of the follower")
@@ -139,8 +159,10 @@ def _follower(params: CamParams, rates: Rates) -> dict[str, Channel]:
     }
 
 
-def _contact(params: CamParams, contacts: tuple[Contact, ...], rates: Rates) -> dict[str, Channel]:
-    loads, found = loads_at(params, rates, contacts), {}
+def _contact(
+    params: CamParams, contacts: tuple[Contact, ...], rates: Rates, acceleration: Array
+) -> dict[str, Channel]:
+    loads, found = loads_at(params, rates, contacts, acceleration), {}
     for number, contact in enumerate(contacts):
         end, of = ("", "") if number == 0 else ("2", " of the second cam")
         found[f"pressure_angle{end}"] = Channel(contact.pressure_angle, "rad", f"pressure angle{of}")

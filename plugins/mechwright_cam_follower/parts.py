@@ -79,6 +79,11 @@ def follower_depth(params: CamParams) -> float:
     return params.thickness if params.contact == "flat" else params.follower_thickness
 
 
+def second_foot(params: CamParams) -> float:
+    """Height of the underside of the second cam of a pair, mm."""
+    return follower_foot(params) + follower_depth(params) + params.axial_gap
+
+
 def _cam(params: CamParams, *, second: bool) -> Part:
     outer, deviation = outline_of(params, second)
     depth, opening = params.thickness, opening_of(params)
@@ -95,7 +100,7 @@ def _cam(params: CamParams, *, second: bool) -> Part:
         inner.append(_hole(place, params.screw_diameter))
         features.append(Bore(f"screw-{number}", place, params.screw_diameter, 0, depth))
     features.append(Profile("outside", outer, "outside", 0, depth))
-    z = follower_foot(params) + follower_depth(params) + params.axial_gap if second else 0.0
+    z = second_foot(params) if second else 0.0
     marks = () if not params.conjugate else (FittingMark(_TOGETHER, (_mark(params),)),)
     return Part(
         "cam-2" if second else "cam",

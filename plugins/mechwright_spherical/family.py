@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
+from mechwright import DesignError, Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import (
     AdjustablePathRequirement,
@@ -14,7 +14,17 @@ from mechwright_spherical.requirements import (
 )
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, Flange, MadePart, Motion, Part, Target, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        Flange,
+        MadePart,
+        Motion,
+        Part,
+        Target,
+        ToleranceModel,
+        Tolerances,
+        Transmission,
+    )
     from mechwright.contracts.evaluation import Batch, Columns
 
 
@@ -65,6 +75,14 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.mount import mounting_of
 
         return mounting_of(params)
+
+    def transmission(self, params: SphericalParams) -> "Transmission":
+        """None: raises DesignError."""
+        angle = "" if params.kind == "five-bar" else f" of {params.four_bar.ground:g} degrees"
+        raise DesignError(
+            f"its shafts stand at an angle{angle} to each other, and all shafts of a chain are parallel; "
+            "take a mechanism of the plane there"
+        )
 
     def settings(self, params: SphericalParams) -> Mapping[str, SphericalParams]:
         """The other phases."""

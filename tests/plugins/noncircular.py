@@ -31,6 +31,8 @@ TABLES = {
     "D9": {"law": "fourier", "sines": [math.degrees(0.42)], "teeth": 20},
     "D10": {"law": "ellipse", "lobes": 3, "mate_lobes": 3, "eccentricity": 0.2, "teeth": 48},
     "SL": {"law": "slider", "teeth": 48},
+    "GP4": {"law": "geneva", "teeth": 60, "slots": 4, "ramp": 0.145, "window": 180, "blend": 60},
+    "GP6": {"law": "geneva", "teeth": 60, "slots": 6, "ramp": 0.2, "window": 160, "blend": 40},
 }
 """Design of the reference to its table."""
 

@@ -8,60 +8,17 @@ import pytest
 from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plugins.noncircular import REFERENCE
+from plugins.noncircular import design
 
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing import FIT
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.straight import StraightSlot
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
-from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.gear import outlines_of, teeth_of
+from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
 from mechwright_noncircular_gears.params import NoncircularParams
-
-FACTS = {one["name"]: one for one in REFERENCE["facts"]}
-
-PAIRS = {
-    "GP4": {"slots": 4, "ramp": 0.145, "window": 180, "blend": 60},
-    "GP6": {"slots": 6, "ramp": 0.2, "window": 160, "blend": 40},
-}
-
-
-def pair(name: str) -> NoncircularParams:
-    """A pair of the reference."""
-    return NoncircularParams.model_validate({"law": "geneva", "teeth": 60, "module": 2, **PAIRS[name]})
-
-
-@pytest.mark.parametrize("name", PAIRS)
-def test_law_and_sizes_are_those_of_the_reference(name: str) -> None:
-    """Ratio, its derivatives at the end of the index, the constant beyond, curvature and centre distance."""
-    params = pair(name)
-    law, found = law_of(params), extremes_of(params)
-    assert isinstance(law, IndexLaw)
-    a = pair_of(params).distance
-    half = np.asarray(law.width / 2)
-    end = [float(one) for one in law.rates(half)]
-    values = {
-        "a": a,
-        "i@0": float(law.rates(np.asarray(0.0))[0]),
-        "i@1": float(law.rates(np.asarray(1.0))[0]),
-        "i@2.5": float(law.rates(np.asarray(2.5))[0]),
-        "psi@1": float(law.angle(np.asarray(1.0))),
-        "i_min": found.slowest.value,
-        "i_max": found.fastest.value,
-        "nu_max_deg": math.degrees(found.steepest.value),
-        "a_kappa1_min": found.curvatures[0].value,
-        "a_kappa2_min": found.curvatures[1].value,
-        "i_end": end[0],
-        "di_end": end[1],
-        "d2i_end": end[2],
-        "i_dwell": law.beyond,
-        "wheel_peak_Ca": law.constant,
-    }
-    for key, value in values.items():
-        fact = FACTS[f"chain.{name}.{key}"]
-        assert value == pytest.approx(fact["expected"], abs=fact["tolerance"]), key
 
 
 @settings(max_examples=examples(6, 60), deadline=None)
@@ -91,10 +48,10 @@ def test_wheel_behind_the_law_is_the_wanted_one(slots: int, ramp: float, window:
     assert law.angle(np.asarray(math.tau)) == pytest.approx(math.tau, abs=1e-12)
 
 
-@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("name", ["GP4", "GP6"])
 def test_ratio_has_no_jump_up_to_its_second_derivative_but_in_the_ramp(name: str) -> None:
     """At ends of index and blends, and where the series takes over; derivatives are slopes between."""
-    law = law_of(pair(name))
+    law = law_of(design(name))
     assert isinstance(law, IndexLaw)
     half = law.width / 2
     for place in (half, half - 0.05, half + law.blend, math.pi):

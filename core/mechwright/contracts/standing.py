@@ -6,6 +6,7 @@ from mechwright.contracts.family import Family, P
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.transmission import Transmission
 
 SECONDS = 1.0
 """How long its bodies are said to stand."""
@@ -21,6 +22,12 @@ class Standing(Family[P]):
     moves = False
     bodies: ClassVar[tuple[str, ...]]
     """The bodies that its parts are instances of."""
+
+    def transmission(self, params: P) -> "Transmission":  # noqa: ARG002 - of none
+        """None: raises DesignError."""
+        from mechwright.errors import DesignError
+
+        raise DesignError("nothing turns in it; take a mechanism there")
 
     def solve(self, params: P, samples: int) -> "Motion":  # noqa: ARG002 - what stands needs no parameters
         """A second in which every body stands where it is: what assemblies and pictures ask for."""

@@ -26,6 +26,7 @@ from mechwright.geometry.segments import Point
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.mounting import Mounting
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +83,8 @@ class Transmission(ABC):
     own_drive: ClassVar[tuple[str, ...]] = ()
     """Fields of the table that say how the input turns by itself: none of them belongs to a stage that
     another one drives; the first of them is its speed."""
+    mounting: "Mounting | None" = None
+    """Where its shafts stand in a chain; None where that is the family's own mounting for a frame."""
     load_field: ClassVar[str] = ""
     """Field of the table that is the torque against the output, N·m; empty where there is none."""
 

@@ -141,6 +141,8 @@ def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
         return finding
     if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
+    if finding.remedy and finding.parameter and path_of(bench, finding.parameter) not in bench.keys:
+        return finding  # about what no change sets, such as the family of a stage
     tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
     ended = f" in {bench.tries} tries" if bench.spent else ""
     return replace(finding, remedy=f"no remedy found by changing {tried}{ended}")

@@ -49,6 +49,8 @@ def _plane(link: Link, parts: tuple[Part, ...]) -> Plane:
 
 def _mounting(link: Link) -> object:
     """Of a stage; raises MountingError with the stage's own keys."""
+    if link.transmission.mounting is not None:
+        return link.transmission.mounting
     try:
         return link.family.mounting(link.params)
     except MountingError as error:

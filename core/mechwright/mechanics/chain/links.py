@@ -9,6 +9,7 @@ import numpy as np
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.transmission import Transmission
 from mechwright.errors import KinematicsError, MechwrightError
@@ -116,12 +117,11 @@ def _joined(params: ChainParams, families: Families) -> tuple[tuple[Link, ...], 
 def _no_stage(number: int, family: Family[Any], error: MechwrightError) -> Finding:
     key, _, rest = str(error).partition(": ")
     said, _, cure = (rest or key).partition("; ")
-    return Finding.error(
-        "chain.stage",
-        key_of(number, key) if rest else f"stage.{number}",
-        f"stage {number}, {family.name}: {said}",
-        remedy=cure or "take another mechanism there",
-    )
+    changes = error.proposed if isinstance(error, MountingError) else ()
+    cure = cure or "take another mechanism there"
+    found = Finding.error("chain.stage", key if rest else "", said, remedy=cure, proposed=changes)
+    named = staged(number, family, found)
+    return named if rest else replace(named, parameter=f"stage.{number}.family")
 
 
 def _no_family(number: int, family: Family[Any]) -> Finding:

@@ -21,7 +21,10 @@ _STRAIGHT = 1e12
 """mm. A curve with a greater radius is straight."""
 
 FACTOR_SAMPLES = 33
-"""Points per flank for its least regularity factor; the curvature hardly changes on one."""
+"""Points per flank for its least regularity factor; between breaks the curvature hardly changes on one."""
+
+_BESIDE = 1e-9
+"""Of the perimeter: how far beside a break of the curvature it is looked at."""
 
 
 @dataclass(frozen=True)
@@ -89,21 +92,23 @@ class Teeth:
     @cached_property
     def least_regularity(self) -> Array:
         """Least regularity factor (z, 2) of each flank over sin²α: 1 at the pitch curve, 0 is undercut."""
-        t = np.linspace(0, 1, FACTOR_SAMPLES)
-        start = self.flank_arcs[..., None]
-        frame = self.curve.frame_at(start + t * (self.join_arcs[..., None] - start))
-        factor = self.rack.regularity(frame, start, SIDES[:, None]).min(axis=-1)
-        least: Array = factor / math.sin(self.rack.pressure_angle) ** 2
-        return least
+        return self._least(self.join_arcs)
 
     @cached_property
     def least_tip_regularity(self) -> Array:
         """The same (z, 2) from the pitch curve to the tip: below 1 where the curve is hollow."""
-        start = self.flank_arcs[..., None]
-        t, end = np.linspace(0, 1, FACTOR_SAMPLES), self.curve.arc(self.tip_trim[0])[..., None]
-        frame = self.curve.frame_at(start + t * (end - start))
-        factor = self.rack.regularity(frame, start, SIDES[:, None]).min(axis=-1)
-        least: Array = factor / math.sin(self.rack.pressure_angle) ** 2
+        return self._least(self.curve.arc(self.tip_trim[0]))
+
+    def _least(self, ends: Array) -> Array:
+        """Over each flank from the pitch curve to the arcs ``ends`` (z, 2); both sides of breaks count."""
+        start, way = self.flank_arcs[..., None], (ends - self.flank_arcs)[..., None]
+        breaks, perimeter = self.curve.arc(self.curve.breaks), self.curve.perimeter
+        beside = np.concatenate([breaks - _BESIDE * perimeter, breaks + _BESIDE * perimeter])
+        nearest = beside + perimeter * np.round((start + way / 2 - beside) / perimeter)
+        even = np.broadcast_to(np.linspace(0, 1, FACTOR_SAMPLES), (*ends.shape, FACTOR_SAMPLES))
+        t = np.concatenate([even, np.clip((nearest - start) / way, 0.0, 1.0)], axis=-1)
+        factor = self.rack.regularity(self.curve.frame_at(start + t * way), start, SIDES[:, None])
+        least: Array = factor.min(axis=-1) / math.sin(self.rack.pressure_angle) ** 2
         return least
 
     @cached_property
