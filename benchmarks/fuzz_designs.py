@@ -1,22 +1,29 @@
 """Random designs of every family, within the bounds that it publishes: counts by outcome, times, memory.
 
-    python benchmarks/fuzz_designs.py --designs 10000 --seconds 3600 --log designs.json [FAMILY ...]
+    python benchmarks/fuzz_designs.py try --family geneva --from 2000 --count 500 --log designs.jsonl
+    python benchmarks/fuzz_designs.py try --seconds 3600 --log designs.jsonl     all families by turns
+    python benchmarks/fuzz_designs.py told --log designs.jsonl
 
-Half of them as the kit draws them, half evenly over all bounds. A design is built (motion and parts), or
-refused: by a finding of its motion or its parts, or by an error in words. Anything else is a fault, told
-with the number that gives the same design again; so is one that takes more than ``SECONDS`` of processor
-time.
+Half of them as the kit draws them, half evenly over all bounds: even numbers and odd ones. A design is built
+(motion and parts, every figure finite), or refused by a finding of its
+motion or its parts, or by an error in words. Anything else is a fault, told with its number, which gives the
+same design again; so is one that takes more than ``SECONDS`` of processor time or lets the process grow by
+more than ``MEGABYTES``. The log has one line for each portion; without ``--from`` a family goes on behind the
+last number that it has there, and what portions tell adds up.
 """
 
 import argparse
 import json
-import resource
+import math
 import sys
 import time
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from fuzzing import SlowError, alarm, memory, peak
 from random_designs import WAYS, designs
 
 from mechwright.contracts.family import Family
@@ -25,68 +32,125 @@ from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.plugins.host import host
 
+SEED = 25
 SECONDS = 60.0
-SOUND = frozenset({"built", "parts refused", "motion refused"})
+MEGABYTES = 1500
+AGAIN = 10
+"""Tables drawn by chance before the keys that are refused are left out: most of the time goes there else."""
+PORTION = 200
+SOUND = ("built", "parts refused", "motion refused", "refused by an error")
 
 
 def outcome(design: Design) -> str:
     """What becomes of a design."""
-    begun = time.process_time()
     try:
-        found = design.judge()
-        if errors(found, Stage.MOTION):
-            word = "motion refused"
-        else:
-            design.solve(181)
-            word = "parts refused"
-            if not errors(found, Stage.PARTS):
-                design.parts()
-                word = "built"
+        with alarm(SECONDS):
+            return _outcome(design)
+    except SlowError:
+        return f"fault: slow: over {SECONDS:g} s"
     except PluginFaultError as error:
         return f"fault: {error}"
     except MechwrightError as error:
-        return f"no finding, but an error: {error}"
+        return f"refused by an error: {error}" if str(error) else "fault: an error without words"
     except Exception as error:  # which is what is sought
         return f"fault: {type(error).__name__}: {error}"
-    return word if time.process_time() - begun <= SECONDS else f"slow: over {SECONDS:g} s"
 
 
-def tried(family: Family[Any], count: int, until: float) -> dict[str, Any]:
-    """Counts of a family, as many designs as there is time for."""
-    counts, longest, faults = Counter[str](), 0.0, []
-    both = [designs(family, host(), 25, range(count // 2), way) for way in WAYS]
-    for number in range(2 * (count // 2)):
+def _outcome(design: Design) -> str:
+    found = design.judge()
+    figures = [x for one in found for x in (one.value, one.limit) if x is not None]
+    word = "motion refused"
+    if not errors(found, Stage.MOTION):
+        motion = design.solve(181)
+        figures += [x for channel in motion.channels.values() for x in channel.values]
+        figures += [one.value for one in motion.scalars.values()]
+        word = "parts refused"
+        if not errors(found, Stage.PARTS):
+            word = "built"
+            figures += [x for part in design.parts() for one in part.outlines for x in one.bounds]
+    return (
+        word if all(map(math.isfinite, figures)) else f"fault: a figure of a design that is {word}: no number"
+    )
+
+
+def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
+    """Counts of a family, as many designs of these numbers as there is time for."""
+    counts, longest, grown, said, done = Counter[str](), (0.0, 0), 0, [], numbers.start
+    for number in numbers:
         if time.monotonic() > until:
             break
-        way = number % 2
-        design = next(both[way])
-        begun = time.process_time()
+        (design,) = designs(
+            family, host(), SEED, range(number // 2, number // 2 + 1), WAYS[number % 2], AGAIN
+        )
+        begun, had = time.process_time(), memory()
         found = outcome(design)
-        longest = max(longest, time.process_time() - begun)
-        counts[found if found in SOUND else found.partition(":")[0]] += 1
-        if found not in SOUND and len(faults) < 20:
-            faults.append({"number": number // 2, "way": WAYS[way], "said": found[:400]})
-    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1000
-    return {"counts": dict(counts), "longest s": round(longest, 2), "most MB so far": most, "faults": faults}
+        longest = max(longest, (round(time.process_time() - begun, 2), number))
+        more = (peak() - had) // 1000
+        grown, done = max(grown, more), number + 1
+        if more > MEGABYTES:
+            found = f"fault: takes {more} MB"
+        kind = found.partition(":")[0]
+        counts[kind] += 1
+        if kind not in SOUND[:3] and len(said) < 20:
+            said.append({"number": number, "said": found[:300]})
+    row = {"family": family.name, "from": numbers.start, "to": done, "counts": dict(counts)}
+    return row | {"longest s": longest[0], "its number": longest[1], "most MB": grown, "said": said}
+
+
+def told(rows: list[dict[str, Any]]) -> bool:
+    """Print a table of all portions; whether there is no fault."""
+    print("| family | numbers | " + " | ".join((*SOUND, "faults", "longest, s", "most memory, MB")) + " |")
+    print("| --- " * (len(SOUND) + 5) + "|")
+    sound = True
+    for name in sorted({row["family"] for row in rows}):
+        own = [row for row in rows if row["family"] == name]
+        counts = sum((Counter(row["counts"]) for row in own), Counter[str]())
+        figures = [f"{counts[kind]:,}" for kind in (*SOUND, "fault")]
+        figures += [f"{max(row[key] for row in own)}" for key in ("longest s", "most MB")]
+        print(f"| `{name}` | {counts.total():,} | " + " | ".join(figures) + " |")
+        sound &= not counts["fault"]
+    for row in rows:
+        for one in row["said"]:
+            if one["said"].startswith("fault"):
+                print(f"{row['family']} {one['number']}: {one['said']}")
+    return sound
 
 
 def main() -> None:
-    """Try, print and keep."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("families", nargs="*")
-    parser.add_argument("--designs", type=int, default=10_000)
-    parser.add_argument("--seconds", type=float, default=3600.0, help="for all families together")
-    parser.add_argument("--log", type=Path)
+    """Try and keep, or tell."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("what", choices=("try", "told"))
+    parser.add_argument("--family", action="append")
+    parser.add_argument("--from", type=int, dest="first")
+    parser.add_argument("--count", type=int, default=10_000, help="of each family")
+    parser.add_argument("--seconds", type=float, default=3600.0)
+    parser.add_argument("--log", type=Path, required=True)
     asked = parser.parse_args()
-    every = [one for one in host().all(Family) if not asked.families or one.name in asked.families]
-    end, told = time.monotonic() + asked.seconds, {}
-    for place, family in enumerate(every):
-        share = (end - time.monotonic()) / (len(every) - place)
-        told[family.name] = tried(family, asked.designs, time.monotonic() + share)
-        print(family.name, json.dumps(told[family.name]), flush=True)
-        if asked.log:
-            asked.log.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
-    sys.exit(any(set(one["counts"]) - SOUND for one in told.values()))
+    rows = [json.loads(line) for line in asked.log.read_text().splitlines()] if asked.log.exists() else []
+    if asked.what == "told":
+        sys.exit(not told(rows))
+    until = time.monotonic() + asked.seconds
+    families = [one for one in host().all(Family) if one.name in (asked.family or [one.name])]
+    next_of = {
+        one.name: max((row["to"] for row in rows if row["family"] == one.name), default=0)
+        if asked.first is None
+        else asked.first
+        for one in families
+    }
+    last = {name: first + asked.count if asked.family else asked.count for name, first in next_of.items()}
+    while time.monotonic() < until and any(next_of[name] < last[name] for name in last):
+        for family in families:
+            first = next_of[family.name]
+            numbers = range(first, min(first + PORTION, last[family.name]))
+            if not numbers or time.monotonic() > until:
+                continue
+            row = tried(family, numbers, until)
+            next_of[family.name] = row["to"]
+            with asked.log.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(row) + "\n")
+            print(json.dumps(row), flush=True)
 
 
 if __name__ == "__main__":

@@ -27,8 +27,10 @@ _AGAIN = 200
 to one of many laws have hardly any table that is right by chance."""
 
 
-def designs(family: Family[Any], host: Host, seed: int, numbers: range, way: str) -> Iterator[Design]:
-    """The designs with these numbers; the same seed and number give the same one."""
+def designs(
+    family: Family[Any], host: Host, seed: int, numbers: range, way: str, again: int = _AGAIN
+) -> Iterator[Design]:
+    """The designs with these numbers; the same seed and number, and tables drawn anew, give the same one."""
     head = {"format": 1, "family": family.name, "name": "random"}
     start = design_of(head, Path("random.toml"), "", host)
     keys = [
@@ -41,7 +43,7 @@ def designs(family: Family[Any], host: Host, seed: int, numbers: range, way: str
             try:
                 yield design_of({**head, "parameters": table}, Path("random.toml"), "", host)
             except DesignError as error:
-                fewer = _without(keys, table, str(error), rng, head, host) if tried >= _AGAIN else None
+                fewer = _without(keys, table, str(error), rng, head, host) if tried >= again else None
                 if fewer is None:
                     continue
                 yield fewer
@@ -56,10 +58,15 @@ def _without(
     head: Mapping[str, Any],
     host: Host,
 ) -> Design | None:
-    """The design without the keys that refusals speak of, one by one; None where they speak of none."""
+    """The design without the keys that refusals speak of, or else those of the tables that they speak of.
+
+    One by one; None where refusals speak of none.
+    """
     known, content = {key.path: key for key in keys}, {**head, "parameters": table}
     while True:
-        stand = [key for key in named(refusal, known) if key.stands_in(content)]
+        every = [key for key in keys if key.stands_in(content)]
+        named_here = [key for key in named(refusal, known) if key in every]
+        stand = named_here or [key for key in every if f"{key.path.rpartition('.')[0]}:" in refusal]
         if not stand:
             return None
         content = changed(content, {stand[rng.integers(len(stand))].path: None})

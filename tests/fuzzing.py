@@ -86,8 +86,8 @@ class Reader:
     seeds: tuple[tuple[str, bytes], ...]
 
 
-class _SlowError(BaseException):
-    pass
+class SlowError(BaseException):
+    """The processor time of a case is over."""
 
 
 def mutated(data: bytes, seed: int, other: bytes = b"") -> bytes:
@@ -169,9 +169,9 @@ def outcome(reader: str, suffix: str, data: bytes) -> str:
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / f"case{suffix}"
         path.write_bytes(data)
-        begun, had = time.process_time(), _memory()
+        begun, had = time.process_time(), memory()
         try:
-            with _alarm(3 * SECONDS):
+            with alarm(3 * SECONDS):
                 readers()[reader].take(path)
             found = READ
         except PluginFaultError as error:
@@ -179,29 +179,36 @@ def outcome(reader: str, suffix: str, data: bytes) -> str:
         except MechwrightError as error:
             said = str(error)
             found = REFUSED if 0 < len(said) <= LONGEST else f"says {len(said)} characters"
-        except _SlowError:
+        except SlowError:
             return f"slow: more than {3 * SECONDS:g} s"
         except (Exception, SystemExit) as error:  # noqa: BLE001,RUF100 - which is what is sought
             last = traceback.extract_tb(error.__traceback__)[-1]
             found = f"{type(error).__name__} at {Path(last.filename).name}:{last.lineno}: {str(error)[:100]}"
         if time.process_time() - begun > SECONDS:
             return f"slow: {time.process_time() - begun:.0f} s"
-        if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - had > 1000 * MEGABYTES:
+        if peak() - had > 1000 * MEGABYTES:
             return "takes much memory"
         return found
 
 
-def _memory() -> int:
+def memory() -> int:
     """What the process has, kB, from which its peak is counted anew; where that cannot be, its peak until now."""
     with contextlib.suppress(OSError):
         Path("/proc/self/clear_refs").write_text("5")
+    return peak()
+
+
+def peak() -> int:
+    """The most that the process had since :func:`memory` was asked, kB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 @contextlib.contextmanager
-def _alarm(seconds: float) -> Iterator[None]:
+def alarm(seconds: float) -> Iterator[None]:
+    """Raise SlowError after so many seconds of processor time."""
+
     def up(*_: object) -> None:
-        raise _SlowError
+        raise SlowError
 
     before = signal.signal(signal.SIGVTALRM, up)
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds)

@@ -39,6 +39,7 @@ class Live(Command):
 
     name = "live"
     order = 45
+    reads_once = False
 
     def run(
         self,

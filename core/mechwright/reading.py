@@ -3,11 +3,17 @@
 What a user names may be anything that a system calls a file: a pipe that nobody writes into, a device without
 an end, a folder, a socket, a link to one of them. Only regular files are read, no more of them than a limit,
 and no longer than a time.
+
+A file may also change while a command works on it. Within :func:`once` each is read once, and whoever asks
+for it later gets the same bytes: parts, programs and the hashes in the manifest are of one reading.
 """
 
 import os
 import stat
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
 from mechwright.errors import DesignError, MechwrightError, OutputError
@@ -31,7 +37,26 @@ _KINDS = (
 )
 
 
-def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
+_known: ContextVar[dict[str, bytes] | None] = ContextVar("known", default=None)
+
+
+@contextmanager
+def once() -> Iterator[None]:
+    """Have each file of up to :data:`INPUT_LIMIT` bytes be read once in this thread while the block lasts.
+
+    A block inside of another one is part of it.
+    """
+    if _known.get() is not None:
+        yield
+        return
+    token = _known.set({})
+    try:
+        yield
+    finally:
+        _known.reset(token)
+
+
+def read_bytes(path: Path, limit: int = INPUT_LIMIT, *, anew: bool = False) -> bytes:
     """Content of a regular file, or of one that a link leads to.
 
     Parameters
@@ -40,6 +65,8 @@ def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
         The file.
     limit
         Bytes that it may have.
+    anew
+        Read it as it is now, also within :func:`once`: what this program itself writes.
 
     Raises
     ------
@@ -48,6 +75,18 @@ def read_bytes(path: Path, limit: int = INPUT_LIMIT) -> bytes:
     DesignError
         It is larger than ``limit``.
     """
+    known, name = None if anew else _known.get(), os.path.abspath(path)  # noqa: PTH100 - keeps links
+    if known is None or name not in known:
+        data = _read(path, limit)
+        if known is not None and len(data) <= INPUT_LIMIT:
+            known[name] = data
+        return data
+    if len(known[name]) > limit:
+        raise _too_large(path, limit)
+    return known[name]
+
+
+def _read(path: Path, limit: int) -> bytes:
     try:
         # Asked before it is opened: opening alone rewinds a tape.
         _require_regular(path, path.stat().st_mode)
@@ -75,8 +114,12 @@ def _content(path: Path, handle: int, limit: int) -> bytes:
                 f"{path}: cannot be read: it takes more than {SECONDS:g} s; copy it to a disk here"
             )
     if size > limit:
-        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+        raise _too_large(path, limit)
     return b"".join(pieces)
+
+
+def _too_large(path: Path, limit: int) -> DesignError:
+    return DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
 
 
 def regular(path: Path) -> bool:

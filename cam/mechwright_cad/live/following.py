@@ -71,7 +71,7 @@ class Following(ABC):
             raise OutputError(
                 f"{self.path.name}: has changed on disk since; look at it first, then save again"
             )
-        rewrite(self.path, self._text(text, change))
+        rewrite(self.path, self._text(text, change), known=now)
         return f"{self.path.name}: saved"
 
     def save_as(self, change: Change, name: str) -> str:

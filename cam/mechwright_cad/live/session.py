@@ -57,13 +57,13 @@ class Session(Following):
 
     def described(self, change: Change) -> dict[str, Any]:
         """Names, digest and fields."""
-        design = self.changed(change)
+        design = self.changed(change)  # whose digest is that of the file all of this is from
         return {
             "name": design.name,
             "file": self.path.name,
             "family": design.family.name,
             "title": design.family.title,
-            "digest": self.design().digest,
+            "digest": design.digest,
             "fields": fields_of(design),
         }
 

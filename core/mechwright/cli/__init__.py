@@ -1,5 +1,6 @@
 """The command line."""
 
+import atexit
 import os
 import sys
 
@@ -8,7 +9,21 @@ def main() -> None:
     """Run the command line; errors become a line each and exit code 2, or 1 for a failed proof.
 
     What is stopped ends with 128 and the number of the signal: 130 by the keyboard, 143 where it is ended.
+    The interpreter would wait for a thread that a plugin has left; then it is not asked to.
     """
+    try:
+        _stoppable()
+    except SystemExit as error:
+        from mechwright.contracts.ground import threads_left
+
+        if not threads_left():
+            raise
+        atexit._run_exitfuncs()
+        sys.stderr.flush()
+        os._exit(error.code if isinstance(error.code, int) else int(error.code is not None))
+
+
+def _stoppable() -> None:
     from mechwright.cli.stopping import NOTHING, StoppedError, exit_code, heard
 
     try:

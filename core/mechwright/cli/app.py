@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import wraps
 from typing import Annotated
 
@@ -11,6 +12,7 @@ from mechwright.cli.command import Command
 from mechwright.cli.hosting import warn_broken
 from mechwright.cli.progress import standing
 from mechwright.plugins.host import COMMANDS, load
+from mechwright.reading import once
 
 
 def _version(wanted: bool) -> None:
@@ -42,13 +44,13 @@ def _root(
         typer.echo(FIRST)
 
 
-def _stoppable(run: Callable[..., None]) -> Callable[..., None]:
+def _stoppable(command: Command) -> Callable[..., None]:
     """A command that says what stands when the keyboard stops it; typer would end it without a word."""
 
-    @wraps(run)
+    @wraps(command.run)
     def stoppable(*arguments: object, **options: object) -> None:
-        with standing():
-            run(*arguments, **options)
+        with standing(), once() if command.reads_once else nullcontext():
+            command.run(*arguments, **options)
 
     return stoppable
 
@@ -69,5 +71,5 @@ def make_app() -> typer.Typer:
     if COMPLETING not in os.environ:
         warn_broken(found)
     for command in sorted(found.all(Command), key=lambda command: command.order):
-        app.command(command.name)(_stoppable(command.run))
+        app.command(command.name)(_stoppable(command))
     return app

@@ -79,6 +79,8 @@ class Command(Plugin):
     guarded = False
     order: ClassVar[int] = 100
     """Commands of lower order stand higher in ``--help``."""
+    reads_once: ClassVar[bool] = True
+    """Whether each file is read once, whatever becomes of it meanwhile; not if it follows a file."""
     run: ClassVar[Any]
     """A method whose annotations are typer's and whose docstring is the help; it imports what it needs when
     it runs."""

@@ -39,7 +39,7 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
         raise DesignError(f"--to: {to!r} is not known; one of: {', '.join(stages)}")
     target = _target(path, output, write)
     found = open_host()
-    text, _ = read_text(path)
+    text, digest = read_text(path)
     design = load(path, found)
     with fraction() as progress:
         repair = repaired(design, found, stages[to], progress)
@@ -51,7 +51,7 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
     if target == path and not repair.change:
         target = None  # nothing to change
     if target is not None and repair.builds:
-        rewrite(target, new, like=path)
+        rewrite(target, new, like=path, known=digest if write else None)
     if as_json:
         typer.echo(json.dumps(_data(design, repair), indent=2))
     else:

@@ -5,7 +5,9 @@ through the guard whoever makes it. Inside of a call
 
 - an error that nobody expects, ``sys.exit`` among them, becomes a
   :class:`~mechwright.errors.PluginFaultError`;
-- what is printed goes to standard error, as standard output belongs to ``--json``;
+- what is printed goes to standard error, as standard output belongs to ``--json``: by Python, by a library
+  in C that does not hold it back, and by processes that are started;
+- the working directory and what else everybody shares is as it was (:mod:`~mechwright.contracts.ground`);
 - a family's method has a time, :data:`SECONDS`, or as many as :data:`LIMIT` says;
 - the answer is what the contract says (:meth:`~mechwright.contracts.plugin.Plugin.sound`), and parameters
   stay as they were.
@@ -21,10 +23,11 @@ import threading
 import traceback
 import types
 from collections.abc import Callable, Generator, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
+from mechwright.contracts.ground import kept, opened_again
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
@@ -39,6 +42,8 @@ _lock = threading.Lock()
 _inside: list[str] = []
 """Calls that are under way, the outermost first."""
 _streams: list[Any] = []
+_files: list[tuple[int, int]] = []
+"""Numbers of files, and those under which they are kept, while calls are under way."""
 
 
 class Called(Protocol):
@@ -90,21 +95,21 @@ def _wrapped(function: Callable[..., Any], contract: "type[Called]") -> Callable
 
     @functools.wraps(function)
     def called(self: "Called", *arguments: Any, **named: Any) -> Any:
-        with _guarded(self, method, contract, arguments):
+        with _guarded(self, function, contract, arguments):
             found = function(self, *arguments, **named)
             if not isinstance(found, types.GeneratorType):
                 return contract.sound(method, found, (*arguments, *named.values()))
-        return _pieces(self, method, contract, found)
+        return _pieces(self, function, contract, found)
 
     return called
 
 
 def _pieces(
-    plugin: "Called", method: str, contract: "type[Called]", found: Iterator[Any]
+    plugin: "Called", function: Callable[..., Any], contract: "type[Called]", found: Iterator[Any]
 ) -> Generator[Any, None, None]:
     """What a method gives one after the other, each asked for under the guard."""
     while True:
-        with _guarded(plugin, method, contract, ()):
+        with _guarded(plugin, function, contract, ()):
             try:
                 one = next(found)
             except StopIteration:
@@ -114,14 +119,15 @@ def _pieces(
 
 @contextmanager
 def _guarded(
-    plugin: "Called", method: str, contract: "type[Called]", arguments: tuple[Any, ...]
+    plugin: "Called", function: Callable[..., Any], contract: "type[Called]", arguments: tuple[Any, ...]
 ) -> Iterator[None]:
+    method = function.__name__
     who = f"{who_of(plugin)}: {method}()"
     limited = contract.limited and method not in contract.unlimited
     seconds = _seconds() if limited else 0.0
     before = repr(arguments[0]) if limited and arguments and not _inside else ""
     try:
-        with _aside(who), _in_time(seconds):
+        with _aside(who), _in_time(seconds), _kept(plugin, function):
             yield
         if before and repr(arguments[0]) != before:
             raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
@@ -144,6 +150,20 @@ def _guarded(
         ) from error
     except Exception as error:
         raise PluginFaultError(f"{who}: {_said(error)}") from error
+
+
+@contextmanager
+def loading(who: str, module: str) -> Iterator[None]:
+    """Have what a plugin's module prints while it is loaded go to standard error, and keep the ground."""
+    with _aside(who), kept(f"{module}.py", 1):
+        yield
+
+
+def _kept(plugin: "Called", function: Callable[..., Any]) -> AbstractContextManager[None]:
+    """The ground, but under plugins of this distribution: their tests watch them, and it takes its time."""
+    if plugin.registered_by.endswith(f" of {OWN}"):
+        return nullcontext()
+    return kept(function.__code__.co_filename, function.__code__.co_firstlineno)
 
 
 def who_of(plugin: "Called") -> str:
@@ -170,6 +190,7 @@ def _aside(who: str) -> Iterator[None]:
         if not _inside:
             _streams[:] = [sys.stdout]
             sys.stdout = sys.stderr
+            _files[:] = _turned()
         _inside.append(who)
     try:
         yield
@@ -177,7 +198,22 @@ def _aside(who: str) -> Iterator[None]:
         with _lock:
             _inside.remove(who)
             if not _inside:
-                sys.stdout = _streams.pop()
+                while _files:
+                    number, kept_as = _files.pop()
+                    with suppress(OSError):
+                        os.dup2(kept_as, number)
+                    os.close(kept_as)
+                sys.stdout = opened_again(_streams.pop(), 1)
+
+
+def _turned() -> list[tuple[int, int]]:
+    """Turn the file of standard output to that of standard error; both as they were, to be set back."""
+    found = []
+    with suppress(OSError):  # one that was closed before, or no numbers left: then nothing is turned
+        for number in (1, 2):
+            found.append((number, os.dup(number)))
+        os.dup2(2, 1)
+    return found
 
 
 def _seconds() -> float:

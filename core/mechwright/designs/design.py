@@ -37,6 +37,7 @@ from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, PluginError
 from mechwright.mechanics.chain import Chain, ChainParams
 from mechwright.plugins.host import Host
+from mechwright.reading import once
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
@@ -164,6 +165,7 @@ class Design:
         return replace(self, params=params, tables=tables, content=content)
 
 
+@once()
 def load(path: Path, host: Host) -> Design:
     """Read a design file.
 

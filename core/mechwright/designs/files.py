@@ -25,12 +25,16 @@ def read_text(
     without null bytes. A byte order mark is taken off, unless ``mark`` asks for it.
     """
     data = read_bytes(path, limit)
-    digest = hashlib.sha256(data).hexdigest()
+    return text_of(data, path, older=older, mark=mark), digest_of(data)
+
+
+def text_of(data: bytes, path: Path, *, older: str | None = None, mark: bool = False) -> str:
+    """The text of what a file holds, as :func:`read_text` gives it."""
     try:
-        return data.decode("utf-8" if mark else "utf-8-sig"), digest
+        return data.decode("utf-8" if mark else "utf-8-sig")
     except UnicodeDecodeError as error:
         if older is not None and b"\0" not in data:
-            return data.decode(older), digest
+            return data.decode(older)
         raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
 
 

@@ -37,6 +37,7 @@ from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
+from mechwright.reading import once
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,7 @@ class Requirement:
         return Design(name, self.family, params, self.path, self.digest, self.given, readers)
 
 
+@once()
 def load_requirement(path: Path, host: Host) -> Requirement:
     """Read a requirement file; raises as ``load`` does, and DesignError for a family without synthesis."""
     content, digest = read_toml(path)

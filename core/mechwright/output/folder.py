@@ -118,7 +118,7 @@ def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
     if not target.is_dir():
         raise OutputError(f"{target}: is no folder; give a new or an empty one with -o")
     try:
-        outputs = json.loads(read_bytes(target / MANIFEST))["outputs"]
+        outputs = json.loads(read_bytes(target / MANIFEST, anew=True))["outputs"]
         return {str(name): dict(entry) for name, entry in outputs.items()}
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise OutputError(
@@ -192,12 +192,14 @@ def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
-def rewrite(path: Path, text: str, like: Path | None = None) -> None:
+def rewrite(path: Path, text: str, like: Path | None = None, known: str | None = None) -> None:
     """Write a file in one step, behind a link, with the rights of ``like``, or those that it has itself.
 
-    Raises OutputError where it cannot be written.
+    Raises OutputError where it cannot be written, or is no more what has the SHA-256 ``known``.
     """
     real = path.resolve()
+    if known is not None and hashlib.sha256(read_bytes(real, anew=True)).hexdigest() != known:
+        raise OutputError(f"{path}: has changed on disk since it was read; look at it first, then try again")
     rights = (like or path).stat().st_mode & 0o777
     write_new(real, text, replace=real.exists())
     real.chmod(rights)

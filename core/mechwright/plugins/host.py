@@ -4,6 +4,7 @@ import difflib
 import os
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import pluggy
 
+from mechwright.contracts.guard import loading
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.contracts.result import Result, found_by
 from mechwright.errors import PluginError, shortened
@@ -233,13 +235,20 @@ def load(
     for distribution, point in points:
         if point.name in disabled:
             continue
-        try:
-            module = point.load()
-        except _ANY_FAILURE as error:
-            found.broken.append(Broken(distribution, point.name, _reason(error)))
-            continue
-        found.add(module, distribution, point.name)
+        with _guarded(distribution, point):
+            try:
+                module = point.load()
+            except _ANY_FAILURE as error:
+                found.broken.append(Broken(distribution, point.name, _reason(error)))
+                continue
+            found.add(module, distribution, point.name)
     return found
+
+
+def _guarded(distribution: str, point: EntryPoint) -> AbstractContextManager[None]:
+    if distribution == BUILT_IN:
+        return nullcontext()
+    return loading(f"plugin {point.name} of {distribution}", point.module)
 
 
 def hook_points(

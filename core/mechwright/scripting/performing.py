@@ -11,6 +11,7 @@ from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.output.folder import Output, check_folder, write_folder
+from mechwright.reading import once
 from mechwright.scripting.provenance import facts
 from mechwright.scripting.steps import CHECKING, WRITING, Steps, shares
 
@@ -77,7 +78,7 @@ def perform(
     asked = [one for one in found.all(Inspection) if wanted.command in one.commands]
     output = Output()
     step = Steps(build, shares([*asked, *pages]), progress)
-    with build:
+    with build, once():
         told = _make(build, pages, asked, stage, output, step)
         if not output.files and empty:
             raise DesignError(f"{build.path}: family {build.design.family.name} {empty}")

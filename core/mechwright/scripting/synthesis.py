@@ -23,6 +23,7 @@ from mechwright.designs.schema import FORMAT
 from mechwright.designs.text import design_text
 from mechwright.output.folder import Output, write_folder
 from mechwright.plugins.host import Host, host
+from mechwright.reading import once
 from mechwright.scripting.changes import change_of
 from mechwright.scripting.gallery import gallery, shown
 from mechwright.scripting.mechanism import Mechanism, inspections
@@ -141,9 +142,10 @@ class Found:
         """
         self.require()
         asked, output = self.asked, Output()
-        inputs = {name: digest_of(read_bytes(file)) for name, file in asked.inputs.items()}
-        for name, file in asked.files.items():
-            output.add(name, read_bytes(file))
+        with once():
+            inputs = {name: digest_of(read_bytes(file)) for name, file in asked.inputs.items()}
+            for name, file in asked.files.items():
+                output.add(name, read_bytes(file))
         for name, text in self.texts:
             output.add(f"{name}.toml", text)
         if len(self):

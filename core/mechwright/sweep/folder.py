@@ -61,7 +61,7 @@ class SweepFolder:
         if not os.path.lexists(path):
             return None
         try:
-            found = json.loads(read_bytes(path, BEGUN_LIMIT))
+            found = json.loads(read_bytes(path, BEGUN_LIMIT, anew=True))
         except (OutputError, ValueError, RecursionError):
             found = None
         if not isinstance(found, dict):
@@ -107,7 +107,7 @@ class SweepFolder:
             self.study.name, self.study.family, {self.study.path.name: self.study.digest}, self.host
         )
         if BEGUN not in output.files:
-            output.add(BEGUN, read_bytes(self.path / BEGUN, BEGUN_LIMIT))
+            output.add(BEGUN, read_bytes(self.path / BEGUN, BEGUN_LIMIT, anew=True))
         write_folder(self.path, output, COMMAND, facts)
 
 

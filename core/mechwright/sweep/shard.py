@@ -132,7 +132,7 @@ def read_file(study: Study, path: Path, columns: Sequence[str] | None = None) ->
 
 
 def _content(study: Study, path: Path) -> bytes:
-    return read_bytes(path, _most_bytes(study))
+    return read_bytes(path, _most_bytes(study), anew=True)
 
 
 def _most_bytes(study: Study) -> int:

@@ -49,6 +49,7 @@ from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.plugins.host import Host
+from mechwright.reading import once
 from mechwright.sweep.axis import Axis, Range, axis_of, flat
 from mechwright.units import convert
 
@@ -169,6 +170,7 @@ class Study:
         return hashlib.sha256(said.encode()).hexdigest()
 
 
+@once()
 def load_study(path: Path, host: Host) -> Study:
     """Read a study file; raises as ``load`` of a design does."""
     content, _ = read_toml(path)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
-from mechwright.designs.files import INPUT_LIMIT, read_bytes, read_text
+from mechwright.designs.files import INPUT_LIMIT, read_bytes, text_of
 from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
 from mechwright_cam.shop.formats.fusion_presets import presets_of, read_presets
@@ -97,7 +97,7 @@ def _text(path: Path) -> str:
     """The JSON of a file, packed or not, whatever it is called."""
     packed = read_bytes(path)
     if not packed.startswith(b"PK"):
-        return read_text(path, INPUT_LIMIT)[0]
+        return text_of(packed, path)
     try:
         with zipfile.ZipFile(io.BytesIO(packed)) as archive, archive.open(MEMBER) as member:
             data = member.read(INPUT_LIMIT + 1)
