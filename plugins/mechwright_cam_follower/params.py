@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, GIVEN, MaterialName, Parameters
 from mechwright.units import Millimetres, RevPerMin, Unit
 
 MOST_SEGMENTS = 24
@@ -176,6 +176,7 @@ class CamParams(Parameters):
     pressure_limit: Annotated[float, Field(ge=5, le=80), Unit("deg")] | None = Field(
         None,
         description="Greatest pressure angle that is no warning; left out, 30, of a lever 35.",
+        json_schema_extra=GIVEN,
     )
     speed: RevPerMin = Field(
         120.0, ge=0.01, le=20000, description="Constant speed of the cam.", json_schema_extra=FIRST

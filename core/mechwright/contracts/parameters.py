@@ -16,8 +16,8 @@ FIRST: JsonDict = {"first": True}
 """``json_schema_extra`` of a field that one sets first: without ``--all``, ``new`` writes these."""
 
 GIVEN: JsonDict = {"given": True}
-"""``json_schema_extra`` of a field that says what is at hand, such as a mill's travel: no remedy changes
-it."""
+"""``json_schema_extra`` of a field that says what is at hand, such as a mill's travel, or how good a thing
+has to be: no remedy changes it."""
 
 KEPT = 32
 """Designs of which a function's result is kept: checks, motion and parts ask for the same one."""
