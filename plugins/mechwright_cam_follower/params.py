@@ -1,7 +1,8 @@
 """The design table of a disc cam with its follower."""
 
 import math
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -85,6 +86,16 @@ class CamParams(Parameters):
     >>> CamParams(angles=(180.0, 180.0), lifts=(10.0, 0.0)).stroke
     10.0
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "lift": "lifts has one for each segment of a turn, beside angles",
+        "rise": "angles and lifts are lists, with one number for each segment of a turn",
+        "dwell": "a segment of angles with the lift of the one before is a dwell",
+        "fall": "angles and lifts are lists, with one number for each segment of a turn",
+        "law": "laws has one for each segment of a turn",
+        "base_circle": "base_radius is its radius",
+        "roller_diameter": "roller_radius is half of it",
+    }
 
     follower: Literal["translating", "oscillating"] = Field(
         "translating", description="A follower that slides, or a lever.", json_schema_extra=FIRST
