@@ -6,6 +6,8 @@ says what is wrong, where, the limit, and what to do. However long the values ar
 bounded length itself.
 """
 
+from collections.abc import Iterable
+
 LONGEST = 2_000
 """Characters of a line of a message: more is some value, of which beginning and end tell what it was."""
 
@@ -14,6 +16,13 @@ _BEGINNING, _END = 600, 400
 
 MOST_LINES = 50
 """Lines of a message: whoever has mended fifty mistakes asks again."""
+
+
+_LEAST_TOLD = 3
+"""Letters from which a name says what may have been meant by it."""
+
+_ALIKE = 0.6
+"""Share of letters, in their order, that two names have in common where one is the other misspelt."""
 
 
 def shortened(message: str) -> str:
@@ -80,3 +89,31 @@ class ProgramError(MechwrightError, ValueError):
 
 class ProofError(MechwrightError, RuntimeError):
     """A program was simulated and would not cut the right part."""
+
+
+def did_you_mean(name: str, known: Iterable[str], most: int = 3) -> str:
+    """Which of some known names somebody may have meant by another; empty where none is like it.
+
+    Capitals, blanks and hyphens count for nothing. Names that begin with what was written come first, then
+    the one that is spelt most like it, then those that have it as one of their words.
+
+    >>> did_you_mean("nema17", ["NEMA 17 - 34", "NEMA 17 - 40", "NEMA 23 - 56"])
+    "did you mean 'NEMA 17 - 34' or 'NEMA 17 - 40'?"
+    >>> did_you_mean("cranck", ["crank", "rod"]), did_you_mean("diameter", ["pin_diameter", "rim"])
+    ("did you mean 'crank'?", "did you mean 'pin_diameter'?")
+    >>> did_you_mean("stroke", ["crank", "rod"])
+    ''
+    """
+    import difflib
+
+    plain = {one: "".join(filter(str.isalnum, one.lower())) for one in known}
+    own = "".join(filter(str.isalnum, name.lower()))
+    begun = [one for one, words in plain.items() if len(own) >= _LEAST_TOLD and words.startswith(own)]
+    close = difflib.get_close_matches(own, plain.values(), 1, _ALIKE)
+    spelt = [one for one, words in plain.items() if words in close][:1]
+    within = [one for one in plain if own in one.lower().split("_") and len(own) >= _LEAST_TOLD]
+    found = next((some for some in (begun, spelt, within) if 0 < len(some) <= most), [])
+    if not found:
+        return ""
+    *others, last = map(repr, found)
+    return f"did you mean {', '.join(others)} or {last}?" if others else f"did you mean {last}?"

@@ -1,11 +1,12 @@
 """The design table of a disc cam with its follower."""
 
 import math
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, GIVEN, MaterialName, Parameters
 from mechwright.units import Millimetres, RevPerMin, Unit
 
 MOST_SEGMENTS = 24
@@ -85,6 +86,16 @@ class CamParams(Parameters):
     >>> CamParams(angles=(180.0, 180.0), lifts=(10.0, 0.0)).stroke
     10.0
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "lift": "lifts has one for each segment of a turn, beside angles",
+        "rise": "angles and lifts are lists, with one number for each segment of a turn",
+        "dwell": "a segment of angles with the lift of the one before is a dwell",
+        "fall": "angles and lifts are lists, with one number for each segment of a turn",
+        "law": "laws has one for each segment of a turn",
+        "base_circle": "base_radius is its radius",
+        "roller_diameter": "roller_radius is half of it",
+    }
 
     follower: Literal["translating", "oscillating"] = Field(
         "translating", description="A follower that slides, or a lever.", json_schema_extra=FIRST
@@ -176,6 +187,7 @@ class CamParams(Parameters):
     pressure_limit: Annotated[float, Field(ge=5, le=80), Unit("deg")] | None = Field(
         None,
         description="Greatest pressure angle that is no warning; left out, 30, of a lever 35.",
+        json_schema_extra=GIVEN,
     )
     speed: RevPerMin = Field(
         120.0, ge=0.01, le=20000, description="Constant speed of the cam.", json_schema_extra=FIRST

@@ -1,8 +1,9 @@
 """The design table of a pair, or of a train of two pairs, of elliptic gears."""
 
 import math
+from collections.abc import Mapping
 from itertools import pairwise
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
@@ -76,6 +77,18 @@ class EllipticGearParams(Parameters):
     >>> EllipticGearParams(eccentricity=0.4, teeth=39, module=2.0).semi_major is None
     True
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "ratio": "the speed changes between (1 - e)/(1 + e) and (1 + e)/(1 - e), e the eccentricity",
+        "ratio_max": "the speed changes between (1 - e)/(1 + e) and (1 + e)/(1 - e), e the eccentricity",
+        "centre_distance": "it is twice semi_major",
+        "center_distance": "it is twice semi_major",
+        "distance": "the centre distance is twice semi_major",
+        "major_axis": "semi_major is half of it",
+        "e": "it is called eccentricity",
+        "a": "it is called semi_major",
+        "number_of_teeth": "it is called teeth",
+    }
 
     stages: int = Field(
         1,

@@ -74,13 +74,16 @@ def laid_out(params: FiveBarParams) -> Layout:
         all plates apart.
     """
     train, hub = train_of(params), hub_of(params)
-    outlines = dict(_gears(params, train, hub))
+    bores = _gear_bores(params, train)
+    # Gears keep off by their tip circles; their teeth take longer than all the layers and are drawn last.
+    outlines = {name: disc(train.tip(name), ()) for name in train.places}
     if hub is not None:
         outlines["clamp"] = _clamp(params, hub, train)
     outlines["ground"], posts = _ground(params, train)
     outlines |= {name: link_outline(params, name) for name in LINKS}
     low = 1 if hub is not None else 0
     found = _dealt(params, outlines, [poses_of(params, k) for k in range(1 + len(params.phases))], low)
+    outlines |= _gears(params, bores, hub)
     up = raised(params)
     heights = {name: found.bottom(name) + up.get(name, 0.0) for name in outlines}
     return Layout(outlines, found, posts, heights)
@@ -103,8 +106,7 @@ def _dealt(
     spindles, measured = _spindles(params), list[Closeness]()
     for top in range(first + 1, first + len(LINKS)):
         plates = []
-        for name, drawn in outlines.items():
-            outline = disc(train.tip(name), ()) if name in train.places else drawn
+        for name, outline in outlines.items():
             if name in fixed:
                 layer, thickness, body = fixed[name]
                 plates.append(Plate(name, body, outline, thickness, (layer,)))
@@ -174,17 +176,24 @@ def link_outline(params: FiveBarParams, name: str) -> Outline:
     return hull_link(bosses)
 
 
-def _gears(params: FiveBarParams, train: Train, hub: Hub | None) -> dict[str, Outline]:
+def _gear_bores(params: FiveBarParams, train: Train) -> dict[str, float]:
+    """Diameter of each gear's bore, mm, which has to leave a rim below the teeth."""
     bores = {"pinion": params.pin_diameter, "idler": turning_bore(params), "wheel": running(params)}
-    found = {}
-    for name, outside in gear_outlines(params).items():
-        wall = train.root(name) - bores[name] / 2
+    found = {name: bores[name] for name in train.teeth}
+    for name, bore in found.items():
+        wall = train.root(name) - bore / 2
         if wall < params.rim:
             teeth = {"pinion": "crank_teeth", "idler": "idler_teeth", "wheel": "arm_teeth"}[name]
             raise GeometryError(
                 f"{teeth}: the {name} has {wall:.4g} mm between bore and teeth, and the rim is "
                 f"{params.rim:g} mm"
             )
+    return found
+
+
+def _gears(params: FiveBarParams, bores: Mapping[str, float], hub: Hub | None) -> dict[str, Outline]:
+    found = {}
+    for name, outside in gear_outlines(params).items():
         holes = [_hole(0j, bores[name])]
         if name == "wheel" and hub is not None:
             holes += [_hole(at, core_of(hub)) for at in screw_places(hub)]

@@ -1,6 +1,7 @@
 """The design table of a four-bar linkage."""
 
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -30,6 +31,18 @@ class FourBarParams(Parameters):
     >>> FourBarParams().coupler_point_x is None
     True
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "rocker": "it is called follower",
+        "output": "the output link is called follower",
+        "input": "the input link is called crank",
+        "driver": "it is called crank",
+        "rod": "the link between crank and follower is called coupler",
+        "base": "it is called ground",
+        "fixed": "the fixed link is called ground",
+        "link1": "the links are called crank, coupler, follower and ground",
+        "length": "the links are called crank, coupler, follower and ground",
+    }
 
     crank: Millimetres = Field(
         30.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.", json_schema_extra=FIRST

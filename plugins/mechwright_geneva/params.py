@@ -1,6 +1,7 @@
 """The design table of a Geneva mechanism."""
 
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -32,6 +33,17 @@ class GenevaParams(Parameters):
     >>> GenevaParams(slots=6).construction
     'auto'
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "stations": "they are called slots",
+        "steps": "they are called slots",
+        "divisions": "they are called slots",
+        "wheel_diameter": "entry_radius tells it: from the wheel's axis to where a roller's centre enters",
+        "wheel_radius": "entry_radius tells it: from the wheel's axis to where a roller's centre enters",
+        "diameter": "entry_radius tells the wheel's: from its axis to where a roller's centre enters",
+        "index_time": "it is crank_half_angle / (3 speed) s, in degrees and rev/min",
+        "dwell": "crank_half_angle tells it: the wheel rests for 360 degrees less twice as much",
+    }
 
     slots: int = Field(
         4,

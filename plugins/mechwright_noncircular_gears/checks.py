@@ -64,15 +64,20 @@ def standing(params: NoncircularParams) -> tuple[Finding, ...]:
 
 
 def judged(params: NoncircularParams) -> tuple[Finding, ...]:
-    """The same without the mesh proof, and without advice on loads."""
-    return until_error(params, law_findings, _of_the_parts, _of_the_load, _backlash)
+    """The same without the mesh proof, and without advice."""
+    law, parts = (partial(one, advise=False) for one in (law_findings, _of_the_parts))
+    return until_error(params, law, parts, _of_the_load, _backlash)
 
 
 @kept
-def _of_the_parts(params: NoncircularParams) -> tuple[Finding, ...]:
-    teeth = (_size, _profile, convexity_findings, sector_findings, _land, undercut_findings)
-    tips = (cusp_findings, _tip, fillet_findings)
-    return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, _drive)))
+def _of_the_parts(params: NoncircularParams, *, advise: bool = True) -> tuple[Finding, ...]:
+    hollow, undercut, cusp, fillet, drive = (
+        partial(one, advise=advise)
+        for one in (convexity_findings, undercut_findings, cusp_findings, fillet_findings, _drive)
+    )
+    teeth = (_size, _profile, hollow, sector_findings, _land, undercut)
+    tips = (cusp, _tip, fillet)
+    return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, drive)))
 
 
 @of_stage(Stage.PARTS)
@@ -141,14 +146,14 @@ def _opening(params: NoncircularParams) -> Iterator[Finding]:
     yield from sorted(rims, key=lambda one: one.value or 0.0)[:1]
 
 
-def _drive(params: NoncircularParams) -> Iterator[Finding]:
+def _drive(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
     steepest = extremes_of(params).steepest
     angle = params.pressure_angle + math.degrees(steepest.value)
     if not exceeds(angle, SHAFT_PRESSURE_ANGLE):
         return
     most = math.radians(SHAFT_PRESSURE_ANGLE - params.pressure_angle)
     words, changes = said(
-        nearest(params, lambda one: extremes_of(one).steepest.value <= most),
+        nearest(params, lambda one: extremes_of(one).steepest.value <= most) if advise else None,
         "let the ratio change over a longer angle of the driver",
     )
     yield Finding.warning(

@@ -19,7 +19,7 @@ from mechwright.mechanics.gearing import (
 from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash
 from mechwright.mechanics.gearing.checks import FULL_RIM
 from mechwright.mechanics.openings import opening_of
-from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.law import alike, extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.ring import Rim, ring_outline
@@ -36,9 +36,9 @@ def pair_of(params: NoncircularParams) -> RolledPair:
     """Both pitch curves; a module asks for a centre distance of its own."""
     law = law_of(params)
     if params.centre_distance is not None:
-        return RolledPair.of(law, params.centre_distance, params.side)
+        return alike(RolledPair.of(law, params.centre_distance, params.side))
     assert params.module is not None  # noqa: S101 - the table has exactly one of both
-    return RolledPair.of_pitch(law, math.pi * params.module, params.teeth, params.side)
+    return alike(RolledPair.of_pitch(law, math.pi * params.module, params.teeth, params.side))
 
 
 def curves_of(params: NoncircularParams) -> tuple[RolledCurve, RolledCurve]:
@@ -100,12 +100,12 @@ def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
     if params.sector is not None:
         count, hub = params.teeth, hub_of(params) / 2
         return (
-            SectorTeeth.over(one, rack, count, (-count, 0), -offset, hub),
-            SectorTeeth.over(two, mate, count, (0, count), offset + 0.5, hub),
+            alike(SectorTeeth.over(one, rack, count, (-count, 0), -offset, hub)),
+            alike(SectorTeeth.over(two, mate, count, (0, count), offset + 0.5, hub)),
         )
     return (
-        Teeth(one, rack, params.teeth, -offset % 1.0),
-        Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0),
+        alike(Teeth(one, rack, params.teeth, -offset % 1.0)),
+        alike(Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0)),
     )
 
 
@@ -148,11 +148,16 @@ def rim_of(params: NoncircularParams) -> Rim:
     return Rim.of(params, teeth_of(params)[1])
 
 
-@kept
 def pitch_points(params: NoncircularParams) -> tuple[Array, Array]:
     """Points (n, 2), mm, of both pitch curves, each in the frame of its gear."""
-    one, two = (curve.frame(curve.around(_ROOM_SAMPLES)).point for curve in curves_of(params))
+    one, two = map(_points, curves_of(params))
     return one, two
+
+
+@kept
+def _points(curve: RolledCurve) -> Array:
+    points: Array = curve.frame(curve.around(_ROOM_SAMPLES)).point
+    return points
 
 
 def room(params: NoncircularParams, gear: int, points: Array) -> float:

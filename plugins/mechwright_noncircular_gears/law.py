@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -25,6 +26,8 @@ from mechwright_noncircular_gears.laws.slider import SliderLaw
 from mechwright_noncircular_gears.laws.table import TableLaw
 from mechwright_noncircular_gears.laws.window import WindowLaw
 from mechwright_noncircular_gears.params import NoncircularParams
+
+T = TypeVar("T")
 
 LEAST_RATIO = 1e-3
 """Share of the mean ratio below which the driven gear as good as stands."""
@@ -51,9 +54,27 @@ FORMULAS: dict[str, Callable[[tuple[int, int], str], WrittenLaw]] = {
 }
 
 
+def alike(value: T) -> T:
+    """The first of equal laws, curves or teeth, with all that has been found of it.
+
+    Designs that differ in bores, loads or plates share them.
+    """
+    first: T = _first_alike(value)
+    return first
+
+
+@kept
+def _first_alike(value: Any) -> Any:
+    return value
+
+
 @kept
 def law_of(params: NoncircularParams) -> RatioLaw:
     """The law of a design; whether it can be run, :func:`extremes_of` tells."""
+    return alike(_law(params))
+
+
+def _law(params: NoncircularParams) -> RatioLaw:
     lobes = params.lobes, params.mate_lobes
     if params.sector is not None:
         return SectorLaw(_course(params, math.radians(params.sector)), math.radians(params.sector))
@@ -128,18 +149,18 @@ def fastest_of(law: RatioLaw) -> Extreme:
     return least(law, lambda phi: -law.rates(phi)[0], -1.0)
 
 
-@kept
 def extremes_of(params: NoncircularParams) -> Extremes:
     """Extremes of the pitch curves; the ratio has to be above 0, and of a ring below 1."""
-    law = law_of(params)
+    return _extremes(law_of(params), params.side, _beyond(params))
 
+
+@kept
+def _extremes(law: RatioLaw, side: int, beyond: float) -> Extremes:
     def slope(phi: Array) -> Array:
-        return -np.abs(Rolling.of(law, phi, params.side).tilt)
+        return -np.abs(Rolling.of(law, phi, side).tilt)
 
     def of(name: str, sign: float) -> Extreme:
-        return least(
-            law, lambda phi: sign * getattr(Rolling.of(law, phi, params.side), name), sign, _beyond(params)
-        )
+        return least(law, lambda phi: sign * getattr(Rolling.of(law, phi, side), name), sign, beyond)
 
     return Extremes(
         slowest_of(law),

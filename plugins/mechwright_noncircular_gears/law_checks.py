@@ -17,8 +17,11 @@ MOST_RING_RATIO = 0.95
 """Of a ring and the gear in it: pitch radii r = a i/(1 - i) have no bound towards 1."""
 
 
-def law_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """Room for the blends of a window, a ratio above 0, and below 1 in a ring."""
+def law_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
+    """Room for the blends of a window, a ratio above 0, and below 1 in a ring.
+
+    A softer law is sought only to ``advise``.
+    """
     law = law_of(params)
     if isinstance(law, WindowLaw):
         taken, period = law.width + 2 * law.blend, law.period
@@ -48,7 +51,9 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
             return
     if params.internal and not outruns(params):
         fastest = fastest_of(law)
-        words, changes = said(nearest(params, outruns), "draw the law nearer to a constant ratio")
+        words, changes = said(
+            nearest(params, outruns) if advise else None, "draw the law nearer to a constant ratio"
+        )
         yield Finding.error(
             "law.ring",
             "law",
@@ -64,7 +69,7 @@ def law_findings(params: NoncircularParams) -> Iterator[Finding]:
     if runs(params):
         return
     slowest = slowest_of(law)
-    words, changes = said(nearest(params, runs), _wider(params))
+    words, changes = said(nearest(params, runs) if advise else None, _wider(params))
     yield Finding.error(
         "law.turns-back",
         "law",

@@ -1,7 +1,7 @@
 """The mesh proof of a design: as drawn, and as the cutters leave it."""
 
 from mechwright import TOLERANCES, Array, kept
-from mechwright.mechanics.gearing import MeshProof, prove_mesh
+from mechwright.mechanics.gearing import MeshProof, RolledPair, Teeth, prove_mesh
 from mechwright_noncircular_gears.gear import pair_of, rack_of, teeth_of, toothed
 from mechwright_noncircular_gears.params import NoncircularParams
 
@@ -10,15 +10,18 @@ FLATTEN = 2.5e-6
 error, give or take the ratio of the pitch radii."""
 
 
-@kept
 def prove(params: NoncircularParams) -> MeshProof:
     """Run both finished outlines against each other until the same teeth meet again."""
-    pair = pair_of(params)
+    return _prove(pair_of(params), teeth_of(params), params.teeth, params.internal)
+
+
+@kept
+def _prove(pair: RolledPair, teeth: tuple[Teeth, Teeth], count: int, internal: bool) -> MeshProof:
     tolerance = min(FLATTEN * pair.distance / 2, TOLERANCES.flatten)
-    (one, off), (two, more) = map(toothed, teeth_of(params))
-    mate = two.reversed() if params.internal else two
+    (one, off), (two, more) = map(toothed, teeth)
+    mate = two.reversed() if internal else two
     outlines = one.flatten(tolerance), mate.flatten(tolerance)
-    return prove_mesh(pair, rack_of(params), params.teeth, outlines, off + more + 2 * tolerance)
+    return prove_mesh(pair, teeth[0].rack, count, outlines, off + more + 2 * tolerance)
 
 
 def prove_outlines(params: NoncircularParams, driver: Array, driven: Array, allowance: float) -> MeshProof:

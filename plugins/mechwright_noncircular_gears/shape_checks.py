@@ -21,8 +21,11 @@ MOST_PROPOSED = 300
 """Teeth that a remedy proposes at most: finer ones are for those who ask for them."""
 
 
-def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """Errors where a pitch curve is hollow, or curved more tightly than the roots are deep."""
+def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
+    """Errors where a pitch curve is hollow, or curved more tightly than the roots are deep.
+
+    A softer law is sought only to ``advise``.
+    """
     found, a, cutter = extremes_of(params), pair_of(params).distance, profile_of(params)
     hollow = _hollowest(params)
 
@@ -31,7 +34,7 @@ def convexity_findings(params: NoncircularParams) -> Iterator[Finding]:
 
     for name, least in zip(NAMES, found.curvatures, strict=True):
         if least.value < hollow:
-            words, changes = said(nearest(params, works), _slower(params))
+            words, changes = said(nearest(params, works) if advise else None, _slower(params))
             if cutter.shaper_radius is None:
                 words, changes = (
                     f'set cutter = "shaper", or {words}',
@@ -105,20 +108,20 @@ def _slower(params: NoncircularParams) -> str:
     return "let the ratio change more slowly"
 
 
-def undercut_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """An error if any flank is undercut, with what would not be."""
+def undercut_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
+    """An error if any flank is undercut, with what would not be to ``advise``."""
     for name, teeth in zip(NAMES, teeth_of(params), strict=True):
         factor = teeth.least_regularity
         bad = factor < LEAST_REGULARITY
         if not bad.any():
             continue
         space, side = np.unravel_index(int(np.argmin(factor)), factor.shape)
-        more = least_teeth(params)
+        more = least_teeth(params) if advise else None
         remedy = "use a smaller dedendum or a larger pressure_angle"
         changes: tuple[Change, ...] = ()
         if more is not None:
             remedy, changes = f"use {more} teeth, the least number that works", ({"parameters.teeth": more},)
-        else:
+        elif advise:
             fields = nearest(params, lambda one: not is_undercut(one))
             if fields:
                 remedy, changes = said(fields, "")

@@ -32,20 +32,23 @@ def addendum_of(params: NoncircularParams, gear: int) -> tuple[str, float]:
     return "addendum", profile_of(params).addendum
 
 
-def cusp_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """An error for the first gear with hollow arcs whose flanks turn back before their tips."""
+def cusp_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
+    """An error for the first gear with hollow arcs whose flanks turn back before their tips.
+
+    The height that works is sought only to ``advise``.
+    """
     for gear, one in enumerate(teeth_of(params)):
         if extremes_of(params).curvatures[gear].value < 0 and not _straight(one, one):
             height = addendum_of(params, gear)[1]
             message = (
                 f"flanks of {NAMES[gear].replace('-', ' ')} turn back before they are {height:g} modules high"
             )
-            yield _finding(params, gear, "gear.tip-cusp", message, _straight)
+            yield _finding(params, gear, "gear.tip-cusp", message, _straight if advise else None)
             return
 
 
-def fillet_findings(params: NoncircularParams) -> Iterator[Finding]:
-    """An error for the first gear whose tips would run into the fillets of its mate."""
+def fillet_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
+    """The same for the first gear whose tips would run into the fillets of its mate."""
     teeth = teeth_of(params)
     for gear, one in enumerate(teeth):
         depth = teeth[1 - gear].rack.straight_depth
@@ -54,7 +57,7 @@ def fillet_findings(params: NoncircularParams) -> Iterator[Finding]:
                 f"tips of {NAMES[gear].replace('-', ' ')} ask for flanks of their mates down to "
                 f"{one.tip_height:.3f} mm, and those end at {depth:.3f} mm: tips would run into fillets"
             )
-            yield _finding(params, gear, "gear.tip-fillet", message, _clear)
+            yield _finding(params, gear, "gear.tip-fillet", message, _clear if advise else None)
             return
 
 
@@ -70,10 +73,14 @@ def _clear(own: Teeth, mate: Teeth) -> bool:
 
 
 def _finding(
-    params: NoncircularParams, gear: int, code: str, message: str, works: Callable[[Teeth, Teeth], bool]
+    params: NoncircularParams,
+    gear: int,
+    code: str,
+    message: str,
+    works: Callable[[Teeth, Teeth], bool] | None,
 ) -> Finding:
     field, value = addendum_of(params, gear)
-    most = _most(params, gear, field, value, works)
+    most = None if works is None else _most(params, gear, field, value, works)
     changes: tuple[Change, ...] = () if most is None else ({f"parameters.{field}": most},)
     remedy = "use more teeth, or a law that changes its ratio less"
     if most is not None:

@@ -1,7 +1,8 @@
 """The design table of a slider-crank."""
 
 import math
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -24,6 +25,18 @@ class SliderCrankParams(Parameters):
     >>> SliderCrankParams(crank=50, rod=150, offset=20).linkage.offset
     20.0
     """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "stroke": "without an offset twice the crank; mechwright synthesize finds designs of a stroke",
+        "conrod": "it is called rod",
+        "connecting_rod": "it is called rod",
+        "coupler": "it is called rod",
+        "eccentricity": "it is called offset",
+        "crank_radius": "it is called crank",
+        "crank_length": "it is called crank",
+        "rod_length": "it is called rod",
+        "pin_diameter": "it is called pin",
+    }
 
     crank: Millimetres = Field(
         30.0, ge=0.5, le=LONGEST, description="Length a of the crank, pivot to pin.", json_schema_extra=FIRST

@@ -10,12 +10,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage, kept, until_error
-from mechwright.mechanics.planar import Turning
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.planar import Turning, swing
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.frame import shells_of
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.linkage import TURN_BACK, Phase, PinError, linkage_of
-from mechwright_spherical.mobility import input_range, kind
+from mechwright_spherical.mobility import input_range, input_ways, kind
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import second_size
 from mechwright_spherical.setting_checks import setting_findings
@@ -96,7 +97,7 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
         if len(linkage.phases) > 1:
             where += f" of phase {phase.number}"
         if phase.rocks:
-            yield _lever(phase)
+            yield _lever(params, phase)
         if falls_short(sine, math.sin(math.radians(DEAD_CENTRE))):
             yield _apart(params, phase, at, sine, where)
         elif falls_short(worst := math.degrees(math.asin(sine)), params.least_transmission):
@@ -107,12 +108,30 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
                 worst,
                 params.least_transmission,
                 "deg",
-                "shorten the travel, choose other arcs, or accept it with a smaller least_transmission",
+                "shorten the travel, or choose another four_bar.coupler or four_bar.output"
+                if phase.four_bar is not None
+                else "shorten the travel, or choose other pins",
                 Stage.PARTS,
+                tuple(_shorter(phase, params.least_transmission)),
             )
 
 
-def _lever(phase: Phase) -> Finding:
+def _shorter(phase: Phase, least: float) -> Iterator[Change]:
+    """As much of what the input of a four-bar goes as keeps a transmission angle, degrees; of a turn none."""
+    if phase.four_bar is None or phase.number > 1 or abs(phase.travel) >= math.tau - ON_TRAVEL:
+        return
+    low, high = sorted((phase.start, phase.start + phase.travel))
+    middle = (low + high) / 2
+    for way in input_ways(*phase.four_bar.arcs, math.radians(least)):
+        first, last = swing.beside(way, middle, math.tau)
+        one, two = (math.degrees(end) * 10 for end in (max(first, low), min(last, high)))
+        one, two = math.ceil(one) / 10, math.floor(two) / 10
+        if two - one >= swing.LEAST:
+            start, end = (one, two) if phase.travel > 0 else (two, one)
+            yield {"parameters.four_bar.start": start, "parameters.four_bar.travel": round(end - start, 1)}
+
+
+def _lever(params: SphericalParams, phase: Phase) -> Finding:
     low, high = (math.degrees(end) for end in (phase.start, phase.start + phase.travel))
     return Finding.warning(
         "spherical.lever",
@@ -121,7 +140,11 @@ def _lever(phase: Phase) -> Finding:
         high - low,
         360.0,
         "deg",
-        "say how far it goes with start and travel inside these, or choose other arcs",
+        "say how far it goes with four_bar.start and four_bar.travel inside these, or choose other arcs",
+        proposed=(
+            *_shorter(phase, params.least_transmission),
+            *_shorter(phase, math.degrees(TURN_BACK)),
+        ),
     )
 
 
@@ -149,6 +172,7 @@ def _apart(params: SphericalParams, phase: Phase, at: float, sine: float, where:
         "deg",
         remedy,
         Stage.MOTION if sine < 0 else Stage.PARTS,
+        tuple(_shorter(phase, DEAD_CENTRE)),
     )
 
 

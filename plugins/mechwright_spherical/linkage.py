@@ -10,7 +10,7 @@ from mechwright.mechanics.planar import Course, Turning
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.loop import Loop, State
-from mechwright_spherical.mobility import input_range
+from mechwright_spherical.mobility import input_ways
 from mechwright_spherical.params import FiveBarTable, FourBarPhase, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
 from mechwright_spherical.vectors import arc, cross, dot, norm, rotate, vector
@@ -275,11 +275,9 @@ def _course(said: float | None, travel: float | None, four_bar: FourBar) -> tupl
     start = math.radians(said or 0.0)
     if travel is not None:
         return Course(start, math.radians(travel)), start
-    ways = input_range(*four_bar.arcs, TURN_BACK)
-    if not ways or ways == ((0.0, math.tau),):
+    ways = input_ways(*four_bar.arcs, TURN_BACK)
+    if not ways or ways == [(0.0, math.tau)]:
         return Course(start, math.tau), start
-    if len(ways) == 2 and ways[0][0] == 0.0:  # one way through 0
-        ways = ((-ways[0][1], ways[0][1]),)
     for low, high in ways:
         turn = math.tau * math.floor((start - low) / math.tau)
         if said is not None and low + turn <= start <= high + turn:

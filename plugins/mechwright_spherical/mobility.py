@@ -90,14 +90,16 @@ def _signs(values: Array) -> tuple[int, int, int]:
     return one, two, three
 
 
-def input_ways(ground: float, input_: float, coupler: float, output: float) -> list[tuple[float, float]]:
+def input_ways(
+    ground: float, input_: float, coupler: float, output: float, least: float = 0.0
+) -> list[tuple[float, float]]:
     """The connected ranges of the input, rad: those of :func:`input_range`, joined across 0.
 
     >>> arcs = np.radians([110, 60, 70, 60])
     >>> [(round(math.degrees(low), 3), round(math.degrees(high), 3)) for low, high in input_ways(*arcs)]
     [(-125.431, 125.431)]
     """
-    ranges = input_range(ground, input_, coupler, output)
+    ranges = input_range(ground, input_, coupler, output, least)
     if len(ranges) == 2 and ranges[0][0] == 0.0:
         return [(ranges[1][0] - math.tau, ranges[0][1])]
     return list(ranges)

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, GIVEN, MaterialName, Parameters
 from mechwright.mechanics.linkage.fields import Phase, phases_together
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
@@ -354,10 +354,14 @@ class SphericalParams(Parameters):
     path_tolerance: Annotated[float, Field(gt=0, le=100), Unit("mm")] | None = Field(
         None,
         description="Allowed distance of the path from its prescribed points; left out, it is only reported.",
-        json_schema_extra=FIRST,
+        json_schema_extra={**FIRST, **GIVEN},
     )
     least_transmission: Degrees = Field(
-        40.0, ge=0, le=89, description="Transmission angle that neither side may go below without a warning."
+        40.0,
+        ge=0,
+        le=89,
+        description="Transmission angle that neither side may go below without a warning.",
+        json_schema_extra=GIVEN,
     )
     five_bar: FiveBarTable = Field(FiveBarTable(), description="The adjustable five-bar.")
     four_bar: FourBarTable = Field(FourBarTable(), description="The four-bar.")

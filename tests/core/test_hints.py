@@ -1,15 +1,19 @@
 """Mistakes in files are told with their line, and the table to which a key belongs."""
 
+import re
 import time
 
 import pytest
 
+from mechwright.contracts.family import Family
 from mechwright.designs.design import load
 from mechwright.designs.hints import line_of
 from mechwright.designs.requirement import load_requirement
+from mechwright.designs.tables import read_table
 from mechwright.designs.toml_hints import toml_hint
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
+from mechwright.standards.motors import motor
 
 HEAD = 'format = 1\nfamily = "four-bar"\n'
 TOLD = {
@@ -82,6 +86,18 @@ TOLD = {
         "[parameters]\n# crnk\ncrnk = 3\n",
         "line 5: parameters: unknown key 'crnk'; did you mean 'crank'?",
     ),
+    "another word for it": (
+        "[parameters]\nrocker = 30\n",
+        "line 4: parameters: unknown key 'rocker'; it is called follower",
+    ),
+    "how it begins": (
+        "[parameters]\nbushing = 30\n",
+        "line 4: parameters: unknown key 'bushing'; did you mean 'bushing_wall'?",
+    ),
+    "a word of several": (
+        "[parameters]\nwidth = 30\n",
+        "line 4: parameters: unknown key 'width'; did you mean 'web_width'?",
+    ),
     "a table": ("[parametres]\n", "line 3: unknown key 'parametres'; did you mean 'parameters'?"),
 }
 
@@ -128,3 +144,21 @@ def test_a_line_that_nobody_typed_takes_no_time(line):
     begun = time.process_time()
     assert not toml_hint(line, "Invalid value (at line 1, column 2)")
     assert time.process_time() - begun < 1
+
+
+@pytest.mark.parametrize("family", sorted(host().of(Family)))
+def test_what_is_said_of_another_word_names_a_key(family):
+    """None is a key itself, and each is told a key that there is, or the command that helps."""
+    model = host().family(family).Params
+    assert not set(model.also) & set(model.model_fields)
+    for word, said in model.also.items():
+        names = set(re.findall(r"\w+", said))
+        assert names & (set(model.model_fields) | {"synthesize"}), word
+        with pytest.raises(DesignError, match=f"unknown key '{word}'; {re.escape(said)}"):
+            read_table(model, {word: 1}, "a.toml", "parameters")
+
+
+@pytest.mark.parametrize("name", ["NEMA 17", "nema17", "nema-17"])
+def test_a_motor_is_told_its_lengths(name):
+    with pytest.raises(DesignError, match="did you mean 'NEMA 17 - 34', 'NEMA 17 - 40' or 'NEMA 17 - 48'"):
+        motor(name)

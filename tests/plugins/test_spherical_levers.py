@@ -1,12 +1,15 @@
 """Spherical four-bars whose input is a lever."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mechwright import Severity, Stage
+from mechwright import Severity, Stage, host
 from mechwright.contracts.finding import errors
+from mechwright.designs.design import design_of
+from mechwright.remedies import tried
 from mechwright.testing.compare import assert_derivative
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.rules import motion_faults
@@ -110,3 +113,43 @@ def test_a_small_sphere_forbids_parts_alone(radius, kind):
     assert found
     assert {one.stage for one in found} == {Stage.PARTS}
     assert motion_faults(Spherical().solve(design, 91)) == []
+
+
+def told(**table):
+    """What is told of a four-bar, by code: the change, and what stands with it."""
+    content = {"family": "spherical", "parameters": {"kind": "four-bar", "radius": 80, "four_bar": table}}
+    design = design_of(content, Path("lever.toml"), "", host())
+    grave = [one for one in tried(design, design.check()) if one.severity is not Severity.NOTE]
+    return {
+        one.code: (
+            one.fix,
+            None if one.fix is None else {left.code for left in design.changed(one.fix).check()},
+        )
+        for one in grave
+    }
+
+
+@pytest.mark.parametrize("case", LEVERS)
+def test_of_a_lever_the_swing_is_told_that_is_good(case):
+    """Both warnings go with one change of its swing; the limit of what is good stays what it is."""
+    found = told(**dict(zip(ARCS, LEVERS[case], strict=True)))
+    assert set(found) >= {"spherical.lever", "spherical.transmission"}
+    for code in ("spherical.lever", "spherical.transmission"):
+        change, left = found[code]
+        assert set(change) == {"parameters.four_bar.start", "parameters.four_bar.travel"}
+        assert not left & {"spherical.lever", "spherical.transmission"}
+
+
+def test_a_swing_that_goes_too_far_keeps_its_sense_and_its_start():
+    change, left = told(ground=70, input=60, coupler=20, output=55, start=70, travel=-50)[
+        "spherical.assembly"
+    ]
+    assert change == {"parameters.four_bar.travel": -32.7}
+    assert "spherical.assembly" not in left
+
+
+def test_of_a_crank_that_turns_arcs_are_changed_and_no_limit():
+    change, left = told(ground=85, input=30, coupler=62, output=60)["spherical.transmission"]
+    assert set(change) <= {"parameters.four_bar.coupler", "parameters.four_bar.output"}
+    assert "spherical.transmission" not in left
+    assert "spherical.lever" not in left

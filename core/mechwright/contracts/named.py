@@ -1,9 +1,8 @@
 """Things with names, in an order: parts of a mechanism, programs of a job."""
 
-import difflib
 from typing import Protocol, SupportsIndex, TypeVar, overload
 
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, did_you_mean
 
 
 class HasName(Protocol):
@@ -48,8 +47,7 @@ class Named(tuple[T, ...]):
         for item in self:
             if item.name == key:
                 return item
-        close = difflib.get_close_matches(key, self.names, 1)
-        hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(self.names) or 'none'}"
+        hint = did_you_mean(key, self.names) or f"known: {', '.join(self.names) or 'none'}"
         raise DesignError(f"nothing is named {key!r}; {hint}")
 
     def __contains__(self, key: object) -> bool:

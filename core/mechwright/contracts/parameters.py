@@ -1,8 +1,8 @@
 """Base of all tables of a design file, and what is kept of the designs that were asked for last."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
 from pydantic.config import JsonDict
@@ -16,8 +16,8 @@ FIRST: JsonDict = {"first": True}
 """``json_schema_extra`` of a field that one sets first: without ``--all``, ``new`` writes these."""
 
 GIVEN: JsonDict = {"given": True}
-"""``json_schema_extra`` of a field that says what is at hand, such as a mill's travel: no remedy changes
-it."""
+"""``json_schema_extra`` of a field that says what is at hand, such as a mill's travel, or how good a thing
+has to be: no remedy changes it."""
 
 KEPT = 32
 """Designs of which a function's result is kept: checks, motion and parts ask for the same one."""
@@ -71,6 +71,9 @@ class Parameters(BaseModel):
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, validate_default=True)
+
+    also: ClassVar[Mapping[str, str]] = {}
+    """What people look for under another name, and what to say of it: ``{"conrod": "it is called rod"}``."""
 
     @field_validator("*", mode="before")
     @classmethod

@@ -10,6 +10,9 @@ from mechwright.contracts.table import Table
 from mechwright.designs.schema import HEAD
 from mechwright.plugins.host import Host
 
+_LIST = "known: "
+"""How it is said that no key is like an unknown one."""
+
 _TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(?:#.*)?$")
 _KEY = re.compile(r"""\s*(["']?)([\w.-]+)\1\s*=""")
 _DECIMAL = re.compile(r"^(.*?: )([\w.-]+)(: .* write a point for the decimal comma: .*)$")
@@ -38,7 +41,7 @@ def placed(message: str, text: str, known: Mapping[str, list[str]]) -> str:
         number = line_of(text, where, key)
         at = f"line {number}: " if number else ""
         belongs = [table for table in known.get(key, ()) if table != where]
-        if belongs:
+        if belongs and (rest.startswith(_LIST) or not all("." in table for table in belongs)):
             rest = f"it stands in {_named(where)} and belongs to {' or '.join(map(_named, belongs))}"
         said.append(f"{source}{at}{f'{where}: ' if where else ''}unknown key '{key}'; {rest}")
     return "\n".join(said)

@@ -1,14 +1,15 @@
 """Tables of a design file against their models, and what is said of mistakes in them."""
 
-import difflib
 from collections.abc import Iterator, Mapping
 from itertools import islice
 from pathlib import Path
+from types import MappingProxyType
 from typing import TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from mechwright.errors import MOST_LINES, DesignError
+from mechwright.contracts.parameters import Parameters
+from mechwright.errors import MOST_LINES, DesignError, did_you_mean
 
 T = TypeVar("T", bound=BaseModel)
 
@@ -55,8 +56,10 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
         keys = [str(key) for key in item["loc"]]
         place = ".".join([where, *keys])
         if item["type"] == "extra_forbidden":
-            fields = tuple(_table_at(model, keys[:-1]).model_fields)
-            yield f"{'.'.join([where, *keys[:-1]])}: {unknown(keys[-1], fields)}"
+            table = _table_at(model, keys[:-1])
+            also = table.also if issubclass(table, Parameters) else {}
+            said = unknown(keys[-1], tuple(table.model_fields), also=also)
+            yield f"{'.'.join([where, *keys[:-1]])}: {said}"
         elif item["type"] == "missing":
             yield f"{place}: is missing"
         else:
@@ -91,8 +94,9 @@ def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:
     return model
 
 
-def unknown(key: str, known: tuple[str, ...], what: str = "key") -> str:
-    """Say that a key is not known, and what was probably meant."""
-    close = difflib.get_close_matches(key, known, 1)
-    hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
-    return f"unknown {what} {key!r}; {hint}"
+def unknown(
+    key: str, known: tuple[str, ...], what: str = "key", also: Mapping[str, str] = MappingProxyType({})
+) -> str:
+    """Say that a key is not known, and what was probably meant: as ``also`` has it, or by its letters."""
+    said = also.get(key) or did_you_mean(key, known) or f"known: {', '.join(known)}"
+    return f"unknown {what} {key!r}; {said}"

@@ -1,6 +1,5 @@
 """The plugin host: finds plugins, keeps what they register, and turns a broken one into a warning."""
 
-import difflib
 import os
 import re
 from collections.abc import Iterable, Sequence
@@ -15,7 +14,7 @@ import pluggy
 from mechwright.contracts.guard import loading
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.contracts.result import Result, found_by
-from mechwright.errors import PluginError, shortened
+from mechwright.errors import PluginError, did_you_mean, shortened
 from mechwright.plugins import hookspecs
 
 if TYPE_CHECKING:
@@ -94,9 +93,8 @@ class Host:
         if name in items:
             return items[name].item
         known = ", ".join(sorted(items)) or "none is installed"
-        close = difflib.get_close_matches(name, items, 1)
-        meant = f"; did you mean {close[0]!r}?" if close else ""
-        raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}{meant}")
+        meant = "; ".join(filter(None, (f"known: {known}", did_you_mean(name, items))))
+        raise PluginError(f"{contract.kind} {name!r} is not installed; {meant}")
 
     def family(self, name: str) -> "Family[Any]":
         """The family of this name; raises PluginError that lists the installed ones."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
+from mechwright.designs.change import found_at
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import Key, keys_of
 from mechwright.remedies.values import distance
@@ -77,7 +78,7 @@ class Bench:
         keys = keys_of(self.design)
         self.keys = {path: key for path, key in keys.items() if not key.given}
         self._given = keys.keys() - self.keys.keys()
-        self._found: dict[str, tuple[Finding, ...] | None] = {}
+        self._found: dict[frozenset[tuple[str, str]], tuple[Finding, ...] | None] = {}
         self._used = 0.0
 
     @property
@@ -95,12 +96,21 @@ class Bench:
 
     def found(self, change: Change) -> tuple[Finding, ...] | None:
         """What is found of the design with a change; None where it is refused, or there is no try left."""
-        name = repr(sorted(change.items(), key=lambda item: item[0]))
+        name = self._differing(change)
         if name not in self._found:
             if self.spent:
                 return None
             self._found[name] = self._judged(change)
         return self._found[name]
+
+    def _differing(self, change: Change) -> frozenset[tuple[str, str]]:
+        """What a change makes other than the file says it, by which answers are kept."""
+        said = ((path, value, *found_at(self.design.content, path)) for path, value in change.items())
+        return frozenset(
+            (path, _number_or_text(value))
+            for path, value, stands, now in said
+            if (value is not None if not stands else _number_or_text(value) != _number_or_text(now))
+        )
 
     def errors(self, change: Change) -> list[Finding] | None:
         """The errors that count with a change; None where the design is refused."""
@@ -165,6 +175,11 @@ class Bench:
             return None
         finally:
             self._used += time.process_time() - start
+
+
+def _number_or_text(value: Any) -> str:
+    """A value by which it is told from others: 9 and 9.0 are one number, 1 and true are not."""
+    return repr(float(value) if isinstance(value, int) and not isinstance(value, bool) else value)
 
 
 def _of_motion(findings: Iterable[Finding]) -> Iterator[Finding]:

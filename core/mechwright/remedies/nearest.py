@@ -6,12 +6,13 @@ that of the design, and every key that may have the design's value gets it back.
 """
 
 from collections.abc import Iterator, Sequence
+from heapq import heapify, heappop, heappush
 from itertools import combinations
 
 from mechwright.contracts.finding import Change
-from mechwright.remedies.bench import Bench, identity
+from mechwright.remedies.bench import KEY, Bench, identity
 from mechwright.remedies.keys import Key
-from mechwright.remedies.search import best_step, drawn_back
+from mechwright.remedies.search import best_step, drawable, drawn_back
 from mechwright.remedies.values import round_to, typed
 
 MOST_CHANGES = 10
@@ -34,29 +35,53 @@ def nearest(bench: Bench) -> Change | None:
 
     It may have more than :data:`MOST_CHANGES` keys: whoever asks decides what to do with another design.
     """
-    found = candidates(bench, enough=_ENOUGH)
-    builds = next((change for change in found if bench.sure.builds(change)), None)
-    if builds is None and found and bench.sure is not bench:
-        return nearest(bench.sure)
-    return builds
+    found = False
+    for change in candidates(bench, enough=_ENOUGH):
+        found = True
+        if bench.sure.builds(change):
+            return change
+    return nearest(bench.sure) if found and bench.sure is not bench else None
 
 
-def candidates(bench: Bench, enough: int = 0) -> list[Change]:
+def candidates(bench: Bench, enough: int = 0) -> Iterator[Change]:
     """Changes with which the design builds, the best first; one of at most ``enough`` keys is alone.
 
     Those that are not too large come first, of them those that leave the motion as it was, then the smallest.
+    A change is brought near only when none that is near already can be better: that takes most of the tries.
     """
     bench.share = _FIRST_WAY
     by_steps = _by_steps(bench)
     bench.share = 1.0
-    found = [] if by_steps is None else [by_steps]
+    found = [] if by_steps is None else [_given_back(bench, by_steps)]
     if by_steps is None or len(by_steps) > enough or bench.size(by_steps) > _FAR or bench.spoils(by_steps):
         found += _from_known(bench)
 
     def rank(change: Change) -> tuple[bool, bool, float]:
         return len(change) > MOST_CHANGES, bench.spoils(change), bench.size(change)
 
-    return sorted((_joined(bench, _trimmed(bench, change)) for change in found), key=rank)
+    # What is far off is ranked by what it is at least: its keys stay, however near their values come.
+    queue = [(_least(bench, change), False, number) for number, change in enumerate(found)]
+    heapify(queue)
+    while queue:
+        _, near, number = heappop(queue)
+        if near:
+            yield found[number]
+        else:
+            found[number] = _joined(bench, _near(bench, found[number]))
+            heappush(queue, (rank(found[number]), True, number))
+
+
+def _least(bench: Bench, change: Change) -> tuple[bool, bool, float]:
+    """No rank of a change is below this one: its numbers may come near, its other values are what they are.
+
+    Where there are too many keys, some may go back besides.
+    """
+    few = change.items() if len(change) <= MOST_CHANGES else ()
+    sizes = (
+        KEY * bench.weight(path) if drawable(bench, path, value) else bench.size({path: value})
+        for path, value in few
+    )
+    return False, False, sum(sizes)
 
 
 def _by_steps(bench: Bench) -> Change | None:
@@ -116,7 +141,7 @@ def _scaled(key: Key, scale: float) -> object:
 def _given_back(bench: Bench, known: Change) -> Change:
     """A design that builds, with as many keys as possible as the file has them: halves, then single ones.
 
-    What the file asks for is given back first.
+    What the file asks for is given back first, and all is asked again until nothing more goes back.
     """
     kept, keeps = dict(known), bench.kept_by(known)
 
@@ -130,14 +155,21 @@ def _given_back(bench: Bench, known: Change) -> Change:
             give(paths[:half])
             give(paths[half:])
 
-    give(sorted(kept, key=bench.weight, reverse=True))
+    before = len(kept) + 1
+    while kept and len(kept) < before:
+        before = len(kept)
+        give(sorted(kept, key=bench.weight, reverse=True))
     return kept
 
 
 def _trimmed(bench: Bench, change: Change) -> Change:
     """The same remedy without what it does not need, its numbers as near as they may be."""
-    small = _given_back(bench, change)
-    return drawn_back(bench, small, bench.kept_by(small))
+    return _near(bench, _given_back(bench, change))
+
+
+def _near(bench: Bench, change: Change) -> Change:
+    """The same remedy with its numbers as near as they may be."""
+    return drawn_back(bench, change, bench.kept_by(change))
 
 
 def _joined(bench: Bench, change: Change) -> Change:

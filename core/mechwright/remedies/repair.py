@@ -59,17 +59,19 @@ def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unhe
     first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
     whole = asked.judge(asked.looks)
-    possible: list[Change] = [{}]
-    if found:
-        possible = [change for change in candidates(first) if len(change) <= MOST_CHANGES]
-        if not possible:
-            return Repair(found, None, found, first)
+    possible = (
+        (change for change in candidates(first) if len(change) <= MOST_CHANGES) if found else iter([{}])
+    )
+    smallest: Change | None = None
     for change in possible:
+        smallest = change if smallest is None else smallest
         bench = Bench(design.changed(change), whole, stage, INSPECTED, progress=progress)
         stood, more = bench.errors({}) or [], _as_proposed(bench)
         if more is not None and len(merged := {**change, **more}) <= MOST_CHANGES:
             return Repair(found or stood, merged, [], first)
-    return _further(Repair(found, possible[0], [], first), design, asked)
+    if smallest is None:
+        return Repair(found, None, found, first)
+    return _further(Repair(found, smallest, [], first), design, asked)
 
 
 def _as_proposed(bench: Bench) -> Change | None:

@@ -192,8 +192,13 @@ def drawn_back(bench: Bench, change: Change, keeps: Callable[[Change], bool]) ->
         return typed(key, closest(key, now, value, passes))
 
     for path, value in sorted(change.items(), key=lambda item: -bench.weight(item[0])):
-        key = bench.keys.get(path)
-        now = bench.now(key) if key is not None else None
-        if key is not None and key.numeric and value is not None and now is not None and not bench.spent:
-            drawn[path] = draw(key, float(now), float(value))
+        if drawable(bench, path, value) and not bench.spent:
+            key = bench.keys[path]
+            drawn[path] = draw(key, float(bench.now(key)), float(value))
     return drawn
+
+
+def drawable(bench: Bench, path: str, value: Any) -> bool:
+    """Whether a value is a number in place of a number, which may come nearer to it."""
+    key = bench.keys.get(path)
+    return key is not None and key.numeric and value is not None and bench.now(key) is not None

@@ -3,12 +3,11 @@
 The origin is the shaft's axis in the mounting face; the shaft points along +z, the body lies below.
 """
 
-import difflib
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, did_you_mean
 from mechwright.standards.table import table
 
 KG_MM = 9.80665e-3
@@ -141,8 +140,7 @@ def motor(name: str) -> Stepper | GearMotor:
     known: dict[str, Stepper | GearMotor] = {one.name: one for one in motors()}
     if name in known:
         return known[name]
-    close = difflib.get_close_matches(name, known, 1)
-    hint = f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
+    hint = did_you_mean(name, known) or f"one of: {', '.join(known)}"
     raise DesignError(f"no motor {name!r}; {hint}")
 
 
