@@ -55,3 +55,22 @@ def test_refused_with_a_change_that_gets_past_it(table: dict[str, object]) -> No
         softer = NoncircularParams.model_validate({**params.model_dump(), **own})
         passed.append(wrong.code not in [one.code for one in errors(FAMILY.judge(softer), Stage.PARTS)])
     assert any(passed)
+
+
+RING = {"law": "window", "teeth": 37, "mate_lobes": 2, "internal": True, "window_ratio": 0.409, "window": 62}
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"law": "window", "teeth": 48, "module": 2, "window_ratio": 1.45, "window": 90, "blend": 90},
+        {**RING, "blend": 81},
+    ],
+)
+def test_tips_of_both_gears_are_made_lower_at_once(table: dict[str, object]) -> None:
+    """Where both would run into fillets, the change of the first finding leaves none of the other gear."""
+    params = NoncircularParams.model_validate({**table, "bore": 4})
+    wrong = errors(FAMILY.judge(params), Stage.PARTS)[0]
+    assert wrong.code == "gear.tip-fillet"
+    own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
+    assert not errors(FAMILY.judge(params.model_copy(update=own)), Stage.PARTS)
