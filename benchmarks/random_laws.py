@@ -9,11 +9,12 @@ Run:  python benchmarks/random_laws.py [LAWS [SEED]]
 
 import sys
 from collections import Counter
+from collections.abc import Iterator
 
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Severity, Stage, errors
+from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import MechwrightError
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of
@@ -113,17 +114,10 @@ def _refused(params: NoncircularParams, code: str, changes: object) -> str:
     """Whether proposed changes, of this finding and of those that it hid, lead to gears that work."""
     now, first, count = params, code, 0
     while count < MOST_CHANGES:
-        for change in changes:  # type: ignore[attr-defined]
-            own = {key.removeprefix("parameters."): value for key, value in change.items()}
-            try:
-                mended = NoncircularParams.model_validate({**now.model_dump(), **own})
-            except ValidationError:
-                continue
-            bad = errors(FAMILY.judge(mended), Stage.PARTS)
-            if code not in [one.code for one in bad]:
-                break
-        else:
+        tried = list(_past(now, code, changes))
+        if not tried:
             return f"refused, {first}, with words only" + (f" at {code}" if count else "")
+        mended, bad = next((one for one in tried if not one[1]), tried[0])
         count += 1
         if not bad:
             return f"refused, {first}, with the change to a law that works" + (
@@ -131,6 +125,21 @@ def _refused(params: NoncircularParams, code: str, changes: object) -> str:
             )
         now, code, changes = mended, bad[0].code, bad[0].proposed
     return f"refused, {first}, and still {code} after {count} changes"
+
+
+def _past(
+    params: NoncircularParams, code: str, changes: object
+) -> Iterator[tuple[NoncircularParams, list[Finding]]]:
+    """Designs with a change that gets past a finding, and what is wrong with them then."""
+    for change in changes:  # type: ignore[attr-defined]
+        own = {key.removeprefix("parameters."): value for key, value in change.items()}
+        try:
+            mended = NoncircularParams.model_validate({**params.model_dump(), **own})
+        except ValidationError:
+            continue
+        bad = errors(FAMILY.judge(mended), Stage.PARTS)
+        if code not in [one.code for one in bad]:
+            yield mended, bad
 
 
 def main(count: int, seed: int) -> None:
