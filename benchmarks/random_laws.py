@@ -2,18 +2,19 @@
 
 Designs are drawn of every kind of law, in and out of rings. One that is not refused has to give two outlines
 that mesh, in no more segments than their curves ask for. One that is refused has to say why in a finding;
-whether one of the changes that the finding proposes gets past it is told.
+the changes that it proposes, and those of the findings that come after them, have to end in a law that works.
 
 Run:  python benchmarks/random_laws.py [LAWS [SEED]]
 """
 
 import sys
 from collections import Counter
+from collections.abc import Iterator
 
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Severity, Stage, errors
+from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import MechwrightError
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of
@@ -28,7 +29,10 @@ def drawn(rng: np.random.Generator) -> dict[str, object]:
     """A random design table."""
     law = str(rng.choice(list(LAWS)))
     table: dict[str, object] = {"law": law, "teeth": int(rng.integers(16, 72)), "bore": 4, "thickness": 5}
-    if law not in {"slider", "geneva"}:
+    if law == "spiral":
+        table["sector"] = float(rng.integers(40, 200))
+        table["teeth"] = int(rng.integers(8, 40))
+    elif law not in {"slider", "geneva"}:
         table["mate_lobes"] = int(rng.integers(1, 4))
         if table["mate_lobes"] != 1 and rng.random() < 0.3:
             table["internal"] = True
@@ -57,6 +61,14 @@ LAWS = {
     "table": _table,
     "ratio": lambda rng, _: {
         "ratio": f"exp({rng.uniform(-0.6, 0.6):.2f}*cos(phi) + {rng.uniform(-0.2, 0.2):.2f}*sin(2*phi))"
+    },
+    "angle": lambda rng, mates: {
+        "angle": f"phi/{mates} + {rng.uniform(-0.5, 0.5) / mates:.2f}*sin(phi)"
+        f" + {rng.uniform(-0.15, 0.15) / mates:.2f}*(1 - cos(2*phi))"
+    },
+    "spiral": lambda rng, _: {
+        "first_ratio": round(float(rng.uniform(0.4, 2.5)), 3),
+        "last_ratio": round(float(rng.uniform(0.4, 2.5)), 3),
     },
     "slider": lambda rng, _: {
         "rod_ratio": round(float(rng.uniform(2.5, 6)), 2),
@@ -94,16 +106,40 @@ def judged(params: NoncircularParams) -> str:
     return "built"
 
 
+MOST_CHANGES = 4
+"""Findings that may come one after the other until a law works."""
+
+
 def _refused(params: NoncircularParams, code: str, changes: object) -> str:
+    """Whether proposed changes, of this finding and of those that it hid, lead to gears that work."""
+    now, first, count = params, code, 0
+    while count < MOST_CHANGES:
+        tried = list(_past(now, code, changes))
+        if not tried:
+            return f"refused, {first}, with words only" + (f" at {code}" if count else "")
+        mended, bad = next((one for one in tried if not one[1]), tried[0])
+        count += 1
+        if not bad:
+            return f"refused, {first}, with the change to a law that works" + (
+                "" if count == 1 else ", in steps"
+            )
+        now, code, changes = mended, bad[0].code, bad[0].proposed
+    return f"refused, {first}, and still {code} after {count} changes"
+
+
+def _past(
+    params: NoncircularParams, code: str, changes: object
+) -> Iterator[tuple[NoncircularParams, list[Finding]]]:
+    """Designs with a change that gets past a finding, and what is wrong with them then."""
     for change in changes:  # type: ignore[attr-defined]
         own = {key.removeprefix("parameters."): value for key, value in change.items()}
         try:
             mended = NoncircularParams.model_validate({**params.model_dump(), **own})
         except ValidationError:
             continue
-        if code not in [one.code for one in errors(FAMILY.judge(mended), Stage.PARTS)]:
-            return f"refused, {code}, with a change that gets past it"
-    return f"refused, {code}, with words only"
+        bad = errors(FAMILY.judge(mended), Stage.PARTS)
+        if code not in [one.code for one in bad]:
+            yield mended, bad
 
 
 def main(count: int, seed: int) -> None:
@@ -118,7 +154,7 @@ def main(count: int, seed: int) -> None:
             result = f"no table: {error.errors()[0]['msg'].split(';')[0][:60]}"
         except Exception as error:
             result = f"FAULT {type(error).__name__}: {error}"
-        if result.startswith("FAULT") or "words" in result:
+        if result.startswith("FAULT") or "words" in result or "still" in result:
             print(result, table, flush=True)
         said[result] += 1
     for result, number in said.most_common():

@@ -204,6 +204,14 @@ def test_files_that_are_no_chain_name_the_stage(stages: Any, said: str) -> None:
     assert said in str(caught.value)
 
 
+def test_stages_have_no_names() -> None:
+    """They go by their number, and no other table is meant."""
+    with pytest.raises(
+        DesignError, match=r"stage\.1: unknown key .name.; known: .*; stages go by their number$"
+    ):
+        chain(("elliptic-gears", {}, {"name": "a"}), ("geneva", {}, {"name": "a"}))
+
+
 def test_a_head_with_a_family_is_refused() -> None:
     """Stages have theirs."""
     with pytest.raises(DesignError, match="family: a file with"):

@@ -21,6 +21,7 @@ from mechwright.mechanics.gearing.checks import (
 from mechwright.mechanics.gearing.checks import rim_findings as opening_rim_findings
 from mechwright.mechanics.openings import keyed_findings, too_small
 from mechwright.tolerances import exceeds, falls_short
+from mechwright_noncircular_gears.cures import cured
 from mechwright_noncircular_gears.fields import LEAST_MODULE
 from mechwright_noncircular_gears.gear import (
     NAMES,
@@ -54,7 +55,7 @@ ON_AXIS = 0.0005
 @kept
 def findings(params: NoncircularParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    return until_error(params, law_findings, _of_the_parts, _of_the_mesh, _backlash)
+    return until_error(params, _law, _of_the_parts, _of_the_mesh, _backlash)
 
 
 @kept
@@ -65,8 +66,16 @@ def standing(params: NoncircularParams) -> tuple[Finding, ...]:
 
 def judged(params: NoncircularParams) -> tuple[Finding, ...]:
     """The same without the mesh proof, and without advice."""
-    law, parts = (partial(one, advise=False) for one in (law_findings, _of_the_parts))
-    return until_error(params, law, parts, _of_the_load, _backlash)
+    return until_error(params, *_UNADVISED, _of_the_load, _backlash)
+
+
+def _law(params: NoncircularParams) -> Iterator[Finding]:
+    for finding in law_findings(params):
+        yield cured(params, finding, _makes_gears)
+
+
+def _makes_gears(params: NoncircularParams) -> bool:
+    return not errors(until_error(params, *_UNADVISED))
 
 
 @kept
@@ -78,6 +87,10 @@ def _of_the_parts(params: NoncircularParams, *, advise: bool = True) -> tuple[Fi
     teeth = (_size, _profile, hollow, sector_findings, _land, undercut)
     tips = (cusp, _tip, fillet)
     return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, drive)))
+
+
+_UNADVISED = partial(law_findings, advise=False), partial(_of_the_parts, advise=False)
+"""The law and the parts, judged alone."""
 
 
 @of_stage(Stage.PARTS)

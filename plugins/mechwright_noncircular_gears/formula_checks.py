@@ -61,6 +61,8 @@ def _closure(key: str, law: AngleFormula) -> Finding | None:
     wanted = math.tau / law.lobes[1]
     if abs(law.turned - wanted) <= CLOSED * wanted:
         return None
+    lacking = (wanted - law.turned) / law.period
+    sign = "+" if lacking > 0 else "-"
     return Finding.error(
         "law.closure",
         key,
@@ -69,9 +71,8 @@ def _closure(key: str, law: AngleFormula) -> Finding | None:
         math.degrees(law.turned),
         math.degrees(wanted),
         "deg",
-        f"add {(wanted - law.turned) / law.period:.6g}*phi to it, or write the law as a ratio, which is "
-        "scaled to close",
-        proposed=({f"parameters.{key}": f"{law.text} + {(wanted - law.turned) / law.period!r}*phi"},),
+        f"add {lacking:.6g}*phi to it, or write the law as a ratio, which is scaled to close",
+        proposed=({f"parameters.{key}": f"{law.text} {sign} {abs(lacking):.13g}*phi"},),
     )
 
 

@@ -1,5 +1,6 @@
 """What the nodes of a law by table have to be."""
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -25,6 +26,11 @@ def check_nodes(nodes: Sequence[tuple[float, float]] | None, lobes: int, mate_lo
         raise ValueError(
             f"nodes reach {nodes[-1][0]:g} degrees of the driver, and a lobe ends at "
             f"[{ends[0]:g}, {ends[1]:g}], which is no node{turns}; leave out what lies there and beyond"
+        )
+    if len(nodes) > 2 and nodes[-1][0] <= math.tau:
+        raise ValueError(
+            f"nodes end at {nodes[-1][0]:g} degrees of the driver's {ends[0]:g}, as angles in rad would; "
+            "write them in degrees, 57.29578 times as large, or give nodes over all of the lobe"
         )
     _rising((*nodes, ends))
 

@@ -100,8 +100,10 @@ def _shorter(params: NoncircularParams, share: float) -> dict[str, Any]:
     return {**ends, "window": round(stroke + share * (params.value("window") - stroke), 1)}
 
 
-def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool]) -> dict[str, Any] | None:
-    """The fields of the nearest softer law that works, tried; None where none was found."""
+def nearest(
+    params: NoncircularParams, works: Callable[[NoncircularParams], bool], steps: int = _STEPS
+) -> dict[str, Any] | None:
+    """The fields of the nearest softer law that works, tried, in so many halvings; None without one."""
 
     def tried(share: float) -> dict[str, Any] | None:
         fields = softened(params, share)
@@ -116,7 +118,7 @@ def nearest(params: NoncircularParams, works: Callable[[NoncircularParams], bool
     good, best, bad = 0.0, tried(0.0), 1.0
     if best is None:
         return None
-    for _ in range(_STEPS):
+    for _ in range(steps):
         middle = (good + bad) / 2
         fields = tried(middle)
         if fields is None:
@@ -133,7 +135,7 @@ def said(fields: dict[str, Any] | None, otherwise: str) -> tuple[str, tuple[Chan
     changes: Change = {f"parameters.{name}": _plain(value) for name, value in fields.items()}
     if "nodes" in fields:
         return "draw the nodes nearer to a constant ratio, as proposed", (changes,)
-    words = " and ".join(f"{name} = {_text(value)}" for name, value in fields.items())
+    words = " and ".join(f"{name} = {_text(value)}" for name, value in fields.items() if value is not None)
     return f"set {words}", (changes,)
 
 

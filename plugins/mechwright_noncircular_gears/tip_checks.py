@@ -17,6 +17,7 @@ from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.shape_checks import LEAST_REGULARITY
+from mechwright_noncircular_gears.softer import nearest, said
 
 LEAST_ADDENDUM = 0.3
 """Modules: the least of the design table."""
@@ -80,12 +81,40 @@ def _finding(
     works: Callable[[Teeth, Teeth], bool] | None,
 ) -> Finding:
     field, value = addendum_of(params, gear)
-    most = None if works is None else _most(params, gear, field, value, works)
-    changes: tuple[Change, ...] = () if most is None else ({f"parameters.{field}": most},)
-    remedy = "use more teeth, or a law that changes its ratio less"
-    if most is not None:
-        remedy = f"make {field} at most {most:g}"
-    return Finding.error(code, field, message, value, most, "", remedy, proposed=changes)
+    otherwise = "use more teeth, or a law that changes its ratio less"
+    if works is None:
+        return Finding.error(code, field, message, value, None, "", otherwise)
+    lower = _lower(params, gear, works)
+    if lower is None:
+        fields = nearest(params, lambda softer: _both(softer, works))
+        remedy, changes = said(fields, otherwise)
+        return Finding.error(code, field, message, value, None, "", remedy, proposed=changes)
+    remedy = "make " + " and ".join(f"{name} at most {most:g}" for name, most in lower.items())
+    change: Change = {f"parameters.{name}": most for name, most in lower.items()}
+    return Finding.error(code, field, message, value, lower[field], "", remedy, proposed=(change,))
+
+
+def _both(params: NoncircularParams, works: Callable[[Teeth, Teeth], bool]) -> bool:
+    one, two = teeth_of(params)
+    return works(one, two) and works(two, one)
+
+
+def _lower(
+    params: NoncircularParams, gear: int, works: Callable[[Teeth, Teeth], bool]
+) -> dict[str, float] | None:
+    """The greatest tooth heights, modules, that work for both gears; None where none does for one of them."""
+    found: dict[str, float] = {}
+    for one in (gear, 1 - gear):
+        now = params.model_copy(update=found)
+        teeth = teeth_of(now)
+        if works(teeth[one], teeth[1 - one]):
+            continue
+        field, value = addendum_of(now, one)
+        most = _most(now, one, field, value, works)
+        if most is None:
+            return None
+        found[field] = most
+    return found
 
 
 def _most(

@@ -11,6 +11,7 @@ from mechwright.contracts.finding import Stage, errors
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Primitive
 from mechwright_noncircular_gears.family import NoncircularGears
+from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 FAMILY = NoncircularGears()
@@ -55,3 +56,65 @@ def test_refused_with_a_change_that_gets_past_it(table: dict[str, object]) -> No
         softer = NoncircularParams.model_validate({**params.model_dump(), **own})
         passed.append(wrong.code not in [one.code for one in errors(FAMILY.judge(softer), Stage.PARTS)])
     assert any(passed)
+
+
+RING = {"law": "window", "teeth": 37, "mate_lobes": 2, "internal": True, "window_ratio": 0.409, "window": 62}
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"law": "window", "teeth": 48, "module": 2, "window_ratio": 1.45, "window": 90, "blend": 90},
+        {**RING, "blend": 81},
+    ],
+)
+def test_tips_of_both_gears_are_made_lower_at_once(table: dict[str, object]) -> None:
+    """Where both would run into fillets, the change of the first finding leaves none of the other gear."""
+    params = NoncircularParams.model_validate({**table, "bore": 4})
+    wrong = errors(FAMILY.judge(params), Stage.PARTS)[0]
+    assert wrong.code == "gear.tip-fillet"
+    own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
+    assert not errors(FAMILY.judge(params.model_copy(update=own)), Stage.PARTS)
+
+
+@pytest.mark.parametrize(
+    ("table", "code"),
+    [
+        ({"law": "fourier", "sines": [70]}, "law.turns-back"),
+        ({"law": "ratio", "ratio": "1 + 1.3*cos(phi)"}, "law.turns-back"),
+        ({"law": "window", "window_ratio": 3.5, "window": 120, "blend": 60}, "law.turns-back"),
+        ({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)"}, "law.formula"),
+        ({"law": "ratio", "ratio": "1 + 0.1*phi"}, "law.corner"),
+        ({"law": "angle", "angle": "phi + 0.1*phi*(2*pi - phi)/pi"}, "law.corner"),
+        ({"law": "fourier", "teeth": 46, "mate_lobes": 2, "internal": True, "sines": [-26.5]}, "law.ring"),
+    ],
+)
+def test_a_law_that_cannot_run_is_told_with_the_nearest_that_can_be_built(
+    table: dict[str, object], code: str
+) -> None:
+    """The last of what is proposed leaves no error at all, and keeps a change of ratio."""
+    params = NoncircularParams.model_validate({**table, "bore": 4})
+    wrong = errors(FAMILY.judge(params), Stage.PARTS)[0]
+    assert wrong.code == code
+    own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[-1].items()}
+    near = NoncircularParams.model_validate({**params.model_dump(), **own})
+    assert not errors(FAMILY.judge(near), Stage.PARTS)
+    found = extremes_of(near)
+    assert found.fastest.value > 1.05 * found.slowest.value
+
+
+def test_the_fit_of_a_formula_with_a_corner_is_near_it() -> None:
+    """Away from the corner the harmonics are within a hundredth of the ratio that was asked for."""
+    asked = NoncircularParams.model_validate({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)", "bore": 4})
+    own = errors(FAMILY.judge(asked))[0].proposed[-1]
+    fields = {key.removeprefix("parameters."): value for key, value in own.items()}
+    near = NoncircularParams.model_validate({**asked.model_dump(), **fields})
+    phi = np.linspace(0.5, math.pi - 0.5, 41)
+    wanted = (1 + 0.3 * np.sin(phi)) / (1 + 0.6 / math.pi)
+    assert np.abs(law_of(near).rates(phi)[0] - wanted).max() < 0.012
+
+
+@pytest.mark.parametrize("nodes", [[[0, 0], [1, 0.9], [2, 1.8], [4, 4.2], [6, 6]]])
+def test_a_table_in_rad_is_told(nodes: list[list[float]]) -> None:
+    with pytest.raises(ValueError, match="as angles in rad would; write them in degrees"):
+        NoncircularParams.model_validate({"law": "table", "nodes": nodes})

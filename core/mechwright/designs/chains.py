@@ -80,7 +80,10 @@ def _stages(families: Families, stages: Sequence[Mapping[str, Any]], path: Path)
         where = f"{STAGE}.{number}"
         for key in stage:
             if key not in StageTable.model_fields:
-                raise DesignError(f"{path}: {where}: {unknown(key, tuple(StageTable.model_fields))}")
+                said = unknown(key, tuple(StageTable.model_fields))
+                if key in {"name", "id"}:
+                    said += "; stages go by their number"
+                raise DesignError(f"{path}: {where}: {said}")
         for key in ("start", "gap") if number == 1 else ():
             if key in stage:
                 raise DesignError(f"{path}: {where}.{key}: nothing stands before stage 1; leave {key} out")

@@ -15,6 +15,7 @@ _LIST = "known: "
 
 _TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(?:#.*)?$")
 _KEY = re.compile(r"""\s*(["']?)([\w.-]+)\1\s*=""")
+_STAGE = re.compile(r"stage\.\d+")
 _DECIMAL = re.compile(r"^(.*?: )([\w.-]+)(: .* write a point for the decimal comma: .*)$")
 _UNKNOWN = re.compile(r"^(.*?: )(?:([\w.-]+): )?unknown key '([^']+)'; (.*)$")
 
@@ -40,7 +41,9 @@ def placed(message: str, text: str, known: Mapping[str, list[str]]) -> str:
         source, where, key, rest = found[1], found[2] or "", found[3], found[4]
         number = line_of(text, where, key)
         at = f"line {number}: " if number else ""
-        belongs = [table for table in known.get(key, ()) if table != where]
+        # A stage has the keys of a stage alone: what else a key of that name may mean is far from it.
+        tables = () if _STAGE.fullmatch(where) else known.get(key, ())
+        belongs = [table for table in tables if table != where]
         if belongs and (rest.startswith(_LIST) or not all("." in table for table in belongs)):
             rest = f"it stands in {_named(where)} and belongs to {' or '.join(map(_named, belongs))}"
         said.append(f"{source}{at}{f'{where}: ' if where else ''}unknown key '{key}'; {rest}")

@@ -24,6 +24,9 @@ _MESSAGES = {
 }
 """Where pydantic speaks of Python's types, by its own name of the error."""
 
+_LONG = 120
+"""Characters of a wrong value that a line shows."""
+
 _SHORT = 40
 """Characters of a list or a table that a line shows."""
 
@@ -79,7 +82,8 @@ def _shown(value: object, error: str) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str | int | float):
-        return repr(value)
+        shown = repr(value)
+        return shown if len(shown) <= _LONG else f"{shown[:_LONG]} ... ({len(shown)} characters)"
     return repr(value) if error.endswith("_type") and len(repr(value)) <= _SHORT else ""
 
 
