@@ -90,6 +90,14 @@ def five_bar(share: Array, theta: Array) -> Array:
     return np.asarray(np.angle(away) - np.arccos(np.clip(cosine, -1, 1)))
 
 
+def cam_follower(share: Array, theta: Array) -> Array:
+    """Pressure angle of a slide with a roller that rises and falls by a cycloid."""
+    start, offset = 0.4 + 0.6 * share, 0.1
+    height = np.sqrt(start**2 - offset**2) + 0.2 * (theta - np.sin(theta)) / (2 * np.pi)
+    velocity = 0.2 * (1 - np.cos(theta)) / (2 * np.pi)
+    return np.asarray(np.arctan((velocity - offset) / height))
+
+
 PLAIN: dict[str, Plain] = {
     "geneva": geneva,
     "four-bar": four_bar,
@@ -97,6 +105,7 @@ PLAIN: dict[str, Plain] = {
     "spherical": spherical,
     "elliptic-gears": elliptic_gears,
     "five-bar": five_bar,
+    "cam-follower": cam_follower,
 }
 
 

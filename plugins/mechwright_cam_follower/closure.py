@@ -13,10 +13,11 @@ FLATTEST = math.radians(2)
 
 def closure_findings(params: CamParams) -> tuple[Finding, ...]:
     """Everything that keeps the follower from moving."""
-    return until_error(params, _laws, _slide if params.translating else _lever)
+    return until_error(params, law_findings, _slide if params.translating else _lever)
 
 
-def _laws(params: CamParams) -> Iterator[Finding]:
+def law_findings(params: CamParams) -> Iterator[Finding]:
+    """Errors of a table or a polynomial that is no law."""
     faults: list[tuple[str, LawFault]] = []
     if params.polynomial is not None:
         faults += [("polynomial", fault) for fault in polynomial_faults(params.polynomial)]
@@ -32,21 +33,21 @@ def _slide(params: CamParams) -> Iterator[Finding]:
     if params.contact == "flat":
         return
     prime, offset = params.base_radius + params.value("roller_radius"), abs(params.value("offset"))
-    if offset >= prime * _REACH:
-        most = math.floor(prime * _REACH * 10) / 10
+    if offset >= prime * REACH:
+        most = math.floor(prime * REACH * 10) / 10
         yield Finding.error(
             "follower.offset",
             "offset",
             f"a follower {offset:g} mm off the axis misses the prime circle of {prime:g} mm",
             offset,
-            prime * _REACH,
+            prime * REACH,
             "mm",
             f"make it at most {most:g}, or base_radius larger",
             proposed=({"parameters.offset": math.copysign(most, params.value("offset"))},),
         )
 
 
-_REACH = 0.95
+REACH = 0.95
 """Greatest offset, in radii of the prime circle: beyond it the follower hardly rises."""
 
 

@@ -13,11 +13,12 @@ from mechwright_cam_follower.cycle import Segment, cycle_of
 from mechwright_cam_follower.geometry import Contact, geometry_of
 from mechwright_cam_follower.loads import force_at
 from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.sized import Sized, V
 
-_GRID, _ROUNDS = 65, 4
+GRID, _ROUNDS = 65, 4
 """Samples of a smooth piece, and how often those about the best are drawn together: each time 32 times."""
 
-_HAIR = 1e-12
+HAIR = 1e-12
 """Share of a segment by which its samples stay before a break."""
 
 LEAST_REGULAR = 0.02
@@ -58,7 +59,7 @@ def _climb(segment: Segment, measure: Measure, low: float, high: float) -> Extre
     best = Extreme(-np.inf, segment.start)
     for _ in range(_ROUNDS):
         # The ends belong to this piece: a hair inside, a law gives its own side of a jump.
-        u = np.clip(np.linspace(a, b, _GRID), low + _HAIR * (low > 0), high - _HAIR)
+        u = np.clip(np.linspace(a, b, GRID), low + HAIR * (low > 0), high - HAIR)
         theta = segment.start + segment.width * u
         values = measure(segment.at(u))
         values = np.where(np.isnan(values), -np.inf, values)
@@ -67,7 +68,7 @@ def _climb(segment: Segment, measure: Measure, low: float, high: float) -> Extre
             best = Extreme(float(values[top]), float(theta[top]))
         if segment.law is None:
             break
-        a, b = float(u[max(top - 1, 0)]), float(u[min(top + 1, _GRID - 1)])
+        a, b = float(u[max(top - 1, 0)]), float(u[min(top + 1, GRID - 1)])
     return best
 
 
@@ -108,14 +109,24 @@ class Extremes:
         return lambda rates: what(geometry.contact(rates, self.second))
 
     def _regularity(self, contact: Contact) -> Array:
-        if self.params.contact == "flat":
-            return contact.radius
-        return 1 - self.params.value("roller_radius") / contact.pitch_radius
+        return regularity_of(self.params, contact)
 
     def _convex(self, contact: Contact) -> Array:
-        if self.params.contact == "flat":
-            return contact.radius
-        return np.where(contact.pitch_radius > 0, contact.radius, np.nan)
+        return convex_of(self.params, contact)
+
+
+def regularity_of(params: Sized[V], contact: Contact) -> Array:
+    """What :attr:`Extremes.regular` is the least of."""
+    if params.contact == "flat":
+        return contact.radius
+    return np.asarray(1 - params.value("roller_radius") / contact.pitch_radius)
+
+
+def convex_of(params: Sized[V], contact: Contact) -> Array:
+    """What :attr:`Extremes.sharpest` is the least of: no number where the cam is hollow."""
+    if params.contact == "flat":
+        return contact.radius
+    return np.where(contact.pitch_radius > 0, contact.radius, np.nan)
 
 
 def cams_of(params: CamParams) -> tuple[bool, ...]:
@@ -146,6 +157,6 @@ def weakest_of(params: CamParams) -> Extreme:
     return least(params, lambda rates: force_at(params, rates))
 
 
-def regular_limit(params: CamParams) -> float:
+def regular_limit(params: Sized[V]) -> V | float:
     """Least regularity, see :class:`Extremes`."""
-    return LEAST_REGULAR * (1.0 if params.contact == "roller" else params.base_radius)
+    return LEAST_REGULAR if params.contact == "roller" else LEAST_REGULAR * params.base_radius

@@ -1,6 +1,6 @@
 """The family ``cam-follower``."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
@@ -10,6 +10,7 @@ from mechwright_cam_follower.requirement import SizeRequirement
 
 if TYPE_CHECKING:
     from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis, Transmission
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class CamFollower(Family[CamParams]):
@@ -20,6 +21,7 @@ class CamFollower(Family[CamParams]):
     summary = "A disc cam gives a slide or a lever any motion of rises, dwells and returns."
     Params = CamParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {"size": SizeRequirement}
+    batch = 1 << 16
 
     def check(self, params: CamParams) -> Sequence[Finding]:
         """Closure, undercut, pressure angle, face, walls, spring, contact pressure."""
@@ -79,3 +81,12 @@ class CamFollower(Family[CamParams]):
         from mechwright_cam_follower.synthesis import smallest
 
         return smallest(requirement, progress)
+
+    def evaluate(
+        self, batch: "Batch[CamParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """Many cams at once; those with keyways, and pairs of cams, one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_cam_follower.evaluation import CHUNK, answer
+
+        return by_arrays(self, batch, columns, stage, answer, CHUNK)

@@ -31,13 +31,15 @@ Flat face at the distance h from the cam's axis, with the normal exp(i ν), seen
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Generic
 
 import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.envelope import Points, left_normal, touched, way_curvature
 from mechwright.mechanics.laws import Rates
-from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.sized import Sized, V
 
 
 @dataclass(frozen=True)
@@ -68,10 +70,10 @@ class Contact:
     pitch_radius: Array
     radius: Array
 
-    @property
+    @cached_property
     def pressure_angle(self) -> Array:
         """α, rad, above 0 where the cam pushes ahead of where it turns to."""
-        found: Array = np.angle(self.outward / self.direction)
+        found: Array = np.angle(self.outward * np.conj(self.direction))
         return found
 
     @property
@@ -82,8 +84,8 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Geometry:
-    """The fixed sizes of a design, mm and rad.
+class Geometry(Generic[V]):
+    """The fixed sizes of a design, mm and rad, or of many: all that is asked of rates (1, k) is (n, k) then.
 
     Parameters
     ----------
@@ -94,9 +96,9 @@ class Geometry:
         arms. Both cams then have one base circle.
     """
 
-    params: CamParams
-    start: float
-    apart: float
+    params: Sized[V]
+    start: V
+    apart: V
 
     def contact(self, rates: Rates, second: bool = False) -> Contact:
         """The contact of the cam, or that of the second cam of a conjugate pair."""
@@ -108,11 +110,11 @@ class Geometry:
         acceleration = after - 2j * sigma * first - centre
         speed = np.abs(velocity)
         # Over the cam, rollers go against its turn: the cam is on their right where σ is 1.
-        outward = sigma * left_normal(velocity, speed)
+        left = left_normal(velocity, speed)
         with np.errstate(divide="ignore"):
             pitch = -sigma / way_curvature(velocity, acceleration, speed)
-        point = touched(centre, left_normal(velocity, speed), radius, -sigma)
-        return Contact(centre, point, outward, direction, lever, pitch, pitch - radius)
+        point = touched(centre, left, radius, -sigma)
+        return Contact(centre, point, sigma * left, direction, lever, pitch, pitch - radius)
 
     def roller(self, rates: Rates, second: bool = False) -> tuple[Points, Points, Points, Points, Array]:
         """Centre of a roller, its first two derivatives, its direction as it nears or leaves, its lever.
@@ -123,16 +125,17 @@ class Geometry:
         if self.params.translating:
             height = self.start + rates.s - (self.apart if second else 0.0)
             centre: Points = np.asarray(self.params.value("offset") + 1j * height, dtype=np.complex128)
-            one = np.ones_like(rates.s)
-            up = np.full_like(centre, 1j)
-            return centre, rates.v * up, rates.a * up, sign * up, one
+            up: Points = np.broadcast_to(np.complex128(1j * sign), centre.shape)
+            first: Points = np.asarray(1j * rates.v)
+            after: Points = np.asarray(1j * rates.a)
+            return centre, first, after, up, np.ones_like(rates.s)
         arm = self.params.value("arm_length")
         turn: Points = np.exp(-1j * (self.start + rates.s - (self.apart if second else 0.0)))
         centre = self.params.value("centre_distance") - arm * turn
         first = 1j * arm * rates.v * turn
         after = arm * (1j * rates.a + rates.v**2) * turn
         way: Points = sign * 1j * turn
-        return centre, first, after, way, np.full_like(rates.s, arm)
+        return centre, first, after, way, arm + np.zeros_like(rates.s)
 
     def _flat(self, rates: Rates) -> Contact:
         params, sigma = self.params, self.params.sense
@@ -167,15 +170,39 @@ class Geometry:
         return np.asarray(way.imag)
 
 
-def geometry_of(params: CamParams) -> Geometry:
-    """Sizes of a design that closes, as ``closure_findings`` says."""
-    prime = params.base_radius + (params.value("roller_radius") if params.contact == "roller" else 0.0)
+def _root(square: V) -> V:
+    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+
+
+def _arccos(cosine: V) -> V:
+    return math.acos(cosine) if isinstance(cosine, float) else np.arccos(cosine)
+
+
+def prime_radius(params: Sized[V]) -> V:
+    """Radius of the prime circle, mm; of a flat face that of the base circle."""
+    return (
+        params.base_radius + params.value("roller_radius")
+        if params.contact == "roller"
+        else params.base_radius
+    )
+
+
+def geometry_of(params: Sized[V]) -> Geometry[V]:
+    """Sizes of designs that close, as ``closure_findings`` says; no numbers where one of many does not."""
+    start = start_of(params)
     if params.translating:
-        start = prime if params.contact == "flat" else math.sqrt(prime**2 - params.value("offset") ** 2)
         return Geometry(params, start, 2 * start + params.stroke)
+    apart = 2 * start + math.radians(params.stroke)
+    return Geometry(params, start, apart if params.contact == "roller" else 0 * start)
+
+
+def start_of(params: Sized[V]) -> V:
+    """See :class:`Geometry`."""
+    prime = prime_radius(params)
+    if params.translating:
+        return prime if params.contact == "flat" else _root(prime**2 - params.value("offset") ** 2)
     axis = params.value("centre_distance")
     if params.contact == "flat":
-        return Geometry(params, math.acos((prime + params.face) / axis), 0.0)
+        return _arccos((prime + params.face) / axis)
     arm = params.value("arm_length")
-    start = math.acos((axis**2 + arm**2 - prime**2) / (2 * axis * arm))
-    return Geometry(params, start, 2 * start + math.radians(params.stroke))
+    return _arccos((axis**2 + arm**2 - prime**2) / (2 * axis * arm))

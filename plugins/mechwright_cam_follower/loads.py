@@ -20,13 +20,13 @@ from mechwright import Array, material
 from mechwright.mechanics.laws import Rates
 from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
 from mechwright_cam_follower.geometry import Contact
-from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.sized import Sized, V
 
 SHARPEST = 1e-3
 """Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
 
 
-def inertia_at(params: CamParams, acceleration: Array) -> Array:
+def inertia_at(params: Sized[V], acceleration: Array) -> Array:
     """Force or torque, N or N·m, that an acceleration of the follower asks for, mm/s² or rad/s²."""
     moved: Array = (
         params.value("mass") / 1000 if params.translating else params.value("inertia")
@@ -34,7 +34,7 @@ def inertia_at(params: CamParams, acceleration: Array) -> Array:
     return moved
 
 
-def spring_of(params: CamParams) -> tuple[float, float, float]:
+def spring_of(params: Sized[V]) -> tuple[V, V, V]:
     """Preload, rate and load: N, N/mm and N of a slide, N·m, N·m/rad and N·m of a lever."""
     names = (
         ("spring_preload", "spring_rate", "load")
@@ -45,7 +45,7 @@ def spring_of(params: CamParams) -> tuple[float, float, float]:
     return preload, rate, load
 
 
-def force_at(params: CamParams, rates: Rates, acceleration: Array | None = None) -> Array:
+def force_at(params: Sized[V], rates: Rates, acceleration: Array | None = None) -> Array:
     """F or T: below 0 a follower with a spring leaves its cam.
 
     ``acceleration`` of the follower, mm/s² or rad/s²; left out, that at the cam's own constant speed.
@@ -77,7 +77,7 @@ class Loads:
 
 
 def loads_at(
-    params: CamParams, rates: Rates, contacts: tuple[Contact, ...], acceleration: Array | None = None
+    params: Sized[V], rates: Rates, contacts: tuple[Contact, ...], acceleration: Array | None = None
 ) -> Loads:
     """Loads of one contact, or of both of a conjugate pair; ``acceleration`` as of :func:`force_at`."""
     whole = force_at(params, rates, acceleration)
@@ -93,7 +93,7 @@ def loads_at(
     return Loads(forces, pressures, torque)
 
 
-def _pressure(params: CamParams, contact: Contact, force: Array) -> Array:
+def _pressure(params: Sized[V], contact: Contact, force: Array) -> Array:
     cam = material(params.material)
     if params.contact == "roller":
         with np.errstate(divide="ignore"):
@@ -104,14 +104,14 @@ def _pressure(params: CamParams, contact: Contact, force: Array) -> Array:
     return line_pressure(force, params.thickness, np.maximum(radius, SHARPEST), contact_modulus(cam, mate))
 
 
-def preload_needed(params: CamParams, rates: Rates) -> Array:
+def preload_needed(params: Sized[V], rates: Rates) -> Array:
     """Preload at which the force is just 0 here, with the rate as it is."""
     preload, _, _ = spring_of(params)
     needed: Array = preload - force_at(params, rates)
     return needed
 
 
-def rate_needed(params: CamParams, rates: Rates) -> Array:
+def rate_needed(params: Sized[V], rates: Rates) -> Array:
     """Rate of the spring at which the force is just 0 here, with the preload as it is; nan at no lift."""
     _, rate, _ = spring_of(params)
     with np.errstate(divide="ignore", invalid="ignore"):

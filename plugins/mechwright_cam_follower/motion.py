@@ -166,12 +166,10 @@ def _contact(
     for number, contact in enumerate(contacts):
         end, of = ("", "") if number == 0 else ("2", " of the second cam")
         found[f"pressure_angle{end}"] = Channel(contact.pressure_angle, "rad", f"pressure angle{of}")
-        found[f"curvature{end}"] = Channel(
-            _inverse(contact.radius), "1/mm", f"curvature{of or ' of the cam'}"
-        )
+        found[f"curvature{end}"] = Channel(inverse(contact.radius), "1/mm", f"curvature{of or ' of the cam'}")
         if params.contact == "roller":
             found[f"pitch_curvature{end}"] = Channel(
-                _inverse(contact.pitch_radius), "1/mm", f"curvature of the pitch curve{of}"
+                inverse(contact.pitch_radius), "1/mm", f"curvature of the pitch curve{of}"
             )
         found[f"contact_force{end}"] = Channel(loads.force[number], "N", f"contact force{of}")
         found[f"contact_pressure{end}"] = Channel(loads.pressure[number], "MPa", f"contact pressure{of}")
@@ -179,7 +177,7 @@ def _contact(
     return found
 
 
-def _inverse(radius: Array) -> Array:
+def inverse(radius: Array) -> Array:
     """Curvature, 1/mm; where the cam has an edge the greatest that is no fault of rounding."""
     safe = np.where(np.abs(radius) < _EDGE, _EDGE, radius)
     return 1 / safe

@@ -37,13 +37,13 @@ def outline_of(params: CamParams, second: bool = False) -> tuple[Loop, float]:
     return (loop if loop.area > 0 else loop.reversed()), deviation
 
 
-def _dwell(geometry: Geometry, piece: Piece, second: bool) -> Arc:
+def _dwell(geometry: Geometry[float], piece: Piece, second: bool) -> Arc:
     point = _curve(geometry, piece, np.array([0.0]), second)[0]
     turn = -geometry.params.sense * piece.width
     return Arc((0.0, 0.0), abs(point), math.atan2(point.imag, point.real), turn, "dwell")
 
 
-def _fitted(geometry: Geometry, piece: Piece, second: bool) -> tuple[list[Segment], float]:
+def _fitted(geometry: Geometry[float], piece: Piece, second: bool) -> tuple[list[Segment], float]:
     segments: list[Segment] = []
     deviation = 0.0
     ends: list[float] = [0.0]
@@ -62,7 +62,7 @@ def _fitted(geometry: Geometry, piece: Piece, second: bool) -> tuple[list[Segmen
     return segments, deviation
 
 
-def _curve(geometry: Geometry, piece: Piece, u: Array, second: bool) -> Points:
+def _curve(geometry: Geometry[float], piece: Piece, u: Array, second: bool) -> Points:
     theta = piece.start + piece.width * u
     contact = geometry.contact(piece.at(u), second)
     turned: Points = contact.point * np.exp(-1j * geometry.params.sense * theta)

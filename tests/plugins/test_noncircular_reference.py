@@ -165,11 +165,11 @@ def test_every_number(name):
 )
 def test_the_verdict(name, code):
     params = design(name, backlash=None, **({"cutter": "rack"} if name == "D10" else {}))
-    found = errors(NoncircularGears().judge(params), Stage.MACHINING)
+    found = errors(NoncircularGears().check(params), Stage.MACHINING)
     assert [one.code for one in found] == ([code] if code else [])
 
 
 def test_a_rack_refuses_what_a_shaper_cuts():
-    found = errors(NoncircularGears().judge(design("D8", cutter="rack")))
+    found = errors(NoncircularGears().check(design("D8", cutter="rack")))
     assert [one.code for one in found] == ["gear.convexity"]
     assert found[0].proposed[0] == {"parameters.cutter": "shaper"}

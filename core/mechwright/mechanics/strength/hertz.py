@@ -37,7 +37,9 @@ def relative_radius(one: "float | Array", other: "float | Array") -> Array:
     return np.asarray(1 / (1 / np.asarray(one) + 1 / np.asarray(other)))
 
 
-def line_pressure(force: "float | Array", length: float, radius: "float | Array", modulus: float) -> Array:
+def line_pressure(
+    force: "float | Array", length: "float | Array", radius: "float | Array", modulus: float
+) -> Array:
     """Greatest pressure along a line of contact, MPa: √(F E*/(π l R)).
 
     >>> float(line_pressure(180, 8, 5, 58605.1963).round(2))

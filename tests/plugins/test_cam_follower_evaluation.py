@@ -1,0 +1,99 @@
+"""Many cams at once are what each of them is by itself."""
+
+import numpy as np
+import pytest
+
+from mechwright import Stage
+from mechwright.contracts.by_arrays import Designs
+from mechwright.contracts.evaluation import Batch, one_by_one
+from mechwright.testing.evaluation import assert_same
+from mechwright_cam_follower.evaluation import answer, covered
+from mechwright_cam_follower.family import CamFollower
+from mechwright_cam_follower.params import CamParams
+
+FAMILY = CamFollower()
+
+
+def batch(content, size, **ranges):
+    rng = np.random.default_rng(3)
+    return Batch(CamParams, content, {name: rng.uniform(*ends, size) for name, ends in ranges.items()})
+
+
+TWO_STEPS = {
+    "angles": [70, 30, 70, 40, 110, 40],
+    "laws": ["cycloidal", "simple-harmonic", "modified-trapezoid"],
+}
+
+STUDIES = {
+    "slides": batch(
+        {"laws": ["modified-sine", "3-4-5"], "screw_diameter": 4},
+        14,
+        base_radius=(12, 60),
+        roller_radius=(4, 20),
+        offset=(-30, 30),
+        bore=(0, 30),
+        mass=(0.1, 3),
+        speed=(50, 900),
+        screw_circle=(18, 60),
+    ),
+    "levers": batch(
+        {"follower": "oscillating", "swings": [10, 10, 20, 20, 0, 0], "turning": "cw", **TWO_STEPS},
+        14,
+        base_radius=(15, 60),
+        centre_distance=(50, 150),
+        arm_length=(40, 120),
+        pivot_bore=(4, 18),
+    ),
+    "flat faces": batch(
+        {"contact": "flat", "laws": ["4-5-6-7"]},
+        8,
+        base_radius=(8, 60),
+        thickness=(0.9, 20),
+        guide_length=(10, 40),
+    ),
+    "flat levers": batch(
+        {"contact": "flat", "follower": "oscillating", "swings": [8, 8, 0, 0]},
+        8,
+        base_radius=(30, 110),
+        centre_distance=(60, 170),
+        face_offset=(5, 25),
+    ),
+}
+
+
+def columns(study):
+    """All but the angles at which peaks are, which are found one by one."""
+    found = FAMILY.measures(CamParams.model_validate(study.content))
+    return tuple(name for name in found if not name.endswith(".theta"))
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_they_are_what_each_is_by_itself(study):
+    one = STUDIES[study]
+    found = FAMILY.evaluate(one, columns(one))
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, columns(one), Stage.PARTS))
+    assert (found.forbidden == 0).sum() >= 2
+    assert len(found.counts) >= 2
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_most_are_decided_by_arrays(study):
+    one = STUDIES[study]
+    allowed = Designs(CamParams.model_validate(one.content), one.varied)
+    with np.errstate(all="ignore"):
+        found = answer(allowed, columns(one), Stage.PARTS)
+    assert found.undecided.sum() <= 2
+    assert not set(columns(one)) - set(found.values)
+
+
+def test_what_moves_is_not_judged_for_its_parts():
+    few = Batch(CamParams, {"bore": 78.0}, {"base_radius": np.linspace(6, 40, 5), "offset": np.full(5, 20.0)})
+    asked = ("cam_radius_max", "lift.greatest")
+    found = FAMILY.evaluate(few, asked, Stage.MOTION)
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, asked, Stage.MOTION))
+
+
+def test_pairs_and_keyways_are_left_to_each():
+    varied = {"base_radius": np.array([40.0])}
+    for content in ({"conjugate": True}, {"keyway_width": 5}):
+        assert not covered(Designs(CamParams.model_validate(content), varied))
