@@ -273,7 +273,17 @@ def test_a_number_that_is_none_is_named_once(command_line: Run, tmp_path: Path) 
     ]
     asked = asked.replace("nan", "3").replace(", [5, 9]", "")
     _, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
-    assert "at least 3 items" in wrong
+    assert wrong.endswith("requirement.points: has 2 entries; 3 at least are needed\n")
+    asked = asked.replace("[3, 4]", "[3, 4, 5]")
+    _, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert "requirement.points.1: has 3 entries; 2 at most are taken\n" in wrong
+
+
+def test_a_kind_beside_the_table_is_told_where_it_belongs(command_line: Run, tmp_path: Path) -> None:
+    asked = 'family = "four-bar"\nkind = "path"\n[requirement]\npoints = [[1, 2], [3, 4], [5, 9]]\n'
+    code, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert code == 2
+    assert "unknown key 'kind'; it stands in the head of the file and belongs to [requirement]" in wrong
 
 
 def test_angles_are_told_in_degrees() -> None:
