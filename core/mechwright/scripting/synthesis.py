@@ -230,8 +230,8 @@ def _more(looked: int, kept: int, spare: int) -> Finding:
     """Where to find designs in the place of those that cannot be built."""
     return Finding.note(
         "synthesis.more",
-        f"{looked - kept} of {looked} designs cannot be built as their tables say, and {spare} more were found "
-        f"and not looked at; with designs = {looked + spare} in the requirement they are",
+        f"{looked - kept} of {looked} designs cannot be built as their tables say, and {spare} more were "
+        f"found and not looked at; with designs = {looked + spare} in the requirement they are",
         float(spare),
     )
 
