@@ -273,7 +273,17 @@ def test_a_number_that_is_none_is_named_once(command_line: Run, tmp_path: Path) 
     ]
     asked = asked.replace("nan", "3").replace(", [5, 9]", "")
     _, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
-    assert "at least 3 items" in wrong
+    assert wrong.endswith("requirement.points: has 2 entries; 3 at least are needed\n")
+    asked = asked.replace("[3, 4]", "[3, 4, 5]")
+    _, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert "requirement.points.1: has 3 entries; 2 at most are taken\n" in wrong
+
+
+def test_a_kind_beside_the_table_is_told_where_it_belongs(command_line: Run, tmp_path: Path) -> None:
+    asked = 'family = "four-bar"\nkind = "path"\n[requirement]\npoints = [[1, 2], [3, 4], [5, 9]]\n'
+    code, _, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert code == 2
+    assert "unknown key 'kind'; it stands in the head of the file and belongs to [requirement]" in wrong
 
 
 def test_angles_are_told_in_degrees() -> None:
@@ -284,3 +294,17 @@ def test_angles_are_told_in_degrees() -> None:
         "residual": {"value": pytest.approx(30), "unit": "deg"},
         "figures": {"turn": {"value": 180, "unit": "deg"}, "a": {"value": 2, "unit": "mm"}},
     }
+
+
+def test_designs_that_were_not_looked_at_are_pointed_to(command_line: Run, tmp_path: Path) -> None:
+    """Of two designs one is too large for the machine, and the search has found others."""
+    asked = (
+        'family = "four-bar"\n[requirement]\nkind = "path"\nclosed = true\nlongest_link = 400\nstarts = 6000\n'
+        "designs = 2\npoints = [[40, 0], [20, 15], [-20, 15], [-40, 0], [-20, -15], [20, -15]]\n"
+        "[cam.machine]\ntravel_x = 140\ntravel_y = 140\n"
+    )
+    code, said, wrong = command_line("synthesize", requirement(tmp_path, asked), "-o", tmp_path / "out")
+    assert (code, wrong) == (0, "")
+    assert "wanted-1.toml" in said
+    assert "1 of 2 designs cannot be built as their tables say, and 6 more were found" in said
+    assert "with designs = 8 in the requirement they are" in said

@@ -340,7 +340,8 @@ class NoncircularParams(Parameters):
                 + (f"blend {most}, or window smaller" if most > 0 else "window smaller")
             )
         if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
-            raise ValueError("stroke_end is to be above stroke_start")
+            start, end = self.value("stroke_start"), self.value("stroke_end")
+            raise ValueError(f"stroke_end of {end:g} must be above stroke_start of {start:g}; exchange them")
         if self.law == "table":
             if self.sector is None:
                 check_nodes(self.nodes, self.lobes, self.mate_lobes)

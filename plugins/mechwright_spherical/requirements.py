@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from mechwright import Array, GeometryError, Parameters
-from mechwright.mechanics.tracing.requirement import MOST_POINTS
+from mechwright.mechanics.tracing.requirement import MOST_POINTS, check_one_way
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 from mechwright_spherical.params import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length
@@ -154,7 +154,10 @@ class AdjustablePathRequirement(Parameters):
         for number, points in enumerate(self.phases, start=1):
             apart = [abs(x - y) for x, y in zip(points[0], first, strict=False)]
             if len(points[0]) != len(first) or max(apart) > SAME_PLACE:
-                raise ValueError("phases begin at different points; all begin where the machine is set")
+                raise ValueError(
+                    f"phases begin at different points: phase {number} at {points[0]}, phase 1 at {first}; "
+                    "all begin where the machine is set"
+                )
             if len(set(points)) < len(points):
                 raise ValueError(f"phases: phase {number} holds a point twice; leave one out")
         if self.linkage == "five-bar":
@@ -244,11 +247,7 @@ class FourBarPathRequirement(Parameters):
             raise ValueError(f"points: all {len(self.points)} are the same; a path needs two places at least")
         if self.angles:
             same_length("points", self.points, "angles", self.angles)
-            steps = np.diff(self.angles)
-            if not ((steps > 0).all() or (steps < 0).all()):
-                raise ValueError("angles go one way, each beyond the one before it")
-            if abs(self.angles[-1] - self.angles[0]) >= 360:
-                raise ValueError("angles stay within one turn, below 360 degrees")
+            check_one_way("angles", self.angles)
         return self
 
     @property

@@ -177,7 +177,9 @@ def test_the_seed_decides():
     ("changes", "message"),
     [
         ({"crank_turns": [0, 10]}, "crank_turns"),
-        ({"crank_turns": [0, 10, 5, 20, 30, 40]}, "one way"),
+        ({"crank_turns": [0, 10, 5, 20, 30, 40]}, "turns back from 10 to 5 degrees, its 2nd and 3rd"),
+        ({"crank_turns": [0, 10, 10, 20, 30, 40]}, "stands at 10 degrees, its 2nd and 3rd"),
+        ({"crank_turns": [5, 10, 15, 20, 30, 40]}, "starts with 5"),
         ({"crank_turns": [0, 10, 20, 30, 40, 400]}, "one turn"),
         ({"crank_turns": [0, 10, 20, 30, 40, 50], "closed": True}, "closed and crank_turns contradict"),
         ({"points": [(0, 0), (1, 1)]}, "points"),
@@ -189,6 +191,26 @@ def test_the_seed_decides():
 def test_wrong_requirements_are_refused_by_name(changes, message):
     with pytest.raises(ValidationError, match=message):
         table(**changes)
+
+
+FAR = [(0, 0), (1000, 0), (2000, 500)]
+
+
+def test_points_farther_apart_than_any_path_contradict_the_longest_link():
+    """Where a tolerance cannot be met that is an error before any search; else the nearest are given, warned of."""
+    refused = asked(points=FAR, longest_link=100, tolerance=1)
+    assert not refused.candidates
+    (told,) = refused.findings
+    assert (told.code, told.severity) == ("path.contradiction", Severity.ERROR)
+    assert "points 1 and 3 are 2062 mm apart" in told.message
+    assert "no path is wider than 400 mm" in told.message
+    near = asked(points=FAR, longest_link=100, starts=200)
+    warned = near.findings[0]
+    assert (warned.code, warned.severity) == ("path.contradiction", Severity.WARNING)
+    least = (math.dist(FAR[0], FAR[2]) - 400) / math.sqrt(2 * len(FAR))
+    assert f"{least:.4g} mm in the mean" in warned.message
+    assert all(one.residual.value >= least for one in near.candidates)
+    assert asked(points=FAR, longest_link=700, starts=100).findings[0].code != "path.contradiction"
 
 
 @by_night

@@ -53,6 +53,10 @@ def _in_degrees(figure: Scalar) -> Scalar:
     return Scalar(math.degrees(figure.value), "deg") if figure.unit == "rad" else figure
 
 
+BEYOND = "synthesis.beyond-the-number"
+"""Code of designs that come after those that are asked for."""
+
+
 @dataclass(frozen=True, slots=True)
 class Reason:
     """Why designs that a search has found are not given.
@@ -107,7 +111,7 @@ class Rejected:
 
     def beyond(self, most: int, count: int) -> None:
         """Count designs that come after the ``most`` that are asked for."""
-        self.because("synthesis.beyond-the-number", f"the requirement asks for designs = {most}", count)
+        self.because(BEYOND, f"the requirement asks for designs = {most}", count)
 
     @property
     def reasons(self) -> tuple[Reason, ...]:

@@ -89,6 +89,8 @@ def homes(host: Host, content: Mapping[str, Any], own: str) -> dict[str, list[st
     for name, schema in schemas_of(host, content, own).items():
         for table, key in _keys(schema, schema.get("$defs", {}), name):
             found.setdefault(key, []).append(table)
+    if own == "requirement":
+        found.setdefault("kind", []).append(own)
     return found
 
 
@@ -98,7 +100,7 @@ def schemas_of(host: Host, content: Mapping[str, Any], own: str) -> dict[str, di
     family = host.of(Family).get(str(content.get("family")))
     if family is not None:
         asked = content.get(own, {})
-        kind = asked.get("kind") if isinstance(asked, Mapping) else None
+        kind = asked.get("kind", content.get("kind")) if isinstance(asked, Mapping) else None
         model = family.item.Params if own == "parameters" else family.item.requirements.get(str(kind))
         if model is not None:
             schemas = {own: model_schema(model), **schemas}

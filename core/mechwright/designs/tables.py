@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
-from typing import TypeVar, get_args
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -26,6 +26,9 @@ _MESSAGES = {
 
 _LONG = 120
 """Characters of a wrong value that a line shows."""
+
+_COUNTED = ("too_short", "too_long")
+"""Errors of a list's length."""
 
 _SHORT = 40
 """Characters of a list or a table that a line shows."""
@@ -65,6 +68,8 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
             yield f"{'.'.join([where, *keys[:-1]])}: {said}"
         elif item["type"] == "missing":
             yield f"{place}: is missing"
+        elif item["type"] in _COUNTED:
+            yield f"{place}: {_counted(item['type'], item['ctx'])}"
         else:
             message = _MESSAGES.get(item["type"]) or item["msg"]
             for start in ("Value error, ", "Input ", "String "):
@@ -73,6 +78,14 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
             if value and keys and not (value.startswith("'") and value in message):
                 message = f"{value} {message}"
             yield f"{place}: {message}"
+
+
+def _counted(error: str, told: Mapping[str, Any]) -> str:
+    """How many entries a list has, and how many it takes."""
+    has, least, most = told["actual_length"], told.get("min_length"), told.get("max_length")
+    entries = "1 entry" if has == 1 else f"{has if has is not None else 'too many'} entries"
+    takes = f"{least} at least are needed" if error == "too_short" else f"{most} at most are taken"
+    return f"has {entries}; {takes}"
 
 
 def _shown(value: object, error: str) -> str:

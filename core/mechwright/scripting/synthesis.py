@@ -15,7 +15,7 @@ from mechwright.contracts.finding import Finding, Severity, errors
 from mechwright.contracts.part import check_name
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.shown import html_table
-from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis, unheard
+from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis, unheard
 from mechwright.designs.change import changed
 from mechwright.designs.files import digest_of, read_bytes
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
@@ -222,7 +222,20 @@ def sought(asked: Requirement, installed: Host, progress: Progress = unheard) ->
     said = result.findings
     if result.candidates and not kept:
         said = (*said, _unbuildable(unbuilt.reasons[0]))
+    spare = sum(reason.count for reason in result.rejected if reason.code == BEYOND)
+    if spare and len(kept) < len(result.candidates):
+        said = (*said, _more(len(result.candidates), len(kept), spare))
     return Found(asked, Synthesis(tuple(kept), said, rejected.reasons), installed)
+
+
+def _more(looked: int, kept: int, spare: int) -> Finding:
+    """Where to find designs in the place of those that cannot be built."""
+    return Finding.note(
+        "synthesis.more",
+        f"{looked - kept} of {looked} designs cannot be built as their tables say, and {spare} more were "
+        f"found and not looked at; with designs = {looked + spare} in the requirement they are",
+        float(spare),
+    )
 
 
 def _unbuildable(reason: Reason) -> Finding:

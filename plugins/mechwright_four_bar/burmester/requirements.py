@@ -1,12 +1,13 @@
 """What can be asked for of a body's poses, and of the follower's answers to the crank."""
 
-from itertools import combinations, pairwise
+from itertools import combinations
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
 from mechwright.mechanics.adjustable.requirement import Coordinate, check_lengths
+from mechwright.mechanics.tracing.requirement import check_one_way
 from mechwright.units import Degrees, Millimetres, Unit
 
 Direction = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
@@ -118,17 +119,13 @@ class FunctionRequirement(LinkLimits):
         one, two = len(self.crank_angles), len(self.follower_angles)
         if one != two:
             raise ValueError(f"follower_angles has {two} angles for the {one} of crank_angles")
-        steps = [b - a for a, b in pairwise(self.crank_angles)]
-        if not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
-            raise ValueError("crank_angles go one way")
+        check_one_way("crank_angles", self.crank_angles)
         needed = {"none": 3, "follower": 4, "both": 5}[self.offsets]
         if one < needed:
             raise ValueError(
                 f"crank_angles: {one} pairs leave offsets = {self.offsets!r} open; give {needed}, or say "
                 "fewer offsets"
             )
-        if abs(self.crank_angles[-1] - self.crank_angles[0]) >= 360:
-            raise ValueError("crank_angles stay within one turn, below 360 degrees")
         if len(set(self.follower_angles)) == 1:
             raise ValueError("follower_angles are all the same: the follower would stand still")
         return self

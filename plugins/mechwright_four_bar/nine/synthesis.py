@@ -14,6 +14,7 @@ from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.nine.solving import Triples, all_triples
+from mechwright_four_bar.nine.special import special
 from mechwright_four_bar.nine.triples import TRIPLES, members
 from mechwright_four_bar.params import FourBarParams
 
@@ -138,7 +139,7 @@ def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis
         ),
         lambda part: progress(SOLVED + (1 - SOLVED) * part, "designs"),
     )
-    return Synthesis(result.candidates, (*result.findings, *_doubts(triples)), result.rejected)
+    return Synthesis(result.candidates, (*result.findings, *_doubts(triples, points)), result.rejected)
 
 
 def _count(triples: Triples) -> str:
@@ -147,7 +148,7 @@ def _count(triples: Triples) -> str:
     return f"{found} found of {TRIPLES} triples of cognates, {said}, each certified"
 
 
-def _doubts(triples: Triples) -> Iterator[Finding]:
+def _doubts(triples: Triples, points: Plane) -> Iterator[Finding]:
     """What is not known of points that are not in general position."""
     open_ones = sum(one.real is None for one in triples.certified)
     if open_ones:
@@ -158,10 +159,12 @@ def _doubts(triples: Triples) -> Iterator[Finding]:
         )
     if triples.complete:
         return
+    why = special(points)
     yield Finding.warning(
         "nine-points.incomplete",
         "points",
-        f"{len(triples.certified)} found of {TRIPLES} triples: {triples.far} run to infinity, "
+        (f"{why}: " if why else "")
+        + f"{len(triples.certified)} found of {TRIPLES} triples: {triples.far} run to infinity, "
         f"{triples.singular} end in singular solutions, which have no certificate, {triples.lost} are lost",
         float(len(triples.certified)),
         float(TRIPLES),

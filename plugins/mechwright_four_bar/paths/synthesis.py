@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
-from mechwright.contracts.finding import Severity
+from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
-from mechwright.mechanics.tracing.requirement import fault_of_points
+from mechwright.mechanics.tracing.requirement import faults
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.cognates import Drawing, cognates
@@ -48,12 +48,10 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     smallest leading, then the others, the best transmission angle leading. Then come the designs that do not,
     the nearest first.
     """
-    if said := fault_of_points(wanted.points, wanted.crank_turns is not None):
-        return Synthesis((), (Finding.error("path.points", "points", said),))
     problem = problem_of(wanted)
-    if said := problem.limits.contradiction():
-        message = f"no linkage keeps the limits: {said}"
-        return Synthesis((), (Finding.error("path.contradiction", "longest_link", message),))
+    wrong = faults(wanted, problem.limits.contradiction(), "linkage")
+    if errors(wrong):
+        return Synthesis((), wrong)
     chosen = thinned(in_plane(problem.targets), problem.closed)
     turns = None if problem.turns is None else problem.turns[chosen]
     few = replace(problem, targets=problem.targets[chosen], turns=turns)
@@ -79,8 +77,8 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     if not candidates:
         return Synthesis((), (_refusal(wanted, result, good, reason),), rejected.reasons)
     best = min(good, key=lambda one: one.squares)
-    said_of = [_count(result, len(good)), *_said(wanted, problem, best, candidates[0].residual.value, met)]
-    return Synthesis(tuple(candidates), tuple(said_of), rejected.reasons)
+    said = _said(wanted, problem, best, candidates[0].residual.value, met)
+    return Synthesis(tuple(candidates), (*wrong, _count(result, len(good)), *said), rejected.reasons)
 
 
 def _designs(

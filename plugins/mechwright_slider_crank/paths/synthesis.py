@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import in_plane, thinned
-from mechwright.mechanics.tracing.requirement import SENSES, fault_of_points
+from mechwright.mechanics.tracing.requirement import SENSES, faults
 from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, rounds_of, search
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
 from mechwright_slider_crank.figures import least_transmission_angle
@@ -108,14 +109,12 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Sli
     the nearest first. Pivots stand where the figures ``pivot_x`` and ``pivot_y`` say: the design has its
     crank's pivot in the origin.
     """
-    if said := fault_of_points(wanted.points, wanted.crank_turns is not None):
-        return Synthesis((), (Finding.error("path.points", "points", said),))
     limits = Limits(
         wanted.shortest_link, wanted.longest_link, math.radians(wanted.least_transmission_angle), wanted.frame
     )
-    if said := limits.contradiction():
-        message = f"no slider-crank keeps the limits: {said}"
-        return Synthesis((), (Finding.error("path.contradiction", "longest_link", message),))
+    wrong = faults(wanted, limits.contradiction(), "slider-crank")
+    if errors(wrong):
+        return Synthesis((), wrong)
     rooms = rooms_of(wanted, limits)
     targets, size = rooms[0].targets, rooms[0].size
     chosen = thinned(in_plane(targets), rooms[0].closed)
@@ -148,8 +147,8 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Sli
             break
     if not candidates:
         return Synthesis((), (_refusal(result, good, reason, rooms, wanted),), rejected.reasons)
-    said_of = [_count(result, len(good)), *_missed(wanted, candidates[0].residual.value)]
-    return Synthesis(tuple(candidates), tuple(said_of), rejected.reasons)
+    said_of = (*wrong, _count(result, len(good)), *_missed(wanted, candidates[0].residual.value))
+    return Synthesis(tuple(candidates), said_of, rejected.reasons)
 
 
 def rooms_of(wanted: PathRequirement, limits: Limits) -> list[SliderRoom]:

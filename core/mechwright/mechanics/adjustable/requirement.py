@@ -1,5 +1,6 @@
 """What every synthesis of an adjustable linkage is asked for: a path for each phase, and limits."""
 
+import math
 from typing import Annotated, Self
 
 from pydantic import Field, model_validator
@@ -50,10 +51,13 @@ class PhasedPath(Parameters):
 
     @model_validator(mode="after")
     def _points(self) -> Self:
-        first = complex(*self.phases[0][0])
-        if any(abs(complex(*points[0]) - first) > SAME_PLACE for points in self.phases):
-            raise ValueError("phases begin at different points; all begin where the machine is set")
+        first = self.phases[0][0]
         for number, points in enumerate(self.phases, start=1):
+            if math.dist(points[0], first) > SAME_PLACE:
+                raise ValueError(
+                    f"phases begin at different points: phase {number} at {points[0]}, phase 1 at {first}; "
+                    "all begin where the machine is set"
+                )
             if len(set(points)) < len(points):
                 raise ValueError(f"phases: phase {number} holds a point twice; leave one out")
         check_lengths(self.shortest_link, self.longest_link)

@@ -1,11 +1,14 @@
 """What every synthesis of a path in the plane is asked for: points, their order, and limits."""
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
 from mechwright.mechanics.adjustable.requirement import Coordinate, check_lengths
 from mechwright.units import Degrees, Millimetres, Unit
@@ -14,6 +17,12 @@ Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
 
 MOST_POINTS = 5000
 """More points of a path say nothing new; thin them out."""
+
+REACH = 4.0
+"""Greatest width of a path in longest links: its point is no farther from the crank's pivot than two."""
+
+DIRECTIONS = 180
+"""In which the width of a path is looked at: of the greatest, a part in ten thousand may be lost."""
 
 MOST_STARTS = 1_000_000
 """More random starts take minutes and find nothing new."""
@@ -79,11 +88,9 @@ class PlanePath(Parameters):
         if turns is not None:
             if len(turns) != len(self.points):
                 raise ValueError(f"crank_turns has {len(turns)} angles for {len(self.points)} points")
-            steps = [two - one for one, two in pairwise(turns)]
-            if turns[0] != 0 or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
-                raise ValueError("crank_turns starts with 0 and goes one way")
-            if abs(turns[-1]) >= 360:
-                raise ValueError("crank_turns stays within one turn, below 360 degrees")
+            if turns[0] != 0:
+                raise ValueError(f"crank_turns starts with {turns[0]:g}; take it from all, the first is 0")
+            check_one_way("crank_turns", turns)
             for key in ("closed", "sense", "order_tolerance"):
                 if getattr(self, key) != type(self).model_fields[key].default:
                     raise ValueError(f"{key} and crank_turns contradict: leave {key} out")
@@ -93,6 +100,86 @@ class PlanePath(Parameters):
                 "frame is [least x, least y, greatest x, greatest y], the least below the greatest"
             )
         return self
+
+
+def check_one_way(name: str, angles: Sequence[float]) -> None:
+    """Refuse angles of a crank, degrees, that turn back, stand still, or go a turn and more.
+
+    Raises
+    ------
+    ValueError
+        Which angles of the key ``name`` do.
+
+    Examples
+    --------
+    >>> check_one_way("angles", (0, 20, 15))
+    Traceback (most recent call last):
+    ...
+    ValueError: angles turns back from 20 to 15 degrees, its 2nd and 3rd; the crank goes one way
+    """
+    way = angles[-1] - angles[0]
+    for number, (one, two) in enumerate(pairwise(angles), start=1):
+        if (two - one) * way <= 0:
+            does = "stands at" if one == two else "turns back from"
+            to = "" if one == two else f" to {two:g}"
+            raise ValueError(
+                f"{name} {does} {one:g}{to} degrees, its {_nth(number)} and {_nth(number + 1)}; the crank "
+                "goes one way"
+            )
+    if abs(way) >= 360:
+        raise ValueError(f"{name} goes {abs(way):g} degrees; stay within one turn, below 360")
+
+
+def _nth(number: int) -> str:
+    last = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th") if number % 100 not in (11, 12, 13) else "th"
+    return f"{number}{last}"
+
+
+def faults(wanted: PlanePath, contradiction: str, linkage: str) -> tuple[Finding, ...]:
+    """What is wrong with what is asked: errors where nothing is to be sought, a warning where points lie off.
+
+    Parameters
+    ----------
+    contradiction
+        What contradicts in the limits alone; empty where nothing does.
+    linkage
+        What is sought, in a sentence.
+    """
+    if said := fault_of_points(wanted.points, wanted.crank_turns is not None):
+        return (Finding.error("path.points", "points", said),)
+    if contradiction:
+        return (
+            Finding.error(
+                "path.contradiction", "longest_link", f"no {linkage} keeps the limits: {contradiction}"
+            ),
+        )
+    reach = REACH * wanted.longest_link
+    one, two = farthest(wanted.points)
+    apart = math.dist(wanted.points[one], wanted.points[two])
+    least = (apart - reach) / math.sqrt(2 * len(wanted.points))
+    if least <= max(wanted.tolerance, 0.0):
+        return ()
+    said = (
+        f"points and longest_link contradict: points {one + 1} and {two + 1} are {apart:.4g} mm apart, and "
+        f"with longest_link = {wanted.longest_link:g} mm no path is wider than {reach:g} mm; every {linkage} "
+        f"misses the points by {least:.4g} mm in the mean, or more"
+    )
+    told = Finding.error if wanted.tolerance else Finding.warning
+    fix = f"make longest_link {math.ceil(apart / REACH)} at least"
+    return (told("path.contradiction", "longest_link", said, wanted.longest_link, apart / REACH, "mm", fix),)
+
+
+def farthest(points: Sequence[tuple[float, float]]) -> tuple[int, int]:
+    """Indices, in their order, of the two points that are farthest apart, to a part in ten thousand.
+
+    >>> farthest([(0, 0), (3, 4), (1, 1)])
+    (0, 1)
+    """
+    angles = np.linspace(0, math.pi, DIRECTIONS, endpoint=False)
+    along = np.array(points) @ np.array([np.cos(angles), np.sin(angles)])
+    widest = int(np.ptp(along, axis=0).argmax())
+    one, two = sorted((int(along[:, widest].argmin()), int(along[:, widest].argmax())))
+    return one, two
 
 
 def fault_of_points(points: Sequence[tuple[float, ...]], timed: bool) -> str:
