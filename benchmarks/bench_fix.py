@@ -49,16 +49,16 @@ def checked(design: Design) -> Repair:
     """A repair by the family's check alone."""
     bench = of_family(design, FAMILY)
     stood = bench.errors({}) or []
-    change = nearest(bench)
+    change, beyond = nearest(bench), None
     if change is not None and len(change) > MOST_CHANGES:
-        change = None
-    return Repair(stood, change, stood if change is None else [], bench)
+        change, beyond = None, change
+    return Repair(stood, change, stood if change is None else [], bench, beyond)
 
 
 def one_family(name: str, asked: argparse.Namespace, end: float) -> bool:
     found, family = host(), host().family(name)
     numbers = range(asked.first, asked.first + asked.count)
-    builds, sizes, failed, times = 0, Counter[int](), Counter[str](), []
+    builds, refused, sizes, failed, times = 0, 0, Counter[int](), Counter[str](), []
     for number, design in zip(numbers, designs(family, found, asked.seed, numbers, asked.way), strict=True):
         if time.monotonic() > end:
             break
@@ -66,6 +66,7 @@ def one_family(name: str, asked: argparse.Namespace, end: float) -> bool:
         repair = checked(design) if asked.to == "check" else repaired(design, found, Stage(asked.to))
         times.append(time.process_time() - start)
         if repair.change is None:
+            refused += repair.nearest is not None
             failed[repair.left[0].code if repair.left else "?"] += 1
         elif repair.change:
             sizes[len(repair.change)] += 1
@@ -83,6 +84,7 @@ def one_family(name: str, asked: argparse.Namespace, end: float) -> bool:
     print(f"  processor time: mean {sum(times) / count:.2f} s, most {max(times, default=0):.1f} s")
     if failed:
         print(f"  not mended: {', '.join(f'{code} {n}' for code, n in failed.most_common(12))}")
+        print(f"  of them with the nearest design that builds: {refused}")
     return require("not mended", 1 - share, 1 - GOAL)
 
 

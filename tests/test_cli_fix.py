@@ -1,6 +1,7 @@
 """The command ``fix``, and the remedies that ``check`` tells: what is printed, written and never written."""
 
 import json
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -181,6 +182,20 @@ def test_what_cannot_be_mended_ends_with_one(run: Run, short: Path, monkeypatch:
     assert code == 1
     assert "cannot be built, and no change" in out
     assert short.read_text(encoding="utf-8") == SHORT
+
+
+def test_the_nearest_of_too_many_keys_is_told_and_not_written(
+    run: Run, short: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from mechwright.remedies import repair
+
+    monkeypatch.setattr(repair, "MOST_CHANGES", 0)
+    code, out, _ = run("fix", short, "--to", "parts", "--write")
+    assert code == 1
+    assert re.search(r"in \d+ tries\nthe nearest design that can is another in \d+ keys:\n  set ", out), out
+    assert short.read_text(encoding="utf-8") == SHORT
+    data = json.loads(run("fix", short, "--to", "parts", "--json")[1])
+    assert (data["fix"], bool(data["nearest"])) == (None, True)
 
 
 def test_check_tells_remedies_that_were_tried(run: Run, short: Path) -> None:

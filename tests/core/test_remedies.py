@@ -202,6 +202,37 @@ def test_a_remedy_that_does_not_hold_is_named(monkeypatch):
     assert "found all the same" in fix_faults(Disc(), {"bore": 39})[0]
 
 
+def test_the_kit_refuses_a_family_whose_printed_remedies_do_not_hold(monkeypatch):
+    """By its refused tables and by random ones, and a family whose judge says other things than its check."""
+    from mechwright.testing import fixes
+
+    class Lying(Disc):
+        def judge(self, params):
+            return [replace(one, message="another") for one in self.check(params)]
+
+    class Kit(fixes.FixTests):
+        family = Disc
+        refused = (({"bore": 39}, "bore"),)
+
+        def strategy(self):
+            return st.just({"bore": 39})
+
+    Kit().test_fixes_of_refused_designs()
+    Kit().test_fixes_of_random_designs()
+    Kit().test_judge_says_what_check_says()
+    with monkeypatch.context() as patch:
+        patch.setattr(Kit, "family", Lying)
+        with pytest.raises(AssertionError, match="is not in check"):
+            Kit().test_judge_says_what_check_says()
+    holds = importlib.import_module("mechwright.remedies.remedied")
+    monkeypatch.setattr(holds, "refined", lambda *_: {"parameters.bore": 38.5})
+    Kit().test_fixes_of_refused_designs()  # what does not hold is not told
+    monkeypatch.setattr(holds, "holds", lambda *_: True)
+    for test in (Kit().test_fixes_of_refused_designs, Kit().test_fixes_of_random_designs):
+        with pytest.raises(AssertionError, match="found all the same"):
+            test()
+
+
 def test_a_note_that_stays_is_no_finding_that_stays():
     class Telling(Beam):
         def check(self, params):

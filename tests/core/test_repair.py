@@ -64,3 +64,19 @@ def test_what_stands_in_a_design_that_pleases_its_family_is_told_with_its_propos
 def test_a_design_that_builds_is_not_changed():
     done = repaired(design(Disc, bore=MADE), Shop(Bores()), Stage.MACHINING)
     assert (done.found, done.change, done.left) == ([], {}, [])
+
+
+def test_where_keys_are_too_many_the_nearest_design_is_told_and_not_taken(monkeypatch):
+    monkeypatch.setattr(repair, "MOST_CHANGES", 0)
+    of = design(Disc, bore=39)
+    done = repaired(of, Shop(Bores()), Stage.PARTS)
+    assert not done.builds
+    assert [one.code for one in done.left] == ["disc.wall"]
+    assert len(done.nearest) == 1
+    assert repaired(of.changed(done.nearest), Shop(Bores()), Stage.PARTS).change == {}
+
+
+def test_a_design_that_only_pleases_its_family_is_no_nearest(monkeypatch):
+    monkeypatch.setattr(repair, "MOST_CHANGES", 0)
+    done = repaired(design(Disc, bore=39), Shop(Bores()), Stage.MACHINING)
+    assert (done.change, done.nearest) == (None, None)

@@ -20,7 +20,7 @@ from mechwright.designs.inches import written
 from mechwright.errors import DesignError, OutputError
 from mechwright.output.folder import rewrite
 from mechwright.plugins.host import Host
-from mechwright.remedies import Repair, repaired
+from mechwright.remedies import MOST_CHANGES, Repair, repaired
 from mechwright.remedies.words import each
 
 
@@ -86,6 +86,7 @@ def _data(design: Design, repair: Repair) -> dict[str, object]:
         "findings": [finding.as_dict() for finding in repair.found],
         "fix": None if repair.change is None else dict(repair.change),
         "left": [finding.as_dict() for finding in repair.left],
+        "nearest": None if repair.nearest is None else dict(repair.nearest),
     }
 
 
@@ -93,7 +94,14 @@ def _say(path: Path, target: Path | None, repair: Repair, text: str, new: str) -
     if repair.change is None:
         for finding in repair.left:
             tell(finding)
-        typer.echo(f"{path}: cannot be built, and no change of at most ten keys was found with which it can")
+        typer.echo(
+            f"{path}: cannot be built, and no change of at most {MOST_CHANGES} keys was found with which it "
+            f"can, in {repair.bench.tries} tries"
+        )
+        if repair.nearest is not None:
+            typer.echo(f"the nearest design that can is another in {len(repair.nearest)} keys:")
+            for line in each(repair.bench, repair.nearest):
+                typer.echo(f"  {line}")
         return
     if not repair.change:
         typer.echo(f"{path}: can be built as it is" + (f"; written to {target}" if target else ""))

@@ -40,12 +40,16 @@ class Repair:
         Errors that stand after what was changed last; none if the design builds.
     bench
         Where it was tried, for what is said of keys.
+    nearest
+        Where nothing was found: the nearest change with which the design builds, of more keys than a remedy
+        has; None where there is none either.
     """
 
     found: list[Finding]
     change: Change | None
     left: list[Finding]
     bench: Bench
+    nearest: Change | None = None
 
     @property
     def builds(self) -> bool:
@@ -59,18 +63,19 @@ def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unhe
     first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
     whole = asked.judge(asked.looks)
-    possible = (
-        (change for change in candidates(first) if len(change) <= MOST_CHANGES) if found else iter([{}])
-    )
     smallest: Change | None = None
-    for change in possible:
-        smallest = change if smallest is None else smallest
+    beyond: list[Change] = []
+    for change in candidates(first) if found else [{}]:
         bench = Bench(design.changed(change), whole, stage, INSPECTED, progress=progress)
+        if len(change) > MOST_CHANGES:
+            beyond += [] if beyond or not bench.builds({}) else [change]
+            continue
+        smallest = change if smallest is None else smallest
         stood, more = bench.errors({}) or [], _as_proposed(bench)
         if more is not None and len(merged := {**change, **more}) <= MOST_CHANGES:
             return Repair(found or stood, merged, [], first)
     if smallest is None:
-        return Repair(found, None, found, first)
+        return Repair(found, None, found, first, next(iter(beyond), None))
     return _further(Repair(found, smallest, [], first), design, asked)
 
 
@@ -97,7 +102,7 @@ def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:
     The one that is new is asked first: most changes fail by it, and what it is content with is put to the
     others then.
     """
-    found, change = repair.found, repair.change or {}
+    found, change, whole = repair.found, repair.change or {}, asked.judge(asked.looks)
     for number in range(len(asked.looks) + 1):
         limits = INSPECTED if number else FAMILY
         judge = asked.judge(asked.looks[:number][::-1])
@@ -106,9 +111,12 @@ def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:
         if left:
             found = found or left
             more = nearest(bench)
-            if more is None or len({**change, **more}) > MOST_CHANGES:
+            if more is None:
                 return Repair(found, None, left, repair.bench)
             change = {**change, **more}
+            if len(change) > MOST_CHANGES:
+                last = Bench(design.changed(change), whole, asked.stage, INSPECTED)
+                return Repair(found, None, left, repair.bench, change if last.builds({}) else None)
     return Repair(found, change, [], repair.bench)
 
 
