@@ -1,19 +1,21 @@
-"""Do the tests bite? One fault at a time in the source, and the tests of its function: score, survivors.
+"""Do the tests bite? One fault at a time in the source, and the tests that reach its line: score, survivors.
 
-    python benchmarks/bench_mutation.py map [TEST FILE ...]      which tests run which functions
-    python benchmarks/bench_mutation.py run --area proof --sample 500 --seconds 3600 --share 1/2
-    python benchmarks/bench_mutation.py again                    survivors once more, with tests of today
-    python benchmarks/bench_mutation.py told                     score of each area, and who survived
+    python benchmarks/bench_mutation.py reach --area geometry tests/core/test_fit.py   lines that tests reach
+    python benchmarks/bench_mutation.py run --area geometry --sample 200 --seconds 600     plant a draw
+    python benchmarks/bench_mutation.py again                                              survivors once more
+    python benchmarks/bench_mutation.py told                                               scores, survivors
 
-All of them go on where they stopped: what is known stands in ``--place`` (``build/mutation``), the map by
-test file, outcomes one a line. The sample is a seeded draw over all mutants of an area, the same for all
-shares. A mutant is killed if one of its tests fails, or takes four times as long as it should; its tests
-are those that call its function, the quickest first, for ``--budget`` seconds. Every tenth time the same
-tests run without the fault and have to pass: otherwise the outcome is ``broken`` and counts for nothing.
+All of them go on where they stopped: what is known stands in ``--place`` (``build/mutation``), one line each.
+The draw is seeded, over the mutants of functions that a test that was watched reaches (``--whole``: over all
+of an area). A mutant is killed if one of its tests fails, or takes far longer than it should; its tests are
+those that reach its lines, the quickest first, for ``--budget`` seconds. It is planted in a fork of a process
+that has collected the tests, so that it takes as long as they do; ``again`` gives survivors, and what
+stands outside of functions, to a new interpreter on a changed copy, which processes that tests start see too.
+Every tenth time the same tests run without the fault and have to pass: otherwise the outcome is ``broken``
+and counts for nothing.
 
 mutmut 3.8 mutates functions alone, of one source root that must not be installed, and sees no doctests;
-cosmic-ray 8.7 starts pytest anew for each mutant, with all tests. Tables outside of functions, three roots
-and a host that finds families as they are installed are what there is here.
+cosmic-ray 8.7 starts pytest anew for each mutant, with all tests.
 """
 
 import argparse
@@ -24,55 +26,53 @@ import sys
 import tempfile
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from code_mutants import Mutant, mutants
-from mutation_tests import DISABLED, ROOMS, ROOT, forked, prepared, watched
+from mutation_tests import ROOMS, ROOT, Reaching, Suite, afresh, forked, tree
 
 AREAS: dict[str, tuple[str, ...]] = {
     "proof": ("cam/mechwright_cam/proof/",),
     "readers": ("cam/mechwright_cam/controls/",),
+    "planning": tuple(f"cam/mechwright_cam/{room}/" for room in ("planning", "operations", "plane", "setup")),
+    "geometry": ("core/mechwright/geometry/",),
+    "kinematics": ("core/mechwright/mechanics/", "plugins/"),
     "core": ("core/mechwright/",),
     "cam": ("cam/mechwright_cam/", "cam/mechwright_cad/"),
-    "families": ("plugins/",),
 }
 """The first that fits; goals: 0.95 of the first two, 0.85 of the others."""
-GOALS = {"proof": 0.95, "readers": 0.95, "core": 0.85, "cam": 0.85, "families": 0.85}
+GOALS = {name: 0.95 if name in {"proof", "readers"} else 0.85 for name in AREAS}
 LONG = 900.0
 """Seconds for the tests of one file under the watch."""
 CONTROL = 10
 """Every so many mutants their tests run without a fault too."""
 MANY = 150
 """Tests of one mutant at most."""
-KILLED, SURVIVED, UNTESTED, BROKEN = "killed", "survived", "no test", "broken"
+KILLED, SURVIVED, UNTESTED, BROKEN, OUTSIDE = "killed", "survived", "no test", "broken", "outside"
+NOT_PLANTED = 3
 
 
 @dataclass(frozen=True)
 class Known:
-    """Tests by function: name of the test, and seconds it takes."""
+    """Tests that were watched: the seconds that each takes, and the lines that it reaches, by file."""
 
-    tests: Mapping[str, Mapping[str, float]]
+    seconds: Mapping[str, float]
+    lines: Mapping[str, Mapping[int, frozenset[str]]]
 
     def of(self, mutant: Mutant, budget: float) -> dict[str, float]:
-        """The quickest tests that call the function of a mutant, as many as the budget has room for.
-
-        Outside of all functions: those that call any function of the file.
-        """
-        if mutant.function:
-            found = self.tests.get(f"{mutant.path}:{mutant.function}", {})
-        else:
-            found = {}
-            for name, tests in self.tests.items():
-                if name.startswith(f"{mutant.path}:"):
-                    found = {**found, **tests}
+        """The quickest tests that reach the lines of a mutant, as many as the budget has room for."""
+        reached = self.lines.get(mutant.path, {})
+        found = {
+            test for line in range(mutant.line, mutant.end[0] + 1) for test in reached.get(line, frozenset())
+        }
         chosen: dict[str, float] = {}
-        for test, seconds in sorted(found.items(), key=lambda one: (one[1], one[0])):
-            if chosen and (sum(chosen.values()) + seconds > budget or len(chosen) == MANY):
+        for test in sorted(found, key=lambda one: (self.seconds[one], one)):
+            if chosen and (sum(chosen.values()) + self.seconds[test] > budget or len(chosen) == MANY):
                 break
-            chosen[test] = seconds
+            chosen[test] = self.seconds[test]
         return chosen
 
 
@@ -90,17 +90,9 @@ def all_of(name: str) -> list[Mutant]:
     return [one for file, path in found for one in mutants(file, path.read_text(encoding="utf-8"))]
 
 
-def test_files() -> list[str]:
-    """All files with tests, and those with examples in docstrings."""
-    found = sorted((ROOT / "tests").rglob("test_*.py"))
-    for room in ROOMS:
-        found += [path for path in sorted((ROOT / room).rglob("*.py")) if ">>>" in path.read_text("utf-8")]
-    return [path.relative_to(ROOT).as_posix() for path in found]
-
-
 def lines(path: Path) -> list[dict[str, object]]:
     """What stands in a file, one value a line; nothing where there is none."""
-    return [json.loads(line) for line in path.read_text("utf-8").splitlines()] if path.exists() else []
+    return [json.loads(row) for row in path.read_text(encoding="utf-8").splitlines()] if path.exists() else []
 
 
 def added(path: Path, value: object) -> None:
@@ -114,64 +106,96 @@ def digest(name: str) -> str:
     return hashlib.sha256((ROOT / name).read_bytes()).hexdigest()[:12]
 
 
-def mapped(place: Path, files: Iterable[str], end: float) -> None:
-    """Watch the tests of files that are not known as they stand."""
-    known = {(row["file"], row["digest"]) for row in lines(place / "map.jsonl")}
-    with tempfile.TemporaryDirectory() as folder:
-        tree = prepared(Path(folder))
+def reach(place: Path, names: list[str], files: list[str], end: float) -> None:
+    """Watch the tests of files that are not known as they stand, each file in a fork."""
+    known = {(row["file"], row["digest"], row["area"]) for row in lines(place / "reach.jsonl")}
+    for name in names:
         for file in files:
-            if (file, digest(file)) in known or time.monotonic() > end:
+            if (file, digest(file), name) in known or time.monotonic() > end:
                 continue
-            begun = time.monotonic()
-            found = watched(tree, file, LONG)
-            added(place / "map.jsonl", {"file": file, "digest": digest(file), "tests": found})
-            print(f"{file}: {len(found or ())} tests, {time.monotonic() - begun:.0f} s", flush=True)
+            watch, said = Reaching(AREAS[name]), place / "reached.json"
+
+            def work(file: str = file, watch: Reaching = watch, said: Path = said) -> int:
+                suite = Suite([file], place / "temporary")
+                suite.config.pluginmanager.register(watch)
+                suite.run(suite.items)
+                said.write_text(json.dumps(watch.found), encoding="utf-8")
+                return 0
+
+            said.unlink(missing_ok=True)
+            forked(work, LONG)
+            found = json.loads(said.read_text(encoding="utf-8")) if said.exists() else {}
+            row = {"file": file, "digest": digest(file), "area": name, "tests": found}
+            added(place / "reach.jsonl", row)
+            print(f"{file}: {len(found)} tests of {name}", flush=True)
 
 
 def known_tests(place: Path) -> Known:
-    """What has been watched: for each file the last time."""
-    found: dict[str, dict[str, float]] = defaultdict(dict)
-    for row in {row["file"]: row for row in lines(place / "map.jsonl")}.values():
-        for test, (seconds, functions) in (row["tests"] or {}).items():  # type: ignore[attr-defined]
-            for function in functions:
-                found[function][test] = seconds
-    return Known(found)
+    """What has been watched of test files as they stand now."""
+    seconds: dict[str, float] = {}
+    found: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+    for row in lines(place / "reach.jsonl"):
+        if digest(str(row["file"])) != row["digest"]:
+            continue
+        for test, (taken, files) in row["tests"].items():  # type: ignore[attr-defined]
+            seconds[test] = taken
+            for file, numbers in files.items():
+                for number in numbers:
+                    found[file][number].add(test)
+    frozen = {file: {line: frozenset(tests) for line, tests in one.items()} for file, one in found.items()}
+    return Known(seconds, frozen)
 
 
-def outcome(tree: Path, mutant: Mutant | None, tests: Mapping[str, float]) -> str:
+def outcome(suite: Suite, mutant: Mutant | None, tests: Mapping[str, float]) -> str:
     """What the tests say of a mutant; without one, whether they pass at all."""
     if not tests:
         return UNTESTED
-    path = tree / mutant.path if mutant else None
-    text = path.read_text(encoding="utf-8") if path else ""
-    if path and mutant:
-        for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
-            compiled.unlink()
-        path.write_text(mutant.applied(text), encoding="utf-8")
-    try:
-        code = forked([*DISABLED, *tests], 60.0 + 4 * sum(tests.values()))
-    finally:
-        if path:
-            path.write_text(text, encoding="utf-8")
-    return SURVIVED if code == 0 else KILLED
+    text = (ROOT / mutant.path).read_text(encoding="utf-8") if mutant else ""
+
+    def work() -> int:
+        if mutant and not suite.planted(mutant, text):
+            return NOT_PLANTED
+        return int(not suite.run(tests))
+
+    code = forked(work, 60.0 + 20 * sum(tests.values()))
+    return {0: SURVIVED, NOT_PLANTED: OUTSIDE}.get(1 if code is None else code, KILLED)
 
 
 def tried(place: Path, draw: list[Mutant], budget: float, end: float) -> None:
     """Outcomes of mutants, as many as there is time for."""
     known = known_tests(place)
+    asked = [(mutant, known.of(mutant, budget)) for mutant in draw]
+    files = sorted({test.partition("::")[0] for _, tests in asked for test in tests})
     with tempfile.TemporaryDirectory() as folder:
-        tree = prepared(Path(folder))
-        for number, mutant in enumerate(draw):
+        suite = Suite(files, Path(folder).resolve() / "tests")
+        for number, (mutant, tests) in enumerate(asked):
             if time.monotonic() > end:
                 break
-            begun, tests = time.monotonic(), known.of(mutant, budget)
-            found = outcome(tree, mutant, tests)
-            if tests and number % CONTROL == 0 and outcome(tree, None, tests) != SURVIVED:
+            begun = time.monotonic()
+            found = outcome(suite, mutant, tests)
+            if found == KILLED and number % CONTROL == 0 and outcome(suite, None, tests) != SURVIVED:
                 found = BROKEN
-            row = {"key": mutant.key, "function": mutant.function, "digest": digest(mutant.path)}
-            row |= {"area": area(mutant.path), "outcome": found, "tests": len(tests)}  # type: ignore[dict-item]
-            added(place / "outcomes.jsonl", row | {"seconds": round(time.monotonic() - begun, 1)})
-            print(f"{found}: {mutant.key}", flush=True)
+            _said(place, mutant, found, len(tests), begun)
+
+
+def once_more(place: Path, draw: list[Mutant], budget: float, end: float) -> None:
+    """The same by a new interpreter for each, on a copy."""
+    known = known_tests(place)
+    with tempfile.TemporaryDirectory() as folder:
+        copy = tree(Path(folder).resolve() / "tree")
+        for mutant in draw:
+            begun, tests = time.monotonic(), known.of(mutant, budget)
+            if time.monotonic() > end:
+                break
+            passed = afresh(copy, mutant, tests) if tests else None
+            _said(place, mutant, (SURVIVED if passed else KILLED) if tests else UNTESTED, len(tests), begun)
+
+
+def _said(place: Path, mutant: Mutant, found: str, tests: int, begun: float) -> None:
+    row = {"key": mutant.key, "function": mutant.function, "digest": digest(mutant.path)}
+    row |= {"area": area(mutant.path), "outcome": found, "tests": tests}  # type: ignore[dict-item]
+    added(place / "outcomes.jsonl", row | {"seconds": round(time.monotonic() - begun, 1)})
+    print(f"{found}: {mutant.key}", flush=True)
 
 
 def last(place: Path) -> dict[str, dict[str, object]]:
@@ -179,14 +203,12 @@ def last(place: Path) -> dict[str, dict[str, object]]:
     return {str(row["key"]): row for row in lines(place / "outcomes.jsonl")}
 
 
-def drawn(place: Path, name: str, sample: int, seed: int, share: str, watched_only: bool) -> list[Mutant]:
-    """The part of a share of a draw that has no outcome yet."""
-    known = known_tests(place)
-    every = [one for one in all_of(name) if not watched_only or known.of(one, 0.0)]
+def drawn(place: Path, name: str, sample: int, seed: int, whole: bool) -> list[Mutant]:
+    """What has no outcome yet of a draw."""
+    known, done = known_tests(place), last(place)
+    every = [one for one in all_of(name) if whole or (one.function and known.of(one, 0.0))]
     draw = random.Random(seed).sample(every, min(sample, len(every)))
-    which, of = map(int, share.split("/"))
-    done = last(place)
-    return [one for place, one in enumerate(draw) if place % of == which - 1 and one.key not in done]
+    return [one for one in draw if one.key not in done]
 
 
 def told(place: Path) -> None:
@@ -204,39 +226,34 @@ def told(place: Path) -> None:
 
 
 def main() -> None:
-    """Map, try, or tell."""
+    """Watch, try, or tell."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", choices=("map", "run", "again", "told"))
+    parser.add_argument("what", choices=("reach", "run", "again", "told"))
     parser.add_argument("files", nargs="*")
     parser.add_argument("--place", type=Path, default=ROOT / "build" / "mutation")
     parser.add_argument("--area", choices=tuple(AREAS), action="append")
     parser.add_argument("--sample", type=int, default=500, help="mutants of each area")
     parser.add_argument("--seed", type=int, default=25)
-    parser.add_argument("--share", default="1/1")
-    parser.add_argument("--watched", action="store_true", help="only functions that tests of the map call")
+    parser.add_argument("--whole", action="store_true", help="also what no watched test reaches")
     parser.add_argument("--only", default="", help="mutants whose line of outcome holds this text")
-    parser.add_argument("--budget", type=float, default=20.0, help="seconds of tests for one mutant")
+    parser.add_argument("--budget", type=float, default=10.0, help="seconds of tests for one mutant")
     parser.add_argument("--seconds", type=float, default=3600.0)
     asked = parser.parse_intermixed_args()
     asked.place.mkdir(parents=True, exist_ok=True)
     place, end = asked.place.resolve(), time.monotonic() + asked.seconds
-    if asked.what == "map":
-        mapped(place, asked.files or test_files(), end)
+    names = asked.area or list(AREAS)
+    if asked.what == "reach":
+        reach(place, names, asked.files, end)
     elif asked.what == "told":
         told(place)
+    elif asked.what == "again":
+        alive = {key for key, row in last(place).items() if row["outcome"] != KILLED}
+        draw = [one for name in names for one in all_of(name) if one.key in alive and asked.only in one.key]
+        once_more(place, draw, asked.budget, end)
     else:
-        names = asked.area or list(AREAS)
-        if asked.what == "again":
-            alive = {key for key, row in last(place).items() if row["outcome"] != KILLED}
-            draw = [one for name in names for one in all_of(name) if one.key in alive]
-        else:
-            draw = [
-                one
-                for name in names
-                for one in drawn(place, name, asked.sample, asked.seed, asked.share, asked.watched)
-            ]
+        draw = [one for name in names for one in drawn(place, name, asked.sample, asked.seed, asked.whole)]
         tried(place, [one for one in draw if asked.only in one.key], asked.budget, end)
     sys.exit(0)
 

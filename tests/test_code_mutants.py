@@ -1,6 +1,8 @@
 """The faults that are planted in source code: each changes just what it says, and the tests that see it are known."""
 
 import ast
+import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -72,17 +74,76 @@ def test_functions_have_the_names_that_code_objects_have() -> None:
 
 
 def test_tests_of_a_mutant_are_the_quickest_of_its_function() -> None:
-    at_once, later = mutants("core/x.py", TEXT)[0], mutants("core/x.py", TEXT)[-1]
+    later = mutants("core/x.py", TEXT)[-1]
+    seconds = {"slow": 9.0, "quick": 1.0, "middle": 3.0, "other": 2.0, "elsewhere": 0.1}
+    here, beside = frozenset({"slow", "quick", "middle"}), frozenset({"other"})
     known = Known(
+        seconds,
         {
-            "core/x.py:Plate.fits": {"slow": 9.0, "quick": 1.0, "middle": 3.0},
-            "core/x.py:other": {"other": 2.0},
-            "core/y.py:Plate.fits": {"elsewhere": 0.1},
-        }
+            "core/x.py": {later.line: here, later.line + 1: beside},
+            "core/y.py": {later.line: frozenset({"elsewhere"})},
+        },
     )
     assert list(known.of(later, 5.0)) == ["quick", "middle"]
     assert list(known.of(later, 0.1)) == ["quick"]  # at least one
-    assert list(known.of(at_once, 5.9)) == ["quick", "other"]
+    assert known.of(mutants("core/x.py", TEXT)[0], 5.0) == {}
+
+
+BITES = """
+import doubled
+def test_value():
+    assert doubled.Twice().of(3) == 6
+def test_sign():
+    assert doubled.Twice().of(-1) < 0
+"""
+
+
+def test_a_mutant_is_planted_in_a_fork_and_seen_by_the_tests_that_reach_it(tmp_path: Path) -> None:
+    """In a process of its own, which has a suite and forks."""
+    (tmp_path / "core").mkdir()
+    (tmp_path / "core" / "doubled.py").write_text(
+        "class Twice:\n    def of(self, one):\n        if one == 5:\n            return 0\n        return 2 * one\n"
+    )
+    (tmp_path / "test_doubled.py").write_text(BITES)
+    (tmp_path / "pyproject.toml").write_text("[tool.pytest.ini_options]\npythonpath = ['core']\n")
+    script = """
+import sys
+from pathlib import Path
+import mutation_tests as runs
+runs.ROOT = Path.cwd()
+from code_mutants import mutants
+suite = runs.Suite(["test_doubled.py"], Path("temporary").resolve())
+text = Path("core/doubled.py").read_text()
+for one in mutants("core/doubled.py", text):
+    def work():
+        if not suite.planted(one, text):
+            return 3
+        return int(not suite.run(suite.items))
+    print(one.operator, one.line, runs.forked(work, 60), file=sys.stderr)
+watch = runs.Reaching(("core/",))
+suite.config.pluginmanager.register(watch)
+suite.run(suite.items)
+print({name: lines for name, (_, lines) in watch.found.items()}, file=sys.stderr)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "benchmarks")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    *told, reached = done.stderr.splitlines()
+    assert {tuple(line.split()) for line in told} == {
+        ("comparison", "3", "1"),  # one != 5
+        ("constant", "3", "0"),  # no test has 5 or 6
+        ("constant", "4", "0"),
+        ("return", "5", "1"),
+        ("arithmetic", "5", "1"),
+        ("constant", "5", "1"),
+    }
+    here = {"core/doubled.py": [2, 3, 5]}
+    assert reached == str({"test_doubled.py::test_value": here, "test_doubled.py::test_sign": here})
 
 
 @pytest.mark.parametrize("room", ["core", "cam", "plugins"])

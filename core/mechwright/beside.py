@@ -17,12 +17,15 @@ import time
 from collections.abc import Callable, Sequence
 from typing import IO, TypeVar, cast
 
+if sys.platform == "linux":
+    import fcntl
+
 R = TypeVar("R")
 
-_SERVE = "from mechwright.beside import serve; serve({})"
+_SERVE = "from mechwright.beside import serve; serve({}, {})"
 
 LOOK = 0.2
-"""Seconds between two looks whether the caller is still there."""
+"""Seconds between two looks whether the caller is still there, where the system does not say it."""
 
 
 class Beside:
@@ -39,17 +42,25 @@ class Beside:
     def __init__(self, modules: Sequence[str], heard: Callable[[str], None] | None = None) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._call: tuple[Callable[..., object], tuple[object, ...]] | None = None
+        self._alive = -1
         if sys.executable:
+            try:
+                told, self._alive = os.pipe()
+            except OSError:
+                return
             try:
                 # -P: a module in the current folder must not stand in for one of ours.
                 self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and our own words
-                    [sys.executable, "-P", "-c", _SERVE.format(os.getpid()), *modules],
+                    [sys.executable, "-P", "-c", _SERVE.format(os.getpid(), told), *modules],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.DEVNULL if heard is None else subprocess.PIPE,
+                    pass_fds=() if os.name == "nt" else (told,),
                 )
             except OSError:
                 return
+            finally:
+                os.close(told)
             if heard is not None and self._process.stderr is not None:
                 threading.Thread(target=_listen, args=(self._process.stderr, heard), daemon=True).start()
 
@@ -89,6 +100,9 @@ class Beside:
     def close(self) -> None:
         """End the second interpreter, whatever it is at."""
         process, self._process = self._process, None
+        if self._alive >= 0:
+            os.close(self._alive)
+            self._alive = -1
         if process is None:
             return
         process.kill()
@@ -112,13 +126,22 @@ def _listen(pipe: IO[bytes], heard: Callable[[str], None]) -> None:
             heard(line.decode(errors="replace").rstrip())
 
 
-def serve(caller: int) -> None:
+def serve(caller: int, told: int) -> None:
     """The second interpreter: read a call from standard input, write what it gives to standard output.
 
-    ``caller`` is the number of the process that waits for it; without that it ends at once.
+    ``caller`` is the number of the process that waits for it, which keeps the other end of the pipe ``told``
+    open as long as it lives; without it this one ends at once.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the keyboard stops the caller, which ends this one
-    threading.Thread(target=_end_without, args=(caller,), daemon=True).start()
+    if sys.platform == "linux":
+        # A library that is loaded lets no thread of ours run for seconds; the system's signal needs none.
+        signal.signal(signal.SIGIO, signal.SIG_DFL)
+        fcntl.fcntl(told, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(told, fcntl.F_SETFL, fcntl.fcntl(told, fcntl.F_GETFL) | os.O_ASYNC)
+        if os.getppid() != caller:
+            os._exit(1)
+    else:
+        threading.Thread(target=_end_without, args=(caller,), daemon=True).start()
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # libraries that print would spoil the answer
     for module in sys.argv[1:]:

@@ -2,9 +2,11 @@
 
 import os
 import signal
+import subprocess
 import sys
 import time
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 from by_night import by_night
@@ -95,6 +97,46 @@ def test_the_second_interpreter_ends_with_its_caller_and_at_once():
     orphan._process.stdin.close()  # as when the caller dies
     assert orphan._process.wait(30) == 1
     orphan.close()
+
+
+@pytest.mark.skipif(
+    sys.platform != "linux", reason="elsewhere a thread looks, which has to wait for a library"
+)
+def test_a_second_interpreter_that_lets_no_thread_run_ends_with_a_caller_that_is_killed(tmp_path):
+    """As while a large library is loaded: the thread that looked came to its turn seconds later."""
+    (tmp_path / "holds.py").write_text(
+        f"import re\nopen({str(tmp_path / 'there')!r}, 'w').close()\nre.match('(a+)+$', 'a' * 60 + 'b')\n"
+    )
+    begins = (
+        "from mechwright.beside import Beside; import time; b = Beside(['holds']);"
+        "print(b._process.pid, flush=True); time.sleep(60)"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", begins],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+    ) as caller:
+        second = int(caller.stdout.readline())
+        end = time.monotonic() + 60
+        while not (tmp_path / "there").exists() and time.monotonic() < end:
+            time.sleep(0.02)
+        caller.kill()
+    end = time.monotonic() + 5
+    while runs(second) and time.monotonic() < end:
+        time.sleep(0.02)
+    left = runs(second)
+    if left:
+        os.kill(second, signal.SIGKILL)
+    assert not left
+
+
+def runs(process):
+    """Whether a process is there, and more than its number."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
 
 
 class Heavy(Exporter):

@@ -125,6 +125,11 @@ def test_a_loop_has_segments():
         Loop(())
 
 
+def test_a_loop_without_size_is_refused():
+    with pytest.raises(GeometryError, match="has no size: all its corners are within 1e-07 mm"):
+        Outline(Loop.polygon([(0.0, 0.0), (1e-9, 0.0), (0.0, 1e-9)]))
+
+
 def test_loops_that_run_the_wrong_way_are_refused():
     box, hole = rectangle(10, 10), Loop((circle((5, 5), 2, clockwise=True),))
     Outline(box, (hole,))

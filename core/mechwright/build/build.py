@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
-from mechwright.errors import PluginFaultError
+from mechwright.errors import GeometryError, KinematicsError, PluginFaultError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -198,5 +198,6 @@ class Build:
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self.close()
-        if isinstance(error, PluginFaultError) and str(self.path) not in str(error):
+        said = isinstance(error, (PluginFaultError, GeometryError, KinematicsError))
+        if error is not None and said and str(self.path) not in str(error):
             error.args = (f"{self.path}: {error}",)

@@ -119,6 +119,11 @@ class Loop:
         corners = np.concatenate([points[:-1] for points in every])
         # A segment of next to no length would fold the polygon back on itself by a rounding error.
         apart = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) > TOLERANCES.closure
+        if not apart.any():
+            raise GeometryError(
+                f"the outline has no size: all its corners are within {TOLERANCES.closure:g} mm; "
+                "lengths are in mm"
+            )
         return corners if apart.all() else corners[apart]
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "Loop":
