@@ -9,10 +9,10 @@ from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
-from mechwright_cam.controls.writing.probing import Probing
+from mechwright_cam.controls.writing.measuring import Measuring
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
-from mechwright_cam.program.touches import Touches
+from mechwright_cam.program.touches import ToolTouches, Touches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
@@ -22,7 +22,7 @@ _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
 
-class Grbl(Probing, GcodeControl):
+class Grbl(Measuring, GcodeControl):
     """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
 
     Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
@@ -126,6 +126,29 @@ class Grbl(Probing, GcodeControl):
         if any(tool.length is not None for tool in tools):
             return f"{self.title} has tool lengths in its programs, and not the probe's; set the zero by hand"
         return ""
+
+    def cannot_measure(self, tools: Sequence[Tool]) -> str:
+        """A length that stands in the program is not one that is set at the machine."""
+        if any(tool.length is not None for tool in tools):
+            return f"{self.title} has tool lengths in its programs: leave those, or the setter, out"
+        return ""
+
+    def measure(self, touches: ToolTouches, machine: Machine) -> dict[str, str]:
+        """A program for each tool, to be run when it has been put in: there is one Z for all of them."""
+        return {
+            name: self.measuring(touches, machine, name, [(tool, said)])
+            for tool, said in touches.tools
+            for name in [f"{touches.name}-t{tool}"]
+        }
+
+    def take_tool(self, out: Writer, tool: int, said: str) -> None:
+        """It is put in before the program starts."""
+        self.comment(out, f"T{tool} {said} has been put in; run this again whenever it has been put in anew")
+
+    def length_lines(self, touches: ToolTouches, tool: int) -> Sequence[str]:  # noqa: ARG002 - one Z for all
+        """The Z of the work offset, for the tool in the spindle."""
+        setting = self.setting_words(touches.offsets[0]).replace("G10 L2 ", "G10 L20 ")
+        return [f"{setting} Z{self.length(touches.over)}"]
 
     def take_probe(self, out: Writer, touches: Touches) -> None:  # noqa: ARG002 - it is in the spindle
         """It is put in before the program starts."""

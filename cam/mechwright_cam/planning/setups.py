@@ -120,7 +120,7 @@ def _second(
         frame=_frame(first, dowels, side.flip),
     )
     # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
-    place = {"x": side.x, "y": side.y, "z": side.z, "more": {}}
+    place: dict[str, object] = {"x": side.x, "y": side.y, "z": side.z, "more": {}}
     post = first.settings.post
     changes = {
         "work_offset": side.work_offset,
