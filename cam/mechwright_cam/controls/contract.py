@@ -241,9 +241,13 @@ class Control(Plugin):
         """What sets the Z of a work offset to a value."""
         return f"{self.setting_words(offset)} Z[{value}]"
 
+    def upper_end(self, machine: "Machine") -> float:
+        """Machine Z of a full retract, mm: as the machine says, or where it does not, as is usual here."""
+        return machine.retract_z
+
     def retract_words(self, machine: "Machine") -> str:
         """What goes to the upper end of a machine."""
-        return f"G53 G0 Z{machine.retract_z / self.scale:.{self.decimals}g}"
+        return f"G53 G0 Z{self.upper_end(machine) / self.scale:.{self.decimals}g}"
 
     def needs(self, settings: "CamSettings") -> "Sequence[str]":  # noqa: ARG002 - for controls that rely on settings
         """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""

@@ -18,6 +18,8 @@ from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
 _NO_D = "there is G40 only; post the path of the tool's centre"
+BELOW_SWITCH = -2.0
+"""Machine Z of a retract, mm: the pull-off of homing ($27) is 1 mm as it comes."""
 _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
@@ -87,7 +89,7 @@ class Grbl(Measuring, GcodeControl):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """Also: the retract must stay off the homing switch, and mist is an option of the build."""
-        found, height = list(super().check(settings)), settings.machine.retract_z
+        found, height = list(super().check(settings)), self.upper_end(settings.machine)
         if height >= 0:
             where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
             remedy = "retract below it, by more than the pull-off ($27), such as -2"
@@ -163,10 +165,14 @@ class Grbl(Measuring, GcodeControl):
         """Grbl always follows the path exactly; it knows G61 only."""
         return ["G61"] if exact else []
 
+    def upper_end(self, machine: Machine) -> float:
+        """Below the homing switch, which is at machine Z0; where the machine says another, there."""
+        return machine.retract_z if "retract_z" in machine.model_fields_set else BELOW_SWITCH
+
     def retract_words(self, machine: Machine) -> str:
         """What goes to the upper end of a machine, off the homing switch."""
         words = super().retract_words(machine)
-        if machine.retract_z >= 0:
+        if self.upper_end(machine) >= 0:
             words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
         return words
 

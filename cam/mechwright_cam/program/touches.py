@@ -47,7 +47,7 @@ class ToolTouches:
     over
         Height of its top in the work offset, mm.
     start, travel
-        Machine Z before each touch, and how far down it goes at most, mm.
+        Machine Z before each touch, None for the upper end, and how far down it goes at most, mm.
     fast, slow
         Feeds of the two touches, mm/min.
     """
@@ -57,7 +57,7 @@ class ToolTouches:
     tools: tuple[tuple[int, str], ...]
     place: tuple[float, float]
     over: float
-    start: float
+    start: float | None
     travel: float
     fast: float
     slow: float

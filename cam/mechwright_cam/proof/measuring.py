@@ -52,7 +52,7 @@ class _Reading:
 
     def __init__(self, name: str, job: Job, control: Control, left: list[int], *, one_by_hand: bool) -> None:
         self.name, self.job, self.control, self.left = name, job, control, left
-        self.setter, self.machine = job.settings.setter, job.settings.machine
+        self.setter, self.top = job.settings.setter, control.upper_end(job.settings.machine)
         self.scale, self.said = 1.0, set[str]()
         self.tool: int | None = left[0] if one_by_hand and left else None
         """The one that has been put in, where tools are changed by hand."""
@@ -105,7 +105,7 @@ class _Reading:
 
     def _has_to_be_up(self, what: str) -> None:
         if not self.up:
-            raise self.bad(f"{what} below machine Z {self.machine.retract_z:g}; retract first")
+            raise self.bad(f"{what} below machine Z {self.top:g}; retract first")
 
     def _machine_place(self, values: dict[str, float]) -> None:
         missing = [word for word in _NEEDED if word not in self.said]
@@ -113,7 +113,7 @@ class _Reading:
             raise self.bad(f"moves before {' '.join(missing)}")
         if set(values) == {"G", "Z"}:
             z = values["Z"] * self.scale
-            self.up = z >= self.machine.retract_z - NEAR
+            self.up = z >= self.top - NEAR
             if self.up:
                 self.over_setter, self.touches = False, 0
             elif not self.over_setter:

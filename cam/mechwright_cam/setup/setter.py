@@ -46,7 +46,7 @@ def tool_touches(job: Job, program: Program) -> ToolTouches:
         tools=tuple((tool.number, tool.name) for tool in program.tools),
         place=(setter.x, setter.y),
         over=setter.over,
-        start=job.settings.machine.retract_z if setter.start is None else setter.start,
+        start=setter.start,
         travel=setter.travel,
         fast=setter.fast,
         slow=setter.slow,

@@ -55,7 +55,7 @@ class Measuring(Probing):
         self.take_tool(out, tool, said)
         out.line(self.no_length)
         out.line(*self.machine_words(), f"X{self.length(x)}", f"Y{self.length(y)}")
-        if touches.start != out.program.machine.retract_z:
+        if touches.start is not None:
             out.line(*self.machine_words(), f"Z{self.length(touches.start)}")
         self.comment(out, f"touch: T{tool} {said}")
         out.line("G91")
