@@ -21,12 +21,15 @@ from mechwright_cam.planning.setups import carried
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof.carried import cut_away
 from mechwright_cam.proof.judge import RULES, judge
+from mechwright_cam.proof.measuring import prove_lengths
 from mechwright_cam.proof.report import Proof
 from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import touches_of, unprobed
+from mechwright_cam.setup.setter import tool_touches, unmeasured
+from mechwright_cam.setup.setter import wanted as measures
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
@@ -121,6 +124,9 @@ class Machining:
                 lack = f"{control.title} has no programs for several work offsets here"
                 remedy = "leave more_offsets out"
                 found.append(Finding.error("cam.more-offsets", "cam.more_offsets", lack, remedy=remedy))
+            if why := self._unmeasured(job):
+                remedy = "leave the table [cam.setter] out"
+                found.append(Finding.error("cam.setter", "cam.setter", why, remedy=remedy))
             if why := self._unprobed(job):
                 remedy = "leave tool of [cam.probe] out"
                 found.append(Finding.error("cam.probing", "cam.probe.tool", why, remedy=remedy))
@@ -159,6 +165,31 @@ class Machining:
             return ""
         why = self.control.cannot_probe(job.tools) or unprobed(job)
         return f"part {job.part.name}: {why}" if why else ""
+
+    def _unmeasured(self, job: Job) -> str:
+        """Why the tools of a first side are not measured as it is asked for."""
+        if not measures(job):
+            return ""
+        why = self.control.cannot_measure(job.tools) or unmeasured(job)
+        if not why and job.settings.more_offsets and not self.control.offsets.lengths:
+            why = f"{self.control.title} sets the Z of one work offset by a touch, and there are more_offsets"
+        return f"part {job.part.name}: {why}" if why else ""
+
+    @cached_property
+    def measuring(self) -> dict[str, dict[str, str]]:
+        """Name of a part's program to stem and text of those that measure its tools, in order; proven.
+
+        Raises ProofError where one of them does what it may not.
+        """
+        found = {}
+        for item in self.made:
+            if measures(item.job):
+                touches = tool_touches(item.job, item.program)
+                texts = self.control.measure(touches, item.job.settings.machine)
+                numbers = tuple(tool for tool, _ in touches.tools)
+                prove_lengths(texts, item.job, self.control, numbers)
+                found[item.program.name] = texts
+        return found
 
     @cached_property
     def probing(self) -> dict[str, tuple[str, str]]:

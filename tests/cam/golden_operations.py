@@ -22,11 +22,16 @@ FOLDER = Path(__file__).parents[1] / "golden" / "operations"
 
 
 @cache
-def made(operation: str, control: str) -> tuple[Machined, ...]:
-    """The proven programs of an operation's part: one, or two where it has a second side."""
+def made(operation: str, control: str, units: str = "") -> tuple[Machined, ...]:
+    """The proven programs of an operation's part: one, or two where it has a second side.
+
+    They are in the units of the case, unless others are named.
+    """
     case, post = CASES[operation], host().get(Control, control)
     plain = {"control": control, "tools": case.tools, "floor_to_leave": 0}
     cam = CamSettings.model_validate({**plain, **case.settings})
+    if units:
+        cam = cam.model_copy(update={"post": cam.post.model_copy(update={"units": units})})
     post = post.speaking(cam.post.units or "mm")
     jobs, found = lay_out_setups(case.part(operation), cam, MORE)
     if errors(found):

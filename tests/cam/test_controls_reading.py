@@ -120,7 +120,7 @@ def test_a_retract_is_advised_as_the_control_and_the_machine_do_it(control, retr
 
 def test_whoever_touches_off_leaves_the_tool_low() -> None:
     text = post_of("grbl").write(plate_program())
-    careless = text.replace("M0\nG53 G0 Z0\n", "M0\n")
+    careless = text.replace("M0\nG53 G0 Z-2\n", "M0\n")
     assert careless != text
     assert not asked("positions", careless, plate_job(control="grbl"), BY_NAME["grbl"]).passed
 

@@ -5,7 +5,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T3 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: bore: helix)
 T3
 G54 S8000 M3
@@ -30,7 +30,7 @@ X22.123 F500
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 (clamp the part through the bore)
 M0
 (operation: outside: finish)
@@ -50,5 +50,5 @@ G2 X2.333 Y40.333 I5.333 J0
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,12 +6,12 @@
 (T2 D 5 mm: drill-5, drill)
 (T3 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: spot drill)
 T1
 (load T1 spot-6, touch it off on the stock as Z0)
 M0
-G53 G0 Z0
+G53 G0 Z-2
 G54 S3000 M3
 G0 X10 Y10
 G49
@@ -28,12 +28,12 @@ G4 P0.2
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 (operation: drill 5)
 T2
 (load T2 drill-5, touch it off on the stock as Z0)
 M0
-G53 G0 Z0
+G53 G0 Z-2
 G54 S2400 M3
 G0 X10 Y10
 G49
@@ -74,12 +74,12 @@ G1 Z-9.5
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 (operation: bore: helix)
 T3
 (load T3 mill-6, touch it off on the stock as Z0)
 M0
-G53 G0 Z0
+G53 G0 Z-2
 G54 S8000 M3
 G0 X34 Y20
 G49
@@ -102,7 +102,7 @@ X22.123 F500
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 (clamp the part through the bore)
 M0
 (operation: outside: finish)
@@ -122,5 +122,5 @@ G2 X2.333 Y40.333 I5.333 J0
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

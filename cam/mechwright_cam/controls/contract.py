@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mechwright_cam.controls.lookahead import Lookahead
     from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
-    from mechwright_cam.program.touches import Touches
+    from mechwright_cam.program.touches import ToolTouches, Touches
     from mechwright_cam.shop.machine import Machine
     from mechwright_cam.shop.posting import ToolChange
     from mechwright_cam.shop.settings import CamSettings
@@ -217,6 +217,14 @@ class Control(Plugin):
         """The text of a program that probes; raises ProgramError where it has none."""
         raise ProgramError(f"program {touches.name}: {self.cannot_probe(())}")
 
+    def cannot_measure(self, tools: "Sequence[Tool]") -> str:  # noqa: ARG002 - for controls with lengths in programs
+        """Why it has no program that measures these tools on a setter; nothing where it has one."""
+        return f"{self.title} has no program that measures tools here: use its own cycle, or measure by hand"
+
+    def measure(self, touches: "ToolTouches", machine: "Machine") -> "dict[str, str]":  # noqa: ARG002
+        """Stem and text of the programs that measure tools, in order; raises ProgramError without any."""
+        raise ProgramError(f"program {touches.name}: {self.cannot_measure(())}")
+
     def rapid_words(self, z: str) -> str:
         """What goes to a height in the work, at a rapid."""
         return f"G0 Z{z}"
@@ -233,9 +241,13 @@ class Control(Plugin):
         """What sets the Z of a work offset to a value."""
         return f"{self.setting_words(offset)} Z[{value}]"
 
+    def upper_end(self, machine: "Machine") -> float:
+        """Machine Z of a full retract, mm: as the machine says, or where it does not, as is usual here."""
+        return machine.retract_z
+
     def retract_words(self, machine: "Machine") -> str:
         """What goes to the upper end of a machine."""
-        return f"G53 G0 Z{machine.retract_z / self.scale:.{self.decimals}g}"
+        return f"G53 G0 Z{self.upper_end(machine) / self.scale:.{self.decimals}g}"
 
     def needs(self, settings: "CamSettings") -> "Sequence[str]":  # noqa: ARG002 - for controls that rely on settings
         """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""

@@ -9,20 +9,22 @@ from mechwright_cam.controls.contract import METRIC
 from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
-from mechwright_cam.controls.writing.probing import Probing
+from mechwright_cam.controls.writing.measuring import Measuring
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
-from mechwright_cam.program.touches import Touches
+from mechwright_cam.program.touches import ToolTouches, Touches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
 _NO_D = "there is G40 only; post the path of the tool's centre"
+BELOW_SWITCH = -2.0
+"""Machine Z of a retract, mm: the pull-off of homing ($27) is 1 mm as it comes."""
 _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
 
-class Grbl(Probing, GcodeControl):
+class Grbl(Measuring, GcodeControl):
     """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
 
     Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
@@ -87,7 +89,7 @@ class Grbl(Probing, GcodeControl):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """Also: the retract must stay off the homing switch, and mist is an option of the build."""
-        found, height = list(super().check(settings)), settings.machine.retract_z
+        found, height = list(super().check(settings)), self.upper_end(settings.machine)
         if height >= 0:
             where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
             remedy = "retract below it, by more than the pull-off ($27), such as -2"
@@ -127,6 +129,29 @@ class Grbl(Probing, GcodeControl):
             return f"{self.title} has tool lengths in its programs, and not the probe's; set the zero by hand"
         return ""
 
+    def cannot_measure(self, tools: Sequence[Tool]) -> str:
+        """A length that stands in the program is not one that is set at the machine."""
+        if any(tool.length is not None for tool in tools):
+            return f"{self.title} has tool lengths in its programs: leave those, or the setter, out"
+        return ""
+
+    def measure(self, touches: ToolTouches, machine: Machine) -> dict[str, str]:
+        """A program for each tool, to be run when it has been put in: there is one Z for all of them."""
+        return {
+            name: self.measuring(touches, machine, name, [(tool, said)])
+            for tool, said in touches.tools
+            for name in [f"{touches.name}-t{tool}"]
+        }
+
+    def take_tool(self, out: Writer, tool: int, said: str) -> None:
+        """It is put in before the program starts."""
+        self.comment(out, f"T{tool} {said} has been put in; run this again whenever it has been put in anew")
+
+    def length_lines(self, touches: ToolTouches, tool: int) -> Sequence[str]:  # noqa: ARG002 - one Z for all
+        """The Z of the work offset, for the tool in the spindle."""
+        setting = self.setting_words(touches.offsets[0]).replace("G10 L2 ", "G10 L20 ")
+        return [f"{setting} Z{self.length(touches.over)}"]
+
     def take_probe(self, out: Writer, touches: Touches) -> None:  # noqa: ARG002 - it is in the spindle
         """It is put in before the program starts."""
         self.comment(out, "put the probe into the spindle before the start; touch off each tool afterwards")
@@ -140,10 +165,14 @@ class Grbl(Probing, GcodeControl):
         """Grbl always follows the path exactly; it knows G61 only."""
         return ["G61"] if exact else []
 
+    def upper_end(self, machine: Machine) -> float:
+        """Below the homing switch, which is at machine Z0; where the machine says another, there."""
+        return machine.retract_z if "retract_z" in machine.model_fields_set else BELOW_SWITCH
+
     def retract_words(self, machine: Machine) -> str:
         """What goes to the upper end of a machine, off the homing switch."""
         words = super().retract_words(machine)
-        if machine.retract_z >= 0:
+        if self.upper_end(machine) >= 0:
             words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
         return words
 

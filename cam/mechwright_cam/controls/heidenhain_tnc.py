@@ -245,7 +245,7 @@ class HeidenhainTnc(GcodeControl):
 
     def retract_words(self, machine: "Machine") -> str:
         """What goes to the upper end of a machine."""
-        return self.retract_lines(machine.retract_z)[0]
+        return self.retract_lines(self.upper_end(machine))[0]
 
     def needs(self, settings: CamSettings) -> Sequence[str]:
         """Presets without turns, tools without deltas, machine Z of the retract, feeds in inches."""

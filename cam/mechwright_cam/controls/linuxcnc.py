@@ -12,7 +12,7 @@ from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
-from mechwright_cam.controls.writing.probing import Probing
+from mechwright_cam.controls.writing.measuring import Measuring
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Rapid, Tap
@@ -30,7 +30,7 @@ TABLE = "tool.tbl"
 """Name of the tool table's file."""
 
 
-class LinuxCnc(Probing, GcodeControl):
+class LinuxCnc(Measuring, GcodeControl):
     """LinuxCNC: G43 with H, G53 retracts, cycles G81 to G83, arcs with incremental I and J.
 
     Three axes. The limits of arcs are those of its interpreter's source in millimetres.

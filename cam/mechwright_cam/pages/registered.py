@@ -63,6 +63,9 @@ class ProgramFiles(Page):
         suffix = machining.control.suffix
         files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
         files |= {stem + suffix: text for stem, text in machining.probing.values()}
+        files |= {
+            stem + suffix: text for texts in machining.measuring.values() for stem, text in texts.items()
+        }
         table, text = machining.table
         return files | ({table: text} if table else {})
 
@@ -116,6 +119,7 @@ class SetupSheets(Page):
                 summary=SUMMARY,
                 files=files[name],
                 probing="".join(machining.probing.get(name, ("",))[:1]),
+                measuring=tuple(machining.measuring.get(name, ())),
             )
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
         written = build.wanted.command in BillOfMaterials.commands

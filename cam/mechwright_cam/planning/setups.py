@@ -12,7 +12,7 @@ flip axis
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import shapely
@@ -120,7 +120,7 @@ def _second(
         frame=_frame(first, dowels, side.flip),
     )
     # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
-    place: dict[str, Any] = {"x": side.x, "y": side.y, "z": side.z, "more": {}}
+    place: dict[str, object] = {"x": side.x, "y": side.y, "z": side.z, "more": {}}
     post = first.settings.post
     changes = {
         "work_offset": side.work_offset,

@@ -28,3 +28,36 @@ class Touches:
     high: float
     steps: tuple[Touch, ...]
     notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ToolTouches:
+    """Tools that are measured on a setter, one after the other.
+
+    Parameters
+    ----------
+    name
+        Stem of the program's file.
+    offsets
+        The work offsets of the job; lengths are from the Z0 of the first.
+    tools
+        T number and name of each.
+    place
+        Machine X and Y of the setter's middle, mm.
+    over
+        Height of its top in the work offset, mm.
+    start, travel
+        Machine Z before each touch, None for the upper end, and how far down it goes at most, mm.
+    fast, slow
+        Feeds of the two touches, mm/min.
+    """
+
+    name: str
+    offsets: tuple[str, ...]
+    tools: tuple[tuple[int, str], ...]
+    place: tuple[float, float]
+    over: float
+    start: float | None
+    travel: float
+    fast: float
+    slow: float

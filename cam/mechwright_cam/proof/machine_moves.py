@@ -67,7 +67,7 @@ def machine_moves(scene: Scene) -> Check:
         )
         return scene.bad(step, message, None if np.isnan(z) else z)
     if (step := first(home & np.isnan(end))) is not None:
-        top = scene.job.settings.machine.retract_z
+        top = scene.control.upper_end(scene.job.settings.machine)
         message = (
             f"Z goes to a height in machine coordinates below Z{top:g}, which may be in the work; "
             f"{retract(scene)}, or set cam.machine.retract_z to a lower height that is above everything"

@@ -73,7 +73,7 @@ class Scene:
     def read(self, more: float = 0.0) -> Run:
         """Run the program on the machine of the job, each D as a radius ``more`` mm larger than planned."""
         diameters = {number: 2 * (d + more) for number, d in planned_offsets(self.job).items()}
-        upper_end = self.job.settings.machine.retract_z
+        upper_end = self.control.upper_end(self.job.settings.machine)
         run = self.control.read(
             self.text, block_delete=self.block_delete, upper_end=upper_end, diameters=diameters
         )

@@ -77,7 +77,10 @@ class Machine(Parameters):
     low_y: Place = Field(None, description="Machine Y at the lower end of its travel, if it is known.")
     low_z: Place = Field(None, description="Machine Z at the lower end of its travel, if it is known.")
     retract_z: Millimetres = Field(
-        0.0, ge=-10000, le=10000, description="Machine Z of a full retract, the upper end of travel."
+        0.0,
+        ge=-10000,
+        le=10000,
+        description="Machine Z of a full retract, the upper end of travel; on Grbl -2 unless it is said.",
     )
     change_x: Place = Field(None, description="Machine X where tools are changed; by default it stays.")
     change_y: Place = Field(None, description="Machine Y where tools are changed; by default it stays.")

@@ -1,13 +1,13 @@
 """How programs are written, and what was measured at the machine: tables of ``[cam]``."""
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.inches import Units
-from mechwright.units import Millimetres
+from mechwright.units import Millimetres, MillimetresPerMin
 from mechwright_cam.shop.machine import Place
 
 LEAST_CLEARANCE = 0.5
@@ -71,6 +71,33 @@ class Probe(Parameters):
     doubt: Millimetres = Field(
         3.0, ge=0.5, le=10, description="By so much the zero set by eye beforehand may be off."
     )
+
+
+class Setter(Parameters):
+    """A tool setter that stands on the table, and measures the tools of a job."""
+
+    x: Place = Field(
+        None, description="Machine X of its middle; with x, y and over a program measures tools."
+    )
+    y: Place = Field(None, description="Machine Y of its middle.")
+    over: Millimetres | None = Field(
+        None, ge=-500, le=500, description="Height of its top over the top of the stock, below 0 for lower."
+    )
+    diameter: Millimetres = Field(20.0, ge=2, le=100, description="Diameter of its top.")
+    start: Place = Field(
+        None, description="Machine Z that tools go to at a rapid before the touch; by default the retract."
+    )
+    travel: Millimetres = Field(
+        100.0, ge=1, le=1000, description="A touch that meets nothing so far below it ends the program."
+    )
+    fast: MillimetresPerMin = Field(150.0, ge=10, le=1000, description="Feed of the first touch.")
+    slow: MillimetresPerMin = Field(25.0, ge=1, le=100, description="Feed of the second touch.")
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        if 0 < [self.x, self.y, self.over].count(None) < 3:
+            raise ValueError("give x, y and over of the setter, or none of them")
+        return self
 
 
 Compensation = Literal["computer", "control", "wear"]

@@ -19,6 +19,7 @@ from mechwright_cam.shop.posting import (
     Measured,
     Posting,
     Probe,
+    Setter,
     WorkOffset,
 )
 from mechwright_cam.shop.tool import CuttingChange
@@ -125,6 +126,7 @@ class CamSettings(Parameters):
     sheet: Sheet = Field(Sheet(), description="Revision and date on the setup sheets.")
     second_side: SecondSide = Field(SecondSide(), description="The second side.")
     probe: Probe = Field(Probe(), description="The touch probe.")
+    setter: Setter = Field(Setter(), description="The tool setter.")
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
     hold: Hold = Field(Hold(), description="How the part is held.")

@@ -27,7 +27,7 @@ def assert_read_back(control: Control, program: Program) -> None:
     tools = {tool.d_number: tool.diameter for tool in program.tools}
     run = control.read(
         files if len(files) > 1 else next(iter(files.values())),
-        upper_end=program.machine.retract_z,
+        upper_end=control.upper_end(program.machine),
         diameters=tools,
     )
     assert run.ended, "the control does not see the program's end"

@@ -94,14 +94,14 @@ class Spelling(Control):
 
     def retract(self, out: Writer) -> None:
         """Go to the machine's upper end."""
-        for line in self.retract_lines(out.program.machine.retract_z):
+        for line in self.retract_lines(self.upper_end(out.program.machine)):
             out.line(line)
         out.motion = self.retract_motion
         out.lost_height()
 
     def retract_words(self, machine: Machine) -> str:
         """What goes to the upper end of a machine."""
-        return ", then ".join(self.retract_lines(machine.retract_z))
+        return ", then ".join(self.retract_lines(self.upper_end(machine)))
 
     def tool_change(self, out: Writer, section: ToolSection) -> None:
         """Change the tool, which stands at the machine's upper end."""

@@ -1,5 +1,9 @@
-"""What is to be seen to before a program probes."""
+"""What is to be seen to before a program probes a stock, or measures tools."""
 
+from collections.abc import Sequence
+
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.pages.setup_sheet.several import in_order
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.lengths import Lengths
 
@@ -21,4 +25,25 @@ def about_probing(job: Job, offset: str, file: str, to: Lengths) -> tuple[str, .
         "towards Y+.",
         "A touch that meets nothing, or something on the way down, ends the program: nothing of that axis "
         "has been set then.",
+    )
+
+
+def about_measuring(job: Job, control: Control, files: Sequence[str], to: Lengths) -> tuple[str, ...]:
+    """How the programs that measure tools are used, and what they rely on."""
+    setter, offset = job.settings.setter, control.offset_words(job.settings.work_offset)
+    assert setter.x is not None and setter.y is not None and setter.over is not None  # noqa: S101, PT018
+    place = f"machine X {to.signed(setter.x)}, Y {to.signed(setter.y)}"
+    each = (
+        f"{in_order(files)} measures all tools on the setter and writes their lengths into the tool table."
+        if control.offsets.lengths
+        else f"Before each file run its own of {', '.join(files)}, with the tool put in: it sets {offset} Z."
+    )
+    first = f" Set {offset} Z first." if control.offsets.lengths else ""
+    return (
+        f"{each} The setter stands at {place}; its top is {to.signed(setter.over)} {to.unit} from "
+        f"the top of the stock.{first}",
+        "They cut nothing: the spindle stays off, X and Y move at the upper end, and each tool touches "
+        "twice. Press the setter with a finger first: the control has to see it.",
+        f"A touch that meets nothing {to.with_unit(setter.travel)} below its start, or a setter that is "
+        "pressed already, ends the program, and nothing of that tool has been written.",
     )

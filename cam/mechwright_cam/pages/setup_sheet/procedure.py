@@ -15,7 +15,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.beds import held_from_below
 from mechwright_cam.pages.setup_sheet.compensation import lines
-from mechwright_cam.pages.setup_sheet.probing import about_probing
+from mechwright_cam.pages.setup_sheet.probing import about_measuring, about_probing
 from mechwright_cam.pages.setup_sheet.several import (
     about_others,
     active_words,
@@ -53,6 +53,7 @@ def steps(
     offsets: Sequence[DOffset] = (),
     by_file: bool = False,
     probing: str = "",
+    measuring: Sequence[str] = (),
 ) -> list[Step]:
     """The steps in order.
 
@@ -72,6 +73,8 @@ def steps(
         Whether tools that are changed by hand have a file each.
     probing
         The file of the program that probes the zero, if there is one.
+    measuring
+        The files of those that measure tools.
     """
     offset, to = control.offset_words(job.settings.work_offset), Lengths(control.units)
     over = job.side == "underside"
@@ -97,6 +100,7 @@ def steps(
             if by_hand
             else [_lengths(offset, tools, control, with_d=bool(offsets)), _check(offset, tools, control)]
         ),
+        *([Step("Or measure", about_measuring(job, control, measuring, to))] if measuring else []),
         *(
             [Step("Set D, and bring the part to size", lines(offsets, control.offsets, to))]
             if offsets

@@ -37,6 +37,7 @@ def setup_html(
     summary: str = "",
     files: Sequence[str] = (),
     probing: str = "",
+    measuring: Sequence[str] = (),
 ) -> str:
     """The setup sheet of a program: a page that needs no other file and no network, and prints on A4.
 
@@ -61,6 +62,8 @@ def setup_html(
         The names of the program's files in order, without their ending; by default one of its own name.
     probing
         The name of the program that probes its zero, without its ending; empty if there is none.
+    measuring
+        The names of the programs that measure its tools, in order.
     """
     proof, names = proof or {}, file_names(program, control.suffix, files)
     traced = trace(program)
@@ -91,6 +94,7 @@ def setup_html(
             reach=facts.reach(traced),
             offsets=tuple(offsets.values()),
             probing=probing + control.suffix if probing else "",
+            measuring=[name + control.suffix for name in measuring],
             by_file=program.posting.tool_change == "files",
         ),
         "origin": origin_words(job),

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T49 D 6 mm: ball-6, ball)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: dish: rough)
 T49
 G54 S11671 M3
@@ -115,5 +115,5 @@ X1.998 Y0 I0.515 J1.931
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T48 D 6 mm: bull-6-r1, bull nose)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: dish: rough)
 T48
 G54 S11671 M3
@@ -68,5 +68,5 @@ G3 X-2.253 Y0.999 I0 J-3 F1470
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T40 D 6 mm: chamfer-6, chamfer mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: edge: chamfer)
 T40
 G54 S7003 M3
@@ -37,5 +37,5 @@ X5.132 Y-6.697
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T7 D 5 mm: drill-5, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: drill 5)
 T7
 G54 S4456 M3
@@ -20,5 +20,5 @@ G1 Z-5.803 F267
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

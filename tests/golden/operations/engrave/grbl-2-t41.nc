@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T41 D 3 mm: engrave-3, chamfer mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: number: engrave)
 T41
 G54 S12000 M3
@@ -63,5 +63,5 @@ X10.333
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

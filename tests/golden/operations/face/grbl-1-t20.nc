@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T20 D 16 mm: mill-16, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: face: face)
 T20
 G54 S4377 M3
@@ -24,5 +24,5 @@ X29
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

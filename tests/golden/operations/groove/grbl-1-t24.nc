@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: groove: rough)
 T24
 G54 S11671 M3
@@ -55,5 +55,5 @@ G2 X-23.002 Y5.043 I0.001 J3.003
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

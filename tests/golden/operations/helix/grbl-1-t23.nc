@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: seat: rough)
 T23
 G54 S8754 M3
@@ -41,5 +41,5 @@ X1.998 Y2 I-2 J0 F1307
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units inch and inch/min)
 (T7 D 0.19685 in: drill-5, drill)
 G17 G20 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-0.07874
 (operation: drill 5)
 T7
 G54 S4456 M3
@@ -24,5 +24,5 @@ G1 Z-0.22844
 G0 Z0.19686
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-0.07874
 M30

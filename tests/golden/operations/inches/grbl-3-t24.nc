@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units inch and inch/min)
 (T24 D 0.23622 in: mill-6, end mill)
 G17 G20 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-0.07874
 (operation: bore: bore)
 T24
 G54 S11671 M3
@@ -214,5 +214,5 @@ Y0.00105
 G0 Z0.19686
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-0.07874
 M30

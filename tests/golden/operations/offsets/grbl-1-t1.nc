@@ -8,7 +8,7 @@
 (origin G54, G55, Z0 on top of the stock, units mm and mm/min)
 (T1 D 6 mm: spot-6, spot drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 T1
 G54 S3714 M3
 (operation: spot drill)
@@ -21,7 +21,7 @@ G1 Z-1.5 F222
 G4 P0.2
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 G55
 (operation: spot drill)
 G0 X0 Y0
@@ -33,6 +33,6 @@ G1 Z-1.5 F222
 G4 P0.2
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 M5
 M30

@@ -8,7 +8,7 @@
 (origin G54, G55, Z0 on top of the stock, units mm and mm/min)
 (T7 D 5 mm: drill-5, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 T7
 G54 S4456 M3
 (operation: drill 5)
@@ -20,7 +20,7 @@ Z1
 G1 Z-4.803 F267
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 G55
 (operation: drill 5)
 G0 X0 Y0
@@ -31,6 +31,6 @@ Z1
 G1 Z-4.803 F267
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 M5
 M30

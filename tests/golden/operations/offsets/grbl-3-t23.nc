@@ -8,7 +8,7 @@
 (origin G54, G55, Z0 on top of the stock, units mm and mm/min)
 (T23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 T23
 G54 S8754 M3
 (operation: outside: rough)
@@ -117,7 +117,7 @@ X-3 F3921
 G3 X-4.249 Y-19.201 I-0.001 J-4 F1961
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 G55
 (operation: outside: rough)
 G0 X15.173 Y-19.196
@@ -225,6 +225,6 @@ X-3 F3921
 G3 X-4.249 Y-19.201 I-0.001 J-4 F1961
 G0 Z5
 M9
-G53 G0 Z0
+G53 G0 Z-2
 M5
 M30

@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T27 D 3 mm: mill-3, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: outside: rough)
 T27
 G54 S12000 M3
@@ -123,5 +123,5 @@ G3 X12.466 Y-17.252 I0 J-0.75 F420
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

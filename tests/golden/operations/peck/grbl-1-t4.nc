@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T4 D 3 mm: drill-3, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: drill 3)
 T4
 G54 S7427 M3
@@ -60,5 +60,5 @@ G1 Z-19.202
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: bore: bore)
 T23
 G54 S8754 M3
@@ -51,7 +51,7 @@ G0 Z13
 (operation: clamp)
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 (clamp the part at X0.000 Y0.000: up to 10 mm wide and 8 mm high)
 M0
 S8754 M3
@@ -117,5 +117,5 @@ G3 X1.249 Y19.201 I0.001 J4 F1961
 G0 Z13
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T25 D 5 mm: mill-5, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: keyway: rough)
 T25
 G54 S12000 M3
@@ -61,5 +61,5 @@ G3 X-0.839 Y-0.234 I0 J-2.5 F1260
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

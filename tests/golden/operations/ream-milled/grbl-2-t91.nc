@@ -8,7 +8,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T91 D 6 mm: reamer-6, reamer)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: pin: ream)
 T91
 G54 S1061 M3
@@ -22,5 +22,5 @@ Z1
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

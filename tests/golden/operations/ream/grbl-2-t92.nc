@@ -10,7 +10,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T92 D 5.8 mm: drill-5.8, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: drill 5.8)
 T92
 G54 S3842 M3
@@ -27,5 +27,5 @@ G1 Z-6.043
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

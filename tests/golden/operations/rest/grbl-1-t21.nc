@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T21 D 12 mm: mill-12, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: recess: rough)
 T21
 G54 S5836 M3
@@ -27,5 +27,5 @@ X-6.798
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -7,7 +7,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T1 D 6 mm: spot-6, spot drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: spot drill)
 T1
 G54 S3714 M3
@@ -21,5 +21,5 @@ G4 P0.2
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

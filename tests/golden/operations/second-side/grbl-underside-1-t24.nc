@@ -7,7 +7,7 @@
 (origin G55, Z0 on top of the stock, units mm and mm/min)
 (T24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: counterbore: bore)
 T24
 G55 S11671 M3
@@ -44,5 +44,5 @@ X0 Y0 I-2.499 J0
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T93 D 4 mm: thread-unc, thread mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: quarter: thread)
 T93
 G54 S10345 M3
@@ -29,5 +29,5 @@ X0 Y0 I-0.588 J0
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30

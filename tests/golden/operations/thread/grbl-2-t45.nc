@@ -6,7 +6,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T45 D 4.5 mm: thread-m6, thread mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
-G53 G0 Z0
+G53 G0 Z-2
 (operation: m6: thread)
 T45
 G54 S9337 M3
@@ -29,5 +29,5 @@ X0 Y0 I-0.375 J0
 G0 Z5
 M9
 M5
-G53 G0 Z0
+G53 G0 Z-2
 M30
