@@ -46,6 +46,8 @@ MOST_WORK = 4_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
 MOST_CORNERS = 2000
 """A shape with more corners is not worth remembering."""
+AREA = 2
+"""Dimensions of a shape that has an area."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -294,7 +296,7 @@ class Stock:
                 0 if step is None else step,
                 int(GROWN * now.sum() + shapely.get_num_coordinates(lines[now]).sum()),
             )
-            gone = shapely.union_all(_discs(lines[now], radius[now]))
+            gone = shapely.union_all(_around(body, _discs(lines[now], radius[now])))
             body = overlay(shapely.difference, body, gone)
             lines, radius, count = lines[~now], radius[~now], 2 * count
             if lines.size > count:
@@ -306,6 +308,14 @@ class Stock:
 def _is_nothing(body: Shape) -> bool:
     """Whether a shape is nowhere as wide as what is met."""
     return body.is_empty or bool(shapely.is_empty(shapely.buffer(body, -TOUCH / 2, quad_segs=2)))
+
+
+def _around(body: Shape, shapes: Geometries) -> Geometries:
+    """What there is of some shapes in the rectangle around a body: few corners of long ones."""
+    x0, y0, x1, y1 = shapely.bounds(body)
+    near = shapely.clip_by_rect(shapes, x0 - TOUCH, y0 - TOUCH, x1 + TOUCH, y1 + TOUCH)
+    areas: Geometries = near[shapely.get_dimensions(near) == AREA]
+    return areas
 
 
 def _discs(lines: Geometries, radius: Array) -> Geometries:

@@ -126,7 +126,10 @@ class Modal(Compensation):
         """Raise ProgramError for codes that the control does not read, or not together."""
 
     def is_stated(self, block: Block) -> bool:
-        """Whether words of state (:mod:`mechwright_cam.controls.reading.beside`) say what is so anyway."""
+        """Whether words of state (:mod:`mechwright_cam.controls.reading.beside`) say what is so anyway.
+
+        G90 and G91 may say either, once the program has said one of them.
+        """
         try:
             self._check_codes(block)
         except ProgramError:
@@ -135,7 +138,7 @@ class Modal(Compensation):
         now = {_SPINDLE_CODES[state.spindle], *_COOLANT_CODES[state.coolant]}
         groups = {
             "units": {200 if self.scale != 1.0 else 210},
-            "distance": {900 if self.absolute else 910},
+            "distance": {900, 910},
             "plane": {self.plane},
             "cutter compensation": set() if self.side else {400},
             "feed mode": set() if self.dialect.mode_ends_feed else {940},

@@ -14,6 +14,9 @@ from mechwright_cam.controls.reading.run import WIDTH, Ints, Kind, Remark
 FEWEST_LINES = 8
 """A stretch of fewer lines is not worth it: so many run as quickly one by one."""
 
+ABSOLUTE = {900: True, 910: False}
+"""G90 and G91: whether X, Y and Z are places."""
+
 
 def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     """Run the motion lines that begin at index ``at``, if they are many.
@@ -28,19 +31,21 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     known = motion in {0, 10, 20, 30}
     if not (known or lines.said[G, at]) or not machine.moves_plainly:
         return at
-    end = _as_stated(machine, lines, at, lines.until(at, known and motion in {20, 30}))
+    end, modes = _as_stated(machine, lines, at, lines.until(at, known and motion in {20, 30}))
     if end - at < FEWEST_LINES:
         return at
+    absolute = _absolute(machine, modes, at, end)
     index = at + np.flatnonzero(lines.said[G : F + 1, at:end].any(axis=0))  # without empty lines
     if index.size == 0:
         _along(machine, lines, at, end, index)
+        machine.absolute = bool(absolute[-1])
         return end
     words = lines.words[:, index]
     words[X : F + 1] *= machine.scale
     _hold(words[G], (motion or 0) / 10)
     _hold(words[F], machine.feed)
     here = machine.x, machine.y, machine.z
-    lost = _places(words, here, absolute=machine.absolute)
+    lost = _places(words, here, absolute[index - at])
     g, feed, place = words[G], words[F], words[X : Z + 1].T
     start = np.concatenate(([here], place[:-1]))
     arc = g >= 2
@@ -62,15 +67,18 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
         table[:, 14] = state[index[:count] - at]
         machine.append(table)
         machine.motion, machine.feed = 10 * int(g[count - 1]), float(feed[count - 1])
+    if after > at:
+        machine.absolute = bool(absolute[after - at - 1])
     return after
 
 
-def _as_stated(machine: Modal, lines: Rows, at: int, end: int) -> int:
-    """The first line from ``at`` on whose words of state change anything, at most ``end``.
+def _as_stated(machine: Modal, lines: Rows, at: int, end: int) -> tuple[int, list[tuple[int, bool]]]:
+    """The first line from ``at`` on whose words of state change anything but G90 and G91, at most ``end``.
 
-    So does an S that makes the spindle turn.
+    So does an S that makes the spindle turn. With it come the lines with G90 or G91, and whether that is G90.
     """
     asked: dict[int, bool] = {}
+    modes: list[tuple[int, bool]] = []
     place = bisect_left(lines.stated, (at, 0))
     while place < len(lines.stated) and lines.stated[place][0] < end:
         line, kind = lines.stated[place]
@@ -78,10 +86,20 @@ def _as_stated(machine: Modal, lines: Rows, at: int, end: int) -> int:
             asked[kind] = machine.is_stated(lines.states[kind])
         if not asked[kind]:
             end = line
+            break
+        for code in ABSOLUTE.keys() & lines.states[kind].g:
+            modes.append((line, ABSOLUTE[code]))
         place += 1
     if machine.state.spindle and not machine.state.turning:
         end = at + next(iter(np.flatnonzero(lines.said[S, at:end]).tolist()), end - at)
-    return end
+    return end, modes
+
+
+def _absolute(machine: Modal, modes: list[tuple[int, bool]], at: int, end: int) -> Bools:
+    """Whether each line from ``at`` to ``end`` says places (G90), and no distances."""
+    some = [(line, absolute) for line, absolute in modes if line < end]
+    lines, flags = zip((at, machine.absolute), *some, strict=True)
+    return np.repeat(flags, np.diff([*lines, end]))
 
 
 def _along(machine: Modal, lines: Rows, at: int, after: int, moving: Ints) -> Ints:
@@ -108,16 +126,25 @@ def _hold(row: Array, before: float) -> None:
     row[:] = np.where(last >= 0, row[last], before)
 
 
-def _places(words: Array, here: tuple[float, float, float], *, absolute: bool) -> Bools:
+def _places(words: Array, here: tuple[float, float, float], absolute: Bools) -> Bools:
     """Turn X, Y and Z into where each line goes; tells which are distances (G91) from an unknown place."""
     lost = np.zeros(words.shape[1], dtype=np.bool_)
+    every, none = bool(absolute.all()), not absolute.any()
     for row, before in zip(words[X : Z + 1], here, strict=True):
-        if absolute:
+        if every:
             _hold(row, before)
             continue
-        row[np.isnan(row)] = 0.0
-        lost |= (row != 0) & (not math.isfinite(before))
-        row[:] = np.cumsum(np.append(before, row))[1:]
+        row[np.isnan(row) & ~absolute] = 0.0
+        if none:  # with the same rounding as line by line
+            lost |= (row != 0) & (not math.isfinite(before))
+            row[:] = np.cumsum(np.append(before, row))[1:]
+            continue
+        way = np.where(absolute, 0.0, row)
+        after = np.append(0.0, np.cumsum(way))
+        row[~absolute] = math.nan
+        last = np.maximum.accumulate(np.where(np.isnan(row), -1, np.arange(row.size)))
+        lost |= (way != 0) & (last < 0) & (not math.isfinite(before))
+        row[:] = np.where(last >= 0, row[last], before) + (after[1:] - after[last + 1])
     return lost
 
 
