@@ -48,6 +48,9 @@ from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
 from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
 
+LOCKED = 85.0
+"""Degrees of pressure angle that the shaft sees from which the teeth lock: at 90 their force turns nothing."""
+
 ON_AXIS = 0.0005
 """A middle nearer to its axis is said to be on it, mm: half of the last digit that is told."""
 
@@ -169,14 +172,16 @@ def _drive(params: NoncircularParams, *, advise: bool = True) -> Iterator[Findin
         nearest(params, lambda one: extremes_of(one).steepest.value <= most) if advise else None,
         "let the ratio change over a longer angle of the driver",
     )
-    yield Finding.warning(
+    locked = not falls_short(angle, LOCKED)
+    kind, limit = (Finding.error, LOCKED) if locked else (Finding.warning, SHAFT_PRESSURE_ANGLE)
+    yield kind(
         "gear.pressure-angle",
         "law",
         f"the pressure angle that the shaft sees reaches {angle:.1f} degrees at "
-        f"{math.degrees(steepest.angle):.1f} degrees of gear 1, above {SHAFT_PRESSURE_ANGLE:g}: the "
-        "teeth push more than they turn",
+        f"{math.degrees(steepest.angle):.1f} degrees of gear 1, above {limit:g}: "
+        f"the teeth {'lock' if locked else 'push more than they turn'}",
         angle,
-        SHAFT_PRESSURE_ANGLE,
+        limit,
         "deg",
         words,
         proposed=changes,
