@@ -17,8 +17,8 @@ DESIGNS = [
     path for path in sorted(EXAMPLES.glob("*.toml")) if not path.stem.endswith(("-requirement", "-study"))
 ]
 CONTROLS = tuple(host().of(Control))
-ASKED = {"cam.compensation"}
-"""What is said of a key that the design has: elliptic-pair-haas asks for cutter compensation, which not all have."""
+ASKED = {"cam.compensation", "cam.line-numbers"}
+"""What is said of keys that elliptic-pair-haas has: not all controls have cutter compensation, or steps of numbers."""
 
 
 @pytest.mark.parametrize(
