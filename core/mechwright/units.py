@@ -26,6 +26,8 @@ _MIXED = re.compile(r"\s*([+-]?)(\d+)\s+(\d+)\s*/\s*(\d+)(?=\D)")
 """Whole inches and a fraction, as in ``"3 1/2 in"``."""
 _TORQUE = re.compile(r"\b([mkM]?N)([cm]?m)\b")
 """Newton metres as they are written, ``Nm``: pint takes them for metres of a number of yarn."""
+_INCH_MARKS = frozenset('"″”')
+"""What stands behind inches on drawings and on tools."""
 _TWO_MEANINGS = {"grad", "Grad"}
 """A degree to some and a hundredth of a right angle to others (``gon``)."""
 
@@ -75,8 +77,8 @@ def convert(text: str, unit: str) -> float:
     A number alone is taken to be in ``unit``, which is spelled as pint does; ``""`` is a pure number. Raises
     ValueError for a text that is no quantity, or of another kind than ``unit``.
 
-    >>> convert("2 in", "mm"), convert("1/4 in", "mm"), convert("40", "mm")
-    (50.8, 6.35, 40.0)
+    >>> convert("2 in", "mm"), convert("1/4 in", "mm"), convert('1/4"', "mm"), convert("40", "mm")
+    (50.8, 6.35, 6.35, 40.0)
     >>> convert("2 kg", "mm")
     Traceback (most recent call last):
     ...
@@ -103,6 +105,7 @@ def _quantity(text: str, unit: str, wrong: ValueError) -> float:
     if match is None:
         raise wrong
     number, divisor, symbol = match.groups()
+    symbol = "in" if symbol in _INCH_MARKS else symbol
     try:
         value = float(number) / (int(divisor.strip("/ ")) if divisor else 1)
         if kind(symbol) != kind(unit):

@@ -176,7 +176,7 @@ def test_a_tool_that_any_part_uses_is_not_unused(tmp_path):
         ("clearance = 7", "clearanc = 7", "prefer.cam: unknown key 'clearanc'; did you mean 'clearance'?"),
         ("clearance = 7", "machine = 'x'", "prefer.cam.machine: has no place there"),
         ('"bench-mill"', '"bench-mil"', "unknown machine 'bench-mil'; did you mean 'bench-mill'?"),
-        ('screws = ["M4"]', 'screws = ["4"]', "screws.0: '4' should match pattern"),
+        ('screws = ["M4"]', 'screws = ["4"]', "screws.0: '4' should be a metric thread"),
         ("[holder.ER16]", 'units = "cm"\n[holder.ER16]', "units"),
         ("thickness = [8, 12]", "thickness = 8", "stock.0.thickness: 8 should be a list in square brackets"),
     ],

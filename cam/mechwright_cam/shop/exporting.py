@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import OutputError
 from mechwright.output.folder import write_new
-from mechwright_cam.shop.formats.known import OWN, format_of, suffixes
+from mechwright_cam.shop.formats.known import format_of
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.toml_text import library_text
 from mechwright_cam.shop.tool import Tool
@@ -33,8 +33,6 @@ def export(tools: Sequence[Tool], path: Path, *, replace: bool = False) -> tuple
     file is there already or cannot be written.
     """
     form = format_of(path)
-    if form is None and path.suffix.lower() != OWN:
-        raise DesignError(f"{path}: is of no known format; end its name in one of: {', '.join(suffixes())}")
     files = {path: library_text(tools).encode()} if form is None else form.files(tools, path)
     if not replace and (there := next((file for file in files if file.exists()), None)):
         raise OutputError(f"{there}: is there already; give another name, or --force to replace it")

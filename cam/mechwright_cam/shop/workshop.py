@@ -1,8 +1,9 @@
 """The workshop of a file of its own, ``shop.toml``: crib, machine, what is in hand, what is preferred."""
 
+import re
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from mechwright.contracts.materials import MaterialName
 from mechwright.contracts.parameters import Parameters
@@ -13,6 +14,12 @@ from mechwright_cam.shop.tool import Tool
 
 LAYOUT: Literal[1] = 1
 """Version of the layout of shop files."""
+
+
+def _screw(text: str) -> str:
+    if not re.fullmatch(r"M\d+(\.\d+)?", text):
+        raise ValueError("should be a metric thread, such as M5")
+    return text
 
 
 class Holder(Parameters):
@@ -57,7 +64,7 @@ class Workshop(Parameters):
     holder: dict[str, Holder] = Field(default_factory=dict, description="Holders by name.")
     tool: tuple[Tool, ...] = Field((), description="The tools.")
     stock: tuple[Plates, ...] = Field((), description="Plates in hand; none: whatever a part asks for.")
-    screws: tuple[Annotated[str, Field(pattern=r"^M\d+(\.\d+)?$")], ...] = Field(
+    screws: tuple[Annotated[str, AfterValidator(_screw)], ...] = Field(
         (), max_length=50, description="Threads of the screws that are kept, such as M5; empty: all."
     )
     pins: tuple[Annotated[Millimetres, Field(gt=0, le=50)], ...] = Field(

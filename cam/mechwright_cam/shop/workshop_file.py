@@ -1,7 +1,8 @@
 """Reading a shop file, and what it lends to the tables of a design file."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.inches import converted, told_in, units_of
 from mechwright.designs.tables import read_table
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, OutputError
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.settings import MachineSettings
 from mechwright_cam.shop.holding import SecondSide
@@ -84,13 +85,16 @@ def read_shop(path: Path, said: str = "") -> Shop:
     layout = content.get("format", LAYOUT)
     if type(layout) is not int or layout != LAYOUT:
         raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {LAYOUT}")
+    if "tools" in content:
+        raise DesignError(f"{path}: unknown key 'tools'; a shop file holds [[tool]] tables")
     units, files = units_of(content, path), dict[str, Path]()
     if units == "inch":
         content = converted(content, schema())
     with told_in(units):
         machine = content.get("machine")
         if isinstance(machine, str):
-            content = {**content, "machine": machine_figures(machine, path)}
+            with _named(path, "machine"):
+                content = {**content, "machine": machine_figures(machine, path)}
             if machine.endswith(".toml"):
                 files[machine] = beside(path, machine, "machine")
         tools = tuple(_tools(content, path))
@@ -99,8 +103,9 @@ def read_shop(path: Path, said: str = "") -> Shop:
         base = Library(())
         if workshop.crib:
             crib = beside(path, workshop.crib, "crib")
-            base = load_library(crib)
-            first, *more = library_files(crib)
+            with _named(path, "crib"):
+                base = load_library(crib)
+                first, *more = library_files(crib)
             files |= {workshop.crib: first, **{file.name: file for file in more}}
         elif not tools:
             raise DesignError(f"{path}: holds no tool; add a [[tool]] table, or name a library: crib = FILE")
@@ -109,6 +114,15 @@ def read_shop(path: Path, said: str = "") -> Shop:
         except DesignError as error:
             raise DesignError(f"{path}: {error}") from error
     return Shop(path, said, workshop, library, files)
+
+
+@contextmanager
+def _named(path: Path, key: str) -> Iterator[None]:
+    """A file that cannot be read is told with the key of the shop file that names it."""
+    try:
+        yield
+    except OutputError as error:
+        raise OutputError(f"{path}: {key}: {error}") from error
 
 
 def schema() -> dict[str, Any]:

@@ -30,6 +30,7 @@ KINDS = {
     "drill": ToolKind.DRILL,
     "threadmill": ToolKind.THREAD_MILL,
     "tap": ToolKind.TAP,
+    "reamer": ToolKind.REAMER,
 }
 """Shapes, by their letters alone."""
 SHAPES = {
@@ -40,6 +41,7 @@ SHAPES = {
     ToolKind.DRILL: ("Drill", "drill.fcstd"),
     ToolKind.THREAD_MILL: ("ThreadMill", "thread-mill.fcstd"),
     ToolKind.TAP: ("Tap", "tap.fcstd"),
+    ToolKind.REAMER: ("Reamer", "reamer.fcstd"),
 }
 """The other way; FreeCAD has no spot drill."""
 REACHES = {ToolKind.THREAD_MILL: "NeckLength", ToolKind.TAP: "CuttingEdgeLength"}

@@ -174,6 +174,8 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
 
     wide = length("DC")
     if wide is None or wide < 0:
+        if isinstance(said_of := geometry.get("DC"), str) and said_of:
+            raise LeftOutError(f"its diameter (DC) is the text {said_of!r:.40} and no number; save it anew")
         raise LeftOutError("has no diameter (DC); give it one")
     keys["diameter"] = wide
     for key, name in (("flute_length", "LCF"), ("stick_out", "LB"), ("shank_diameter", "SFDM")):

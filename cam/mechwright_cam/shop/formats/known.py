@@ -26,7 +26,10 @@ def format_of(path: Path) -> Format | None:
     suffix = path.suffix.lower()
     if suffix in ELSEWHERE:
         raise DesignError(f"{path}: {ELSEWHERE[suffix]}")
-    return next((one for one in FORMATS if suffix in one.suffixes), None)
+    form = next((one for one in FORMATS if suffix in one.suffixes), None)
+    if form is None and suffix != OWN:
+        raise DesignError(f"{path}: is of no known format; end its name in one of: {', '.join(suffixes())}")
+    return form
 
 
 def suffixes() -> tuple[str, ...]:
