@@ -9,8 +9,9 @@ All of them go on where they stopped: what is known stands in ``--place`` (``bui
 The draw is seeded, over the mutants of functions that a test that was watched reaches (``--whole``: over all
 of an area). A mutant is killed if one of its tests fails, or takes far longer than it should; its tests are
 those that reach its lines, the quickest first, for ``--budget`` seconds. It is planted in a fork of a process
-that has collected the tests, so that it takes as long as they do; ``again`` gives survivors, and what
-stands outside of functions, to a new interpreter on a changed copy, which processes that tests start see too.
+that has collected the tests, so that it takes as long as they do; ``again`` tries survivors once more, and
+gives who survives there, or stands outside of functions, to a new interpreter on a changed copy, which
+processes that tests start see too.
 Every tenth time the same tests run without the fault and have to pass: otherwise the outcome is ``broken``
 and counts for nothing.
 
@@ -161,13 +162,14 @@ def outcome(suite: Suite, mutant: Mutant | None, tests: Mapping[str, float]) -> 
     return {0: SURVIVED, NOT_PLANTED: OUTSIDE}.get(1 if code is None else code, KILLED)
 
 
-def tried(place: Path, draw: list[Mutant], budget: float, end: float) -> None:
-    """Outcomes of mutants, as many as there is time for."""
+def tried(place: Path, draw: list[Mutant], budget: float, end: float, afresh_too: bool) -> None:
+    """Outcomes of mutants, as many as there is time for; who survives is tried afresh if asked."""
     known = known_tests(place)
     asked = [(mutant, known.of(mutant, budget)) for mutant in draw]
     files = sorted({test.partition("::")[0] for _, tests in asked for test in tests})
     with tempfile.TemporaryDirectory() as folder:
-        suite = Suite(files, Path(folder).resolve() / "tests")
+        within = Path(folder).resolve()
+        suite = Suite(files, within / "tests")
         for number, (mutant, tests) in enumerate(asked):
             if time.monotonic() > end:
                 break
@@ -175,27 +177,12 @@ def tried(place: Path, draw: list[Mutant], budget: float, end: float) -> None:
             found = outcome(suite, mutant, tests)
             if found == KILLED and number % CONTROL == 0 and outcome(suite, None, tests) != SURVIVED:
                 found = BROKEN
-            _said(place, mutant, found, len(tests), begun)
-
-
-def once_more(place: Path, draw: list[Mutant], budget: float, end: float) -> None:
-    """The same by a new interpreter for each, on a copy."""
-    known = known_tests(place)
-    with tempfile.TemporaryDirectory() as folder:
-        copy = tree(Path(folder).resolve() / "tree")
-        for mutant in draw:
-            begun, tests = time.monotonic(), known.of(mutant, budget)
-            if time.monotonic() > end:
-                break
-            passed = afresh(copy, mutant, tests) if tests else None
-            _said(place, mutant, (SURVIVED if passed else KILLED) if tests else UNTESTED, len(tests), begun)
-
-
-def _said(place: Path, mutant: Mutant, found: str, tests: int, begun: float) -> None:
-    row = {"key": mutant.key, "function": mutant.function, "digest": digest(mutant.path)}
-    row |= {"area": area(mutant.path), "outcome": found, "tests": tests}  # type: ignore[dict-item]
-    added(place / "outcomes.jsonl", row | {"seconds": round(time.monotonic() - begun, 1)})
-    print(f"{found}: {mutant.key}", flush=True)
+            if afresh_too and found in {SURVIVED, OUTSIDE}:
+                found = SURVIVED if afresh(tree(within / "tree"), mutant, tests) else KILLED
+            row = {"key": mutant.key, "function": mutant.function, "digest": digest(mutant.path)}
+            row |= {"area": area(mutant.path), "outcome": found, "tests": len(tests)}  # type: ignore[dict-item]
+            added(place / "outcomes.jsonl", row | {"seconds": round(time.monotonic() - begun, 1)})
+            print(f"{found}: {mutant.key}", flush=True)
 
 
 def last(place: Path) -> dict[str, dict[str, object]]:
@@ -251,10 +238,10 @@ def main() -> None:
     elif asked.what == "again":
         alive = {key for key, row in last(place).items() if row["outcome"] != KILLED}
         draw = [one for name in names for one in all_of(name) if one.key in alive and asked.only in one.key]
-        once_more(place, draw, asked.budget, end)
+        tried(place, draw, asked.budget, end, afresh_too=True)
     else:
         draw = [one for name in names for one in drawn(place, name, asked.sample, asked.seed, asked.whole)]
-        tried(place, [one for one in draw if asked.only in one.key], asked.budget, end)
+        tried(place, [one for one in draw if asked.only in one.key], asked.budget, end, afresh_too=False)
     sys.exit(0)
 
 

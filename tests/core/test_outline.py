@@ -196,3 +196,23 @@ def test_comparison_of_outlines_sees_what_differs():
     for pair in ((toothed, outline), (outline, toothed)):
         with pytest.raises(AssertionError, match="outlines differ"):
             assert_same_outline(*pair)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 5])
+def test_curves_of_a_loop_are_flattened_at_once_as_each_is(degree):
+    corners = [(0.0, 0.0), (40.0, 0.0), (30.0, 25.0), (-5.0, 30.0)]
+    rng = np.random.default_rng(degree)
+    sides = []
+    for one, two in zip(corners, corners[1:] + corners[:1], strict=True):
+        inner = np.linspace(one, two, degree + 1)[1:-1] + rng.uniform(-3, 3, (degree - 1, 2))
+        sides.append(BSpline.bezier([one, *map(tuple, inner.tolist()), two]))
+    loop = Loop(tuple(sides))
+    for tolerance in (1e-3, 0.1):
+        wanted = np.concatenate([side.flatten(tolerance)[:-1] for side in sides])
+        assert loop.flatten(tolerance) == pytest.approx(wanted, abs=1e-12)
+
+
+def test_what_encloses_nothing_is_told_by_its_size():
+    """The area of a rounding error grows with the square of the size."""
+    with pytest.raises(GeometryError, match="encloses no area"):
+        Outline(Loop.polygon([(0.0, 0.0), (1e7, 0.0), (5e6, 1.5e-7)]))

@@ -158,3 +158,12 @@ def test_segments_that_go_on_in_nearly_the_same_direction_have_a_joint(kink, sid
     moved = Parallel(loop, side).at(0.4)
     assert len(moved.segments) == len(loop.segments)
     assert moved.segments[1].start == pytest.approx((0.0, 0.4 * side), abs=1e-4)
+
+
+def test_a_strip_has_no_piece_of_no_length():
+    curve = BSpline.bezier([(0.0, 0.0), (10.0, 4.0), (20.0, -4.0), (30.0, 0.0)])
+    ends = Loop((curve, Line((30.0, 0.0), (30.0, 30.0)), Line((30.0, 30.0), (0.0, 0.0))))
+    for first, last in ((0.0, 1.0), (0.25, 0.75)):
+        grid, _ = Parallel(ends).strip(curve, first, last, 0.5)
+        assert (grid[0], grid[-1]) == (first, last)
+        assert np.diff(grid).min() > 1e-6

@@ -206,3 +206,24 @@ def test_knots_that_are_none(degree, knots, count):
 def test_control_points_are_finite():
     with pytest.raises(GeometryError, match="finite"):
         BSpline.bezier([(0, 0), (math.nan, 1), (2, 0)])
+
+
+@pytest.mark.parametrize("quarters", [1, 2, 3, 4])
+def test_arcs_are_cut_to_quarter_turns(quarters):
+    assert Arc((0.0, 0.0), 5.0, 0.3, quarters * math.pi / 2).breaks() == pytest.approx(
+        np.linspace(0, 1, quarters + 1)
+    )
+
+
+def test_what_turns_noticeably_has_three_chords_at_least():
+    assert [len(Arc((0.0, 0.0), 1e-3, 0.0, sweep).flatten(1.0)) for sweep in (0.9, 1.1, 1.9)] == [2, 4, 4]
+
+
+@given(corners=st.lists(points, min_size=3, max_size=3), tolerance=tolerances)
+def test_chords_of_a_parabola_are_as_few_as_the_tolerance_allows(corners, tolerance):
+    """Its second derivative is one vector d: n chords are off by |d| / 8 n² each, which is all that is known."""
+    curve = BSpline.bezier(corners)
+    d = 2 * (np.array(corners[0]) - 2 * np.array(corners[1]) + np.array(corners[2]))
+    wanted = math.sqrt(float(np.hypot(*d)) / (8 * tolerance))
+    assume(abs(wanted - round(wanted)) > 1e-6)
+    assert len(curve.flatten(tolerance)) - 1 == max(1, math.ceil(wanted))

@@ -155,3 +155,11 @@ def test_a_moved_feature_is_the_moved_strip():
 def test_the_feature_names_itself_where_it_cannot_be():
     with pytest.raises(GeometryError, match=r"^slit: the path bends"):
         OpenProfile("slit", 0, 2, path=(Arc((0, 0), 2.0, 0, 1),), side="on", width=6.0)
+
+
+def test_curves_that_meet_on_the_inner_side_are_trimmed_where_they_cross():
+    """A line along y = 3 and a circle of 12 mm about (5, 0), neither of them at a sample."""
+    path = [Line((0.0, 0.0), (20.0, 0.0)), Arc((5.0, 0.0), 15.0, 0.0, 1.0)]
+    crossing = np.array([5 + math.sqrt(12**2 - 3**2), 3.0])
+    ends = np.array([segment.end for segment in strip(path, 3.0, 0.0).segments])
+    assert np.hypot(*(ends - crossing).T).min() < 1e-6
