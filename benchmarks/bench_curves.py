@@ -45,7 +45,7 @@ NAMED = {
     "Watt": (FourBar(1, 0.5, 1, math.hypot(2, 0.5), -math.atan2(0.5, 2), -1), 0.25 + 0j, (-18.0, 18.0)),
 }
 """Straight-line linkages, their coupler points and the angles of the first link, degrees, between which the
-path is nearly straight: half a turn, between the outer of Chebyshev's and Roberts's exact places, 0.6 arms."""
+path is nearly straight: half a turn, between the outer of Chebyshev's and Roberts's exact places, 0.6 arm."""
 
 
 def named(name: str, count: int = 181) -> np.ndarray:
