@@ -19,9 +19,14 @@ from harness import require
 
 from mechwright.contracts.finding import errors
 from mechwright.plugins.host import host
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.loop import close
 
 SECONDS = 60.0
 """Of processor time that a search may take."""
+
+STROKE = 80.0
+"""Of the lines, mm."""
 
 OBLIQUITY = math.radians(23.44)
 """Of the ecliptic."""
@@ -33,14 +38,33 @@ which reaches over half the sphere, no four-bar with good transmission draws bot
 Rows = list[list[float]]
 
 
-def hoecken(count: int = 181) -> np.ndarray:
-    """Path of the linkage with crank 1, ground 2, coupler and rocker 2.5, point at 5, over half a turn."""
-    theta = math.pi + np.linspace(-math.pi / 2, math.pi / 2, count)
-    a = np.exp(1j * theta)
-    to = 2 - a
-    up = np.sqrt(2.5**2 - np.abs(to) ** 2 / 4)
-    b = a + to / 2 + 1j * to / np.abs(to) * up
-    return np.asarray(a + 2 * (b - a))
+NAMED = {
+    "Hoecken": (FourBar(1, 2.5, 2.5, 2), 5 + 0j, (90.0, 270.0)),
+    "Chebyshev": (FourBar(5, 2, 5, 4, branch=-1), 1 + 0j, (math.degrees(math.atan2(3, 4)), 90.0)),
+    "Roberts": (FourBar(1.2, 1, 1.2, 2), 0.5 - 1j * math.sqrt(1.2**2 - 0.25), (33.56, 82.81)),
+    "Watt": (FourBar(1, 0.5, 1, math.hypot(2, 0.5), -math.atan2(0.5, 2), -1), 0.25 + 0j, (-18.0, 18.0)),
+}
+"""Straight-line linkages, their coupler points and the angles of the first link, degrees, between which the
+path is nearly straight: half a turn, between the outer of Chebyshev's and Roberts's exact places, 0.6 arm."""
+
+
+def named(name: str, count: int = 181) -> np.ndarray:
+    """The nearly straight part of the path of such a linkage."""
+    bar, point, (first, last) = NAMED[name]
+    loop = close(bar, np.radians(np.linspace(first, last, count)))
+    return np.asarray(loop.joint_a + point * loop.coupler.direction)
+
+
+def sizes(name: str) -> dict[str, object]:
+    """The shortest and the longest link of such a linkage with a line of 80 mm, and 20 degrees."""
+    bar, point, _ = NAMED[name]
+    scale = STROKE / straightness(named(name))[0]
+    longest = max(*bar.lengths, abs(point), abs(point - bar.coupler))
+    return {
+        "least_transmission_angle": 20.0,
+        "longest_link": math.ceil(longest * scale),
+        "shortest_link": math.floor(min(bar.lengths) * scale),
+    }
 
 
 def straightness(path: np.ndarray) -> tuple[float, float, float]:
@@ -52,7 +76,7 @@ def straightness(path: np.ndarray) -> tuple[float, float, float]:
     return length, float(np.ptp(across) / 2 / length), float(np.sqrt(np.mean(across**2)) / length)
 
 
-def line(stroke: float = 80.0, count: int = 21) -> Rows:
+def line(stroke: float = STROKE, count: int = 21) -> Rows:
     """Even points of a line."""
     return [[x, 0.0] for x in np.linspace(-stroke / 2, stroke / 2, count).tolist()]
 
@@ -119,6 +143,8 @@ EVENLY = [10.0 * k for k in range(13)]
 WANTED: dict[str, tuple[str, str, Callable[[], Rows], dict[str, object]]] = {
     "line": ("four-bar", "path", line, LIMITS),
     "line, Hoecken's sizes": ("four-bar", "path", line, HOECKEN),
+    "line, Roberts's sizes": ("four-bar", "path", line, sizes("Roberts")),
+    "line, Watt's sizes": ("four-bar", "path", line, sizes("Watt")),
     "arc, timed": ("four-bar", "path", arc, {**LIMITS, "crank_turns": EVENLY}),
     "lip": ("four-bar", "path", lip, {**LIMITS, "closed": True}),
     "lip, slider-crank": ("slider-crank", "path", lip, {**LIMITS, "closed": True}),
@@ -152,7 +178,14 @@ def measured(name: str) -> bool:
         f"{math.degrees(angle.value):.1f} degrees, {len(found.candidates)} designs, {spent:.1f} s",
         flush=True,
     )
-    return all(
+    _, _, better = name.partition(", ")
+    of_named = better.removesuffix("'s sizes")
+    beaten = of_named not in NAMED or require(
+        f"{name}: mean, of that of the linkage",
+        best.residual.value / (straightness(named(of_named))[2] * STROKE),
+        1.0,
+    )
+    return beaten and all(
         (
             require(f"{name}: missed, of its size", best.residual.value / size, FAR.get(name, MISSED)),
             require(f"{name}: designs with errors", bad, 0.0),
@@ -164,11 +197,10 @@ def measured(name: str) -> bool:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", default=list(WANTED))
-    length, most, mean = straightness(hoecken())
-    print(
-        f"Hoecken's linkage over half a turn: {length:.4f} cranks, straight to {most:.2e} of it, "
-        f"{mean:.2e} in the mean"
-    )
+    for name in NAMED:
+        _, most, mean = straightness(named(name))
+        said = f"{most * STROKE:.3f} mm at most, {mean * STROKE:.3f} in the mean"
+        print(f"{name}'s linkage over {STROKE:g} mm: {said}")
     kept = [measured(name) for name in parser.parse_args().names]
     return 0 if all(kept) else 1
 

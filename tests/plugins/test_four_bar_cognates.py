@@ -67,3 +67,12 @@ def test_all_draw_the_same_points_at_the_same_time():
 def test_a_coupler_point_in_a_joint_has_no_cognate():
     bar = FourBar(40, 120, 80, 100)
     assert [one.number for one in cognates(bar, 0j, 0j, np.array([0.0, 0.5]))] == [1, 1]
+
+
+def test_hoecken_s_linkage_is_the_cognate_of_chebyshev_s():
+    chebyshev = FourBar(5, 2, 5, 4, branch=-1)
+    every = cognates(chebyshev, 0j, 1 + 0j, np.radians([40, 60, 80]))
+    turning = [one.bar for one in every if one.bar.kind.full_turn]
+    assert turning
+    for bar in turning:
+        assert bar.lengths == pytest.approx((1, 2.5, 2.5, 2), abs=1e-12)
