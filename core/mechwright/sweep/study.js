@@ -31,7 +31,7 @@
     for (let i = 0; i < count; i++) total += kept[i];
   }
 
-  // While a brush is dragged a sample is drawn; all lines follow when nothing has moved for a moment.
+  // While a brush is dragged a sample is drawn; all lines follow a moment after it is let go.
   const WHILE_DRAGGED = 2000, AT_REST = 20000, BATCH = 500, REST = 160;
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
   function sized(canvas) {
@@ -118,15 +118,20 @@
   }
 
   const told = document.getElementById("told");
-  let rest = 0;
+  let rest = 0, held = false;
   function update(dragged) {
     filter();
     const drawn = drawLines(dragged ? WHILE_DRAGGED : AT_REST);
     drawDots(dragged ? WHILE_DRAGGED : AT_REST);
     told.textContent = `${total.toLocaleString("en")} of ${count.toLocaleString("en")} designs kept` + (drawn < total ? `, ${drawn.toLocaleString("en")} of them drawn` : "");
     clearTimeout(rest);
-    if (dragged) rest = setTimeout(() => update(false), REST);
-    else table();
+    if (!dragged) table();
+    else if (!held) rest = setTimeout(() => update(false), REST);
+  }
+  // Mice send several moves for each frame: only the last of them is drawn.
+  let asked = 0;
+  function soon() {
+    asked ||= requestAnimationFrame(() => { asked = 0; update(true); });
   }
 
   const ranges = document.querySelector("#ranges tbody");
@@ -140,7 +145,7 @@
       field.setAttribute("aria-label", `${column.name} ${end === "from" ? "at least" : "at most"}`);
       field.addEventListener("input", () => {
         column[end] = field.value === "" ? (end === "from" ? -Infinity : Infinity) : Number(field.value);
-        update(true);
+        soon();
       });
       row.insertCell().append(field);
       return field;
@@ -155,9 +160,9 @@
   const within = (event, canvas) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top, box.width, box.height]; };
   function dragging(canvas, begin, move) {
     let start = null;
-    canvas.addEventListener("pointerdown", (event) => { start = begin(...within(event, canvas)); canvas.setPointerCapture(event.pointerId); });
+    canvas.addEventListener("pointerdown", (event) => { held = true; start = begin(...within(event, canvas)); canvas.setPointerCapture(event.pointerId); });
     canvas.addEventListener("pointermove", (event) => { if (start !== null) move(start, ...within(event, canvas)); });
-    const end = () => { start = null; };
+    const end = () => { if (start !== null) soon(); start = null; held = false; };
     canvas.addEventListener("pointerup", end);
     canvas.addEventListener("pointercancel", end);
   }
@@ -167,18 +172,18 @@
     let place = 0;
     columns.forEach((_, k) => { if (Math.abs(axisX(k, width) - x) < Math.abs(axisX(place, width) - x)) place = k; });
     keep(place, -Infinity, Infinity);
-    update(true);
+    soon();
     return { place, y };
   }, (start, x, y, width, height) => {
     if (Math.abs(y - start.y) < 3) return;
     const ends = [valueY(columns[start.place], start.y, height), valueY(columns[start.place], y, height)];
     keep(start.place, Math.min(...ends), Math.max(...ends));
-    update(true);
+    soon();
   });
   dragging(dots, (x, y) => {
     keep(Number(across.value), -Infinity, Infinity);
     keep(Number(up.value), -Infinity, Infinity);
-    update(true);
+    soon();
     return [x, y];
   }, (start, x, y, width, height) => {
     if (Math.hypot(x - start[0], y - start[1]) < 4) return;
@@ -186,7 +191,7 @@
     const xs = [valueX(a, start[0], width), valueX(a, x, width)], ys = [valueY(b, start[1], height), valueY(b, y, height)];
     keep(Number(across.value), Math.min(...xs), Math.max(...xs));
     if (across.value !== up.value) keep(Number(up.value), Math.min(...ys), Math.max(...ys));
-    update(true);
+    soon();
   });
 
   const ROWS = 50;
