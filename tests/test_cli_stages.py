@@ -50,7 +50,11 @@ HIDDEN = {
         {"crank": 3, "rod": 10, "offset": 1},
         "slider-crank.crank-web",
     ),
-    "no order of layers": ("slider-crank", {"crank": 30, "rod": 41, "offset": 10}, "slider-crank.layers"),
+    "no order of layers": (
+        "slider-crank",
+        {"crank": 30, "rod": 41, "offset": 10, "rail_overhang": 8},
+        "slider-crank.layers",
+    ),
     "driver of eight straight slots": (
         "geneva",
         {"law": "straight", "slots": 8, "entry_radius": 100, "driver_bore": 30},

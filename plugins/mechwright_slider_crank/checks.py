@@ -24,8 +24,9 @@ from mechwright_slider_crank.course import (
     within,
 )
 from mechwright_slider_crank.forces import balance, joint_forces
+from mechwright_slider_crank.outlines import rod_outline
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
+from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of
 from mechwright_slider_crank.sizes import sizes_of
 from mechwright_slider_crank.strength_checks import strength_findings, strength_judged
 
@@ -273,6 +274,7 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
             "crank_shape",
             str(error),
             remedy=f"{remedy}, a narrower rail, or thinner pins and walls",
+            proposed=() if params.rail_overhang is None else ({"parameters.rail_overhang": None},),
         )
 
 

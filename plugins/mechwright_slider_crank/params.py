@@ -131,6 +131,11 @@ class SliderCrankParams(Parameters):
     rail: Annotated[float, Field(ge=1, le=400), Unit("mm")] | None = Field(
         None, description="Width of the guide's rails; left out, a dowel of 0.6 pins and two walls."
     )
+    rail_overhang: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
+        None,
+        description="How far the rails go on beyond the slider's ends; left out, by their width, or until "
+        "their dowels stand outside of the crank's way where the layers need it.",
+    )
     screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
         description="Diameter of holes in the corners of the base, which then goes on legs: it reaches under "

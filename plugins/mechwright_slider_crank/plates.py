@@ -6,11 +6,23 @@ dowels into rails and base. Rod and base carry bushings.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright import GROUND, Array, Colour, GeometryError, Instance, Joint, Outline, Part, Poses, kept
+from mechwright import (
+    GROUND,
+    Array,
+    Colour,
+    GeometryError,
+    Instance,
+    Joint,
+    MechwrightError,
+    Outline,
+    Part,
+    Poses,
+    kept,
+)
 from mechwright.contracts.joint import fixed
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
@@ -21,17 +33,12 @@ from mechwright.mechanics.linkage import (
     Plate,
     Spindle,
     Stack,
-    bent_link,
     bushing_part,
     cylinder_mass,
-    disc,
-    hull_link,
     pin_part,
     plate_mass,
-    rectangle,
     stack,
     together,
-    web_link,
 )
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.standards.parts import GREY, dowel_part
@@ -44,18 +51,12 @@ from mechwright_slider_crank.base import (
     shaft_masses,
 )
 from mechwright_slider_crank.course import course_of, ends_of
-from mechwright_slider_crank.figures import Limits
+from mechwright_slider_crank.outlines import crank_outline, rails_of, rod_outline, slider_outline
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.sizes import Sizes, corner_of, sizes_of
+from mechwright_slider_crank.sizes import Sizes, clear_overhang, sizes_of
 
 TURN_SAMPLES = 361
 """Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""
-
-FILLET_SHARE = 0.6
-"""Fillet between rod and boss over the boss's radius: a smooth flow of force, and room for a cutter."""
-
-BEND_SHARE = 2.0
-"""Radius of a bent rod's middle line over its width."""
 
 MOVING = ("crank", "rod", "slider")
 """Plates that do not stand still."""
@@ -100,42 +101,6 @@ class Layout:
     heads: bool
 
 
-def crank_outline(params: SliderCrankParams) -> Outline:
-    """A disc about the pivot, or an arm; the bores are for shaft and pin, both pressed in."""
-    sizes = sizes_of(params)
-    shaft = Boss(0j, sizes.shaft / 2 + sizes.wall, sizes.shaft, "shaft")
-    pin = Boss(complex(params.crank), sizes.pin_boss, sizes.pin, "crank-pin")
-    if params.crank_shape == "disc":
-        return disc(max(params.crank + pin.radius, shaft.radius), (shaft, pin))
-    return hull_link((shaft, pin))
-
-
-def rod_outline(params: SliderCrankParams) -> Outline:
-    """Straight, waisted, bent, or ternary where the coupler point has a bore.
-
-    Raises
-    ------
-    GeometryError
-        Width or bend do not fit the bosses; the message gives the limit.
-    """
-    sizes = sizes_of(params)
-    one = Boss(0j, sizes.rod_boss, sizes.rod_bore, "crank-pin")
-    two = Boss(complex(params.rod), sizes.rod_boss, sizes.rod_bore, "wrist-pin")
-    width = params.rod_width
-    if params.coupler_bore > 0:
-        point = Boss(
-            params.coupler_point, params.coupler_bore / 2 + sizes.wall, params.coupler_bore, "coupler-point"
-        )
-        return hull_link((one, two, point))
-    if params.rod_bend:
-        elbow = complex(params.rod / 2, params.rod_bend)
-        width = sizes.rod_boss if width is None else width
-        return bent_link(one, two, elbow, width, FILLET_SHARE * sizes.rod_boss, BEND_SHARE * width)
-    if width is None:
-        return hull_link((one, two))
-    return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
-
-
 def unloaded(params: SliderCrankParams) -> SliderCrankParams:
     """The same plates, at one load and speed: what is kept of them serves all loads and speeds."""
     return params.model_copy(update={"load": 0.0, "speed": 60.0})
@@ -151,17 +116,44 @@ def layout_of(params: SliderCrankParams) -> Layout:
     KinematicsError
         The crank cannot turn.
     """
-    return _layout(unloaded(params))
+    return _layout(unloaded(params), standing_sizes(params))
+
+
+def standing_sizes(params: SliderCrankParams) -> Sizes:
+    """The sizes as they stand: the usual rails, or longer ones where only with those layers are found."""
+    return _standing_sizes(unloaded(params))
 
 
 @kept
-def _layout(params: SliderCrankParams) -> Layout:
-    sizes, ends = sizes_of(params), ends_of(params)
+def _standing_sizes(params: SliderCrankParams) -> Sizes:
+    usual = sizes_of(params)
+    if params.rail_overhang is not None or _has_layers(params, usual):
+        return usual
+    try:
+        ends = ends_of(params)
+    except MechwrightError:
+        return usual
+    low, high = sorted((ends.near_position, ends.far_position))
+    longer = replace(usual, overhang=clear_overhang(usual, params.crank, (low, high), params.clearance))
+    return longer if _has_layers(params, longer) else usual
+
+
+def _has_layers(params: SliderCrankParams, sizes: Sizes) -> bool:
+    try:
+        _layout(params, sizes)
+    except MechwrightError:
+        return False
+    return True
+
+
+@kept
+def _layout(params: SliderCrankParams, sizes: Sizes) -> Layout:
+    ends = ends_of(params)
     outlines = {"crank": crank_outline(params), "rod": rod_outline(params)}
-    outlines["slider"] = _slider_outline(sizes)
-    outlines["rail"], rails, dowels = _rails(params, sizes, ends)
+    outlines["slider"] = slider_outline(sizes)
+    outlines["rail"], rails, dowels = rails_of(params, sizes, ends)
     rim = rim_of(sizes, outlines["rail"], rails)
-    poses = body_poses(params, course_of(params).way(TURN_SAMPLES))
+    poses = _link_poses(params, course_of(params).way(TURN_SAMPLES))
     screws: tuple[complex, ...] = ()
     if params.screw_hole is not None:
         still = seen_from_base(params, poses)
@@ -180,43 +172,19 @@ def _layout(params: SliderCrankParams) -> Layout:
     raise AssertionError("the loop returns or raises")
 
 
-def _slider_outline(sizes: Sizes) -> Outline:
-    half = complex(sizes.slider_length, sizes.slider_width) / 2
-    return rectangle(-half, half, _corner(half), (Boss(0j, 0, sizes.pin, "wrist-pin"),))
-
-
-def _corner(half: complex) -> float:
-    """The corner radius, smaller on what is small."""
-    return float(corner_of(half.real, half.imag))
-
-
-def _rails(
-    params: SliderCrankParams, sizes: Sizes, ends: Limits
-) -> tuple[Outline, tuple[complex, complex], tuple[complex, ...]]:
-    """A rail in its own coordinates (origin in its middle), both places, and the dowels in the base."""
-    low, high = sorted((ends.near_position, ends.far_position))
-    # The slider stays on the rails for its whole stroke; the dowels stand beyond its ends.
-    half = (high - low + sizes.slider_length) / 2 + sizes.rail
-    apart = sizes.slider_width / 2 + params.play + sizes.rail / 2
-    middle = complex((low + high) / 2, params.offset)
-    dowel = half - sizes.rail / 2
-    corner = complex(half, sizes.rail / 2)
-    holes = tuple(Boss(complex(x), 0, sizes.dowel, "dowel") for x in (-dowel, dowel))
-    outline = rectangle(-corner, corner, _corner(corner), holes)
-    places = (middle - 1j * apart, middle + 1j * apart)
-    return outline, places, tuple(place + hole.centre for place in places for hole in holes)
-
-
 def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[Plate]:
     return [Plate(name, name, outlines[name], params.thickness) for name in MOVING]
 
 
 def standing(params: SliderCrankParams) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
-    """Plates but the base, spindles without heads, poses, and the clearance that they keep."""
+    """Plates but the base, spindles without heads, poses, and the clearance that they keep.
+
+    Rails go on as far as the design says, or by their width.
+    """
     sizes = sizes_of(params)
-    outlines = {"crank": crank_outline(params), "rod": rod_outline(params), "slider": _slider_outline(sizes)}
-    outlines["rail"], rails, dowels = _rails(params, sizes, ends_of(params))
-    poses = body_poses(params, course_of(params).way(TURN_SAMPLES))
+    outlines = {"crank": crank_outline(params), "rod": rod_outline(params), "slider": slider_outline(sizes)}
+    outlines["rail"], rails, dowels = rails_of(params, sizes, ends_of(params))
+    poses = _link_poses(params, course_of(params).way(TURN_SAMPLES))
     spindles = _spindles(params, sizes, dowels, heads=False)
     return _above(params, outlines, rails), spindles, poses, params.clearance
 
@@ -258,7 +226,7 @@ def _stack(
     return stack(
         [base, *_above(params, outlines, rails)],
         _spindles(params, sizes, dowels, heads=heads),
-        body_poses(params, course_of(params).way(TURN_SAMPLES)),
+        _link_poses(params, course_of(params).way(TURN_SAMPLES)),
         params.clearance,
         params.gap,
         neighbours=(("rail-1", "slider"), ("rail-2", "slider")),
@@ -268,22 +236,31 @@ def _stack(
 
 def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
     """Poses of all bodies at crank angles (n,), rad, and of the copies of parts that are fixed in them."""
-    bodies, sizes = params.linkage.bodies(phi), sizes_of(params)
-    base = BodyMotion.about(0j, Turning.of(np.full(phi.shape, params.linkage.direction)))
-    _, rails, dowels = _rails(params, sizes, ends_of(params))
+    bodies, base = params.linkage.bodies(phi), _standing(params, phi)
+    _, rails, dowels = rails_of(params, standing_sizes(params), ends_of(params))
     fixed = {f"rail-{number}": (base, place) for number, place in enumerate(rails, start=1)}
     fixed |= {f"dowel-{number}": (base, place) for number, place in enumerate(dowels, start=1)}
     fixed["crank-pin"] = (bodies.crank, complex(params.crank))
     fixed["rod-end"] = (bodies.rod, complex(params.rod))
-    poses = {
-        "base": base.poses(),
+    poses = _link_poses(params, phi)
+    for name, (body, place) in fixed.items():
+        poses[name] = BodyMotion(body.point(place), body.turning).poses()
+    return poses
+
+
+def _link_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
+    """Poses of base, crank, rod and slider alone."""
+    bodies = params.linkage.bodies(phi)
+    return {
+        "base": _standing(params, phi).poses(),
         "crank": bodies.crank.poses(),
         "rod": bodies.rod.poses(),
         "slider": bodies.slider.poses(),
     }
-    for name, (body, place) in fixed.items():
-        poses[name] = BodyMotion(body.point(place), body.turning).poses()
-    return poses
+
+
+def _standing(params: SliderCrankParams, phi: Array) -> BodyMotion:
+    return BodyMotion.about(0j, Turning.of(np.full(phi.shape, params.linkage.direction)))
 
 
 def seen_from_base(params: SliderCrankParams, poses: Mapping[str, Poses]) -> dict[str, Poses]:

@@ -8,6 +8,7 @@ and so never share one. Heads of pins forbid nothing: without room for them pins
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ from mechwright_slider_crank.room_kernels import (
     WRIST_CRANK,
     WRIST_RAIL,
 )
-from mechwright_slider_crank.sizes import Sizes, corner_of
+from mechwright_slider_crank.sizes import Sizes, clear_overhang, corner_of
 
 Bools = NDArray[np.bool_]
 
@@ -83,23 +84,43 @@ def forbid_layers(found: Answer, designs: Designs, many: Cranks, sizes: Sizes) -
     if not left.size:
         return
     chosen = designs.some(left)
-    few = Sizes(*(_at(getattr(sizes, name), left) for name in Sizes.__dataclass_fields__))
+    few = _some(sizes, left)
     cranks = many.some(left)
-    blocked, free = bounds_of(chosen, cranks, few, rods=False)
-    stuck, stands = decided(blocked, free)
-    if (open_ := np.flatnonzero(~stuck & ~stands)).size:
-        fewer = Sizes(*(_at(getattr(few, name), open_) for name in Sizes.__dataclass_fields__))
-        blocked[open_], free[open_] = bounds_of(chosen.some(open_), cranks.some(open_), fewer, rods=True)
-        stuck, stands = decided(blocked, free)
-    for place in np.flatnonzero(~stuck & ~stands):
-        measure(chosen, int(place), blocked, free)
-        one = slice(place, place + 1)
-        stuck[one], stands[one] = decided(blocked[one], free[one])
+    stuck, stands = _judged(chosen, cranks, few)
+    again = np.flatnonzero(stuck)
+    if again.size and "rail_overhang" not in designs.varied and designs.common.rail_overhang is None:
+        # What finds no layers has longer rails where it finds some with them.
+        fewer, slid = _some(few, again), cranks.some(again)
+        low, high = np.sort(np.stack([slid.ends.near_position, slid.ends.far_position]), axis=0)
+        others = chosen.some(again)
+        crank, clearance = slid.bars[:, 0], others.full("clearance")
+        longer = replace(fewer, overhang=clear_overhang(fewer, crank, (low, high), clearance))
+        stuck[again], stands[again] = _judged(others, slid, longer)
     found.forbid("slider-crank.layers", stuck, left)
     found.doubt(~stuck & ~stands, left)
 
 
-def _at(value: Any, places: NDArray[np.intp]) -> Any:
+def _judged(designs: Designs, many: Cranks, sizes: Sizes) -> tuple[Bools, Bools]:
+    """Which designs (n,) find no layers, and which do: by bounds, or where those leave it open by measure."""
+    many.ends  # noqa: B018 - found once for all
+    blocked, free = bounds_of(designs, many, sizes, rods=False)
+    stuck, stands = decided(blocked, free)
+    if (open_ := np.flatnonzero(~stuck & ~stands)).size:
+        fewer = _some(sizes, open_)
+        blocked[open_], free[open_] = bounds_of(designs.some(open_), many.some(open_), fewer, rods=True)
+        stuck, stands = decided(blocked, free)
+    for place in np.flatnonzero(~stuck & ~stands):
+        measure(designs, int(place), _at(sizes.overhang, int(place)), blocked, free)
+        one = slice(place, place + 1)
+        stuck[one], stands[one] = decided(blocked[one], free[one])
+    return stuck, stands
+
+
+def _some(sizes: Sizes, places: NDArray[np.intp]) -> Sizes:
+    return Sizes(*(_at(getattr(sizes, name), places) for name in Sizes.__dataclass_fields__))
+
+
+def _at(value: Any, places: NDArray[np.intp] | int) -> Any:
     return value[places] if isinstance(value, np.ndarray) else value
 
 
@@ -107,7 +128,7 @@ def bounds_of(designs: Designs, many: Cranks, sizes: Sizes, *, rods: bool) -> tu
     """Which rooms (n, ROOMS) are certainly too small, and which are certainly large enough."""
     count = len(designs)
     low, high = np.sort(np.stack([many.ends.near_position, many.ends.far_position]), axis=0)
-    rail = (high - low + sizes.slider_length) / 2 + sizes.rail
+    rail = (high - low + sizes.slider_length) / 2 + sizes.overhang
     apart = sizes.slider_width / 2 + designs["play"] + sizes.rail / 2
     long, wide, thick = sizes.slider_length / 2, sizes.slider_width / 2, sizes.rail / 2
     disc = np.maximum(many.bars[:, 0] + sizes.pin_boss, sizes.shaft / 2 + sizes.wall)
@@ -149,9 +170,10 @@ _MEASURED: Mapping[int, tuple[str, str]] = {
 }  # fmt: skip
 
 
-def measure(designs: Designs, place: int, blocked: Bools, free: Bools) -> None:
-    """Measure the rooms of a design that bounds leave open, as its layers are found."""
+def measure(designs: Designs, place: int, overhang: float, blocked: Bools, free: Bools) -> None:
+    """Measure the rooms of a design that bounds leave open, as its layers are found with such rails."""
     changes = {name: values[place].item() for name, values in designs.varied.items()}
+    changes["rail_overhang"] = float(overhang)
     plates, spindles, poses, clearance = standing(designs.common.model_copy(update=changes))
     close = Closeness(plates, spindles, poses, clearance)
     for room in np.flatnonzero(~blocked[place] & ~free[place]).tolist():

@@ -19,6 +19,8 @@ WALL_SHARE = 0.5
 """Wall around a bore over the pin's diameter: the least for pressed joints in aluminium."""
 DOWEL_SHARE = 0.6
 """Diameter of the rails' dowels over that of the joint pins: there are four, and they hardly move."""
+SPARE = 0.2
+"""mm by which dowels stand farther out than they need to: curves are judged as polygons."""
 LEAST_WALL = 2.0
 """mm, so that the wall of a small bore survives clamping."""
 LEAST_DOWEL = 1.5
@@ -42,6 +44,7 @@ class Sizes:
     slider_length: float
     slider_width: float
     rail: float
+    overhang: float
 
     @property
     def dowel(self) -> float:
@@ -95,7 +98,8 @@ def _whole(value: Any) -> Any:
 
 
 def _larger(one: Any, two: Any) -> Any:
-    return np.maximum(one, two) if isinstance(two, np.ndarray) else max(one, two)
+    arrays = isinstance(one, np.ndarray) or isinstance(two, np.ndarray)
+    return np.maximum(one, two) if arrays else max(one, two)
 
 
 def _smaller(one: Any, two: Any) -> Any:
@@ -124,6 +128,7 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
     pin = given("pin", _smaller(_larger(least, _whole(PIN_SHARE * table("crank"))), most))
     wall = given("wall", _larger(LEAST_WALL, WALL_SHARE * pin))
     width = given("slider_width", pin + 4 * wall)
+    rail = given("rail", dowel_of(pin) + 2 * wall)
     return Sizes(
         pin,
         given("shaft", SHAFT_SHARE * pin),
@@ -131,5 +136,18 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
         table("bushing"),
         given("slider_length", 1.5 * width),
         width,
-        given("rail", dowel_of(pin) + 2 * wall),
+        rail,
+        given("rail_overhang", rail),
     )
+
+
+def clear_overhang(sizes: Sizes, crank: Any, ends: tuple[Any, Any], clearance: Any) -> Any:
+    """How far rails go on, mm, whose dowels stand outside of all that crank and rod sweep about the pivot.
+
+    ``ends`` are the slider's positions at the ends of its stroke, the lower one first.
+    """
+    low, high = ends
+    swept = _larger(crank + _larger(sizes.pin_boss, sizes.rod_boss), sizes.shaft / 2 + sizes.wall)
+    dowel = abs(low + high) / 2 + swept + sizes.spacer + clearance + SPARE
+    needed = dowel + sizes.rail / 2 - (high - low + sizes.slider_length) / 2
+    return _larger(sizes.rail, 1.0 * _whole(needed + 0.5))

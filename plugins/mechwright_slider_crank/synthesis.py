@@ -26,15 +26,12 @@ Design = SliderCrankParams
 _PIN_SHARES = (1.0, 0.75, 0.5)
 """Pins that are tried, over the usual ones: where the parts are in each other's way, slender ones may do."""
 
-_RAIL_SHARES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
-"""Rails that are tried, over the usual ones: the dowels of wide ones stand outside a small crank's way."""
-
 LEAST_PIN = 1.5
 """mm, the thinnest pin that a synthesis chooses by itself."""
 
 
 def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
-    """The first design of these lengths without an error: usual rails, stout pins, a disc before an arm.
+    """The first design of these lengths without an error: stout pins first, a disc before an arm.
 
     Without one, the text says why.
     """
@@ -44,13 +41,9 @@ def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
         first = error.errors(include_url=False)[0]
         return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
     sizes, why = sizes_of(usual), ""
-    for wider, share, shape in product(_RAIL_SHARES, _PIN_SHARES, ("disc", "arm")):
+    for share, shape in product(_PIN_SHARES, ("disc", "arm")):
         thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * sizes.pin, 1))}
-        wide = {} if wider == 1 else {"rail": round(wider * sizes.rail, 1)}
-        try:
-            params = Design.model_validate({**lengths, **thinner, **wide, "crank_shape": shape})
-        except ValidationError:
-            continue  # a rail wider than there is
+        params = Design.model_validate({**lengths, **thinner, "crank_shape": shape})
         found = errors(findings(params))
         if not found:
             return params, ""

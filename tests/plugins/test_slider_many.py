@@ -31,11 +31,12 @@ FIGURES = [
 ]  # fmt: skip
 
 
-def test_layers_and_figures():
-    found = MANY.same(
-        MANY.drawn(14, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40)), SLIDER + FIGURES, Stage.PARTS
-    )
-    assert "slider-crank.layers" in found.counts
+@pytest.mark.parametrize("content", [{}, {"rail_overhang": 12}])
+def test_layers_and_figures(content):
+    """Rails are longer where the layers need it, or as long as they are said to be."""
+    batch = MANY.drawn(14, content, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
+    found = MANY.same(batch, SLIDER + FIGURES, Stage.PARTS)
+    assert ("slider-crank.layers" in found.counts) == bool(content)
     assert not MANY.alone
 
 

@@ -11,10 +11,11 @@ from mechwright.contracts.motion import Poses
 from mechwright.errors import DesignError
 from mechwright_cad.interference import interference
 from mechwright_slider_crank.checks import findings
+from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.figures import limits
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import layout_of, masses_of, parts_of
+from mechwright_slider_crank.plates import body_poses, layout_of, masses_of, parts_of, standing_sizes
 from mechwright_slider_crank.sizes import sizes_of
 
 DESIGNS = (
@@ -140,7 +141,7 @@ def test_masses_are_those_of_the_solids(design):
         ({"rail": 2}, "slider-crank.rail-web", "rail"),
         ({"rod_bend": 60}, "slider-crank.rod-bend", "rod_bend"),
         ({"rod_width": 30}, "slider-crank.rod-shape", "rod_width"),
-        ({"crank": 52, "rod": 113, "offset": 50}, "slider-crank.layers", "crank_shape"),
+        ({"crank": 52, "rod": 113, "offset": 50, "rail_overhang": 20}, "slider-crank.layers", "crank_shape"),
     ],
 )
 def test_what_cannot_be_built_is_named(table, code, parameter):
@@ -195,3 +196,36 @@ def test_turning_clockwise_runs_the_film_backwards():
     np.testing.assert_allclose(two.channels["s"].values, one.channels["s"].values[::-1], atol=1e-9)
     np.testing.assert_allclose(two.channels["v"].values, -one.channels["v"].values[::-1], atol=1e-7)
     assert two.channels["phi"].values[-1] == pytest.approx(-math.tau)
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"crank": 30, "rod": 50, "offset": 0},
+        {"crank": 30, "rod": 41, "offset": 10},
+        {"crank": 5, "rod": 15, "offset": 0},
+        {"crank": 30, "rod": 60, "assembly": "behind", "slide_direction": 70},
+        {"crank": 30, "rod": 50, "offset": 0, "pin": 6, "coupler_bore": 5, "coupler_y": 12},
+    ],
+)
+def test_rails_are_longer_where_only_that_leaves_layers(table):
+    """Their dowels stand outside of crank and rod over the whole turn; with usual rails there are no layers."""
+    params = SliderCrankParams(**table)
+    layout = layout_of(params)
+    assert errors(findings(params)) == []
+    assert layout.sizes == standing_sizes(params)
+    assert layout.sizes.overhang > layout.sizes.rail
+    short = params.model_copy(update={"rail_overhang": layout.sizes.rail})
+    assert [one.code for one in errors(findings(short))] == ["slider-crank.layers"]
+    said = params.model_copy(update={"rail_overhang": layout.sizes.overhang})
+    assert layout_of(said).outlines["rail"].bounds == layout.outlines["rail"].bounds
+    poses = body_poses(params, course_of(params).way(181))
+    assert poses["dowel-1"].position[0] == pytest.approx(
+        body_poses(said, course_of(said).way(181))["dowel-1"].position[0]
+    )
+
+
+def test_usual_rails_stay_as_they_are():
+    layout = layout_of(SliderCrankParams())
+    assert layout.sizes.overhang == layout.sizes.rail
+    assert layout.sizes == sizes_of(SliderCrankParams())
