@@ -94,7 +94,7 @@ def test_a_law_that_cannot_run_is_told_with_the_nearest_that_can_be_built(
 ) -> None:
     """The last of what is proposed leaves no error at all, and keeps a change of ratio."""
     params = NoncircularParams.model_validate({**table, "bore": 4})
-    wrong = errors(FAMILY.judge(params), Stage.PARTS)[0]
+    wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code == code
     own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[-1].items()}
     near = NoncircularParams.model_validate({**params.model_dump(), **own})
@@ -106,7 +106,7 @@ def test_a_law_that_cannot_run_is_told_with_the_nearest_that_can_be_built(
 def test_the_fit_of_a_formula_with_a_corner_is_near_it() -> None:
     """Away from the corner the harmonics are within a hundredth of the ratio that was asked for."""
     asked = NoncircularParams.model_validate({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)", "bore": 4})
-    own = errors(FAMILY.judge(asked))[0].proposed[-1]
+    own = errors(FAMILY.check(asked))[0].proposed[-1]
     fields = {key.removeprefix("parameters."): value for key, value in own.items()}
     near = NoncircularParams.model_validate({**asked.model_dump(), **fields})
     phi = np.linspace(0.5, math.pi - 0.5, 41)
