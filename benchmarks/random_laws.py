@@ -123,6 +123,7 @@ def _refused(params: NoncircularParams, code: str, changes: object) -> str:
             return f"refused, {first}, with the change to a law that works" + (
                 "" if count == 1 else ", in steps"
             )
+        bad = errors(FAMILY.check(mended), Stage.PARTS)  # which tells more of what helps
         now, code, changes = mended, bad[0].code, bad[0].proposed
     return f"refused, {first}, and still {code} after {count} changes"
 

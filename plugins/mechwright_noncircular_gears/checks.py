@@ -58,7 +58,8 @@ ON_AXIS = 0.0005
 @kept
 def findings(params: NoncircularParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    return until_error(params, _law, _of_the_parts, _of_the_mesh, _backlash)
+    found = until_error(params, law_findings, _of_the_parts, _of_the_mesh, _backlash)
+    return tuple(cured(params, one, _makes_gears) for one in found)
 
 
 @kept
@@ -70,11 +71,6 @@ def standing(params: NoncircularParams) -> tuple[Finding, ...]:
 def judged(params: NoncircularParams) -> tuple[Finding, ...]:
     """The same without the mesh proof, and without advice."""
     return until_error(params, *_UNADVISED, _of_the_load, _backlash)
-
-
-def _law(params: NoncircularParams) -> Iterator[Finding]:
-    for finding in law_findings(params):
-        yield cured(params, finding, _makes_gears)
 
 
 def _makes_gears(params: NoncircularParams) -> bool:

@@ -22,6 +22,9 @@ from mechwright_noncircular_gears.softer import nearest, said
 HARMONICS = 8
 """Of a formula with a corner: more bend the pitch curve more than teeth bear."""
 
+SOFTER = ("law.turns-back", "law.ring", "gear.convexity", "gear.undercut")
+"""Findings that a softer law of the same kind does not have."""
+
 PLACES = 512
 """Of a lobe, in the middle between which lie both ends of it."""
 
@@ -32,8 +35,8 @@ Works = Callable[[NoncircularParams], bool]
 
 
 def cured(params: NoncircularParams, finding: Finding, works: Works) -> Finding:
-    """A finding of the law with the nearest law of which gears can be made as its last proposal."""
-    if finding.code in {"law.turns-back", "law.ring"}:
+    """A finding that is the law's with the nearest law of which gears can be made as its last proposal."""
+    if finding.code in SOFTER:
         fields = nearest(params, works, STEPS)
     elif finding.code in {"law.corner", "law.formula"} and params.sector is None:
         fields = _smooth(params, works)

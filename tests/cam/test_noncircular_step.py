@@ -1,4 +1,4 @@
-"""Non-circular pairs from their STEP files: the exact motion to 5 µrad."""
+"""Non-circular pairs from their STEP files, all examples among them: the exact motion to 5 µrad."""
 
 import sys
 from pathlib import Path
@@ -6,9 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_night import by_night
+from by_night import NIGHT, by_night
 from step_read import read_step_outline
 
+from mechwright import host
+from mechwright.designs.design import load
+from mechwright.mechanics.chain import ChainParams
 from mechwright_cad.exporters import StepExporter
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import parts_of
@@ -27,10 +30,33 @@ CHORDS = 2.5e-5
 """Chord error, mm: coarser chords turn the gears by microradians of their own."""
 
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+FILES = sorted(
+    one
+    for one in (*EXAMPLES.glob("noncircular-*.toml"), *EXAMPLES.glob("chains/*.toml"))
+    if "requirement" not in one.stem
+)
+
+
+def pairs():
+    """Each pair of the reference, of sectors, and of the examples, those in chains as well."""
+    for name in SOUND:
+        yield name, NoncircularParams.model_validate({"bore": 8, **{**TABLES, **SECTORS}[name]})
+    for path in FILES:
+        params = load(path, host()).params
+        stages = [one.parameters for one in params.stage] if isinstance(params, ChainParams) else [params]
+        for number, one in enumerate(stages, start=1):
+            if isinstance(one, NoncircularParams):
+                yield f"{path.stem}-{number}", one
+
+
+PAIRS = dict(pairs()) if NIGHT else {}
+
+
 @by_night
-@pytest.mark.parametrize("name", SOUND)
+@pytest.mark.parametrize("name", PAIRS)
 def test_transmission_error_of_the_file(name):
-    params = NoncircularParams.model_validate({"bore": 8, **{**TABLES, **SECTORS}[name]})
+    params = PAIRS[name]
     one, two = (read_step_outline(StepExporter().part(part), CHORDS)[0] for part in parts_of(params))
     wall = (
         max(two.interiors, key=lambda hole: shapely.Polygon(hole).area) if params.internal else two.exterior
@@ -38,4 +64,4 @@ def test_transmission_error_of_the_file(name):
     outlines = [np.asarray(ring.coords)[:-1] for ring in (one.exterior, wall)]
     proof = prove_outlines(params, *outlines, 1e-3)
     assert not proof.collides
-    assert proof.error < 5e-6
+    assert proof.error < 5e-6, proof.error
