@@ -1,5 +1,6 @@
 """How deep finishing passes are: no more is taken at once than from a slot."""
 
+import math
 import re
 
 import pytest
@@ -7,9 +8,10 @@ from by_control import posted, prove
 from by_night import thinned
 from planning_parts import LIBRARY, job, plate, rounded_box
 
+from mechwright.contracts.materials import material
 from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright_cam.operations.bending import MOST, wall_bending
 from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 FEATURES = {
@@ -22,7 +24,7 @@ FEATURES = {
     ("name", "finish", "way"), thinned(3, [*FEATURES], [(0.05, 1), (0.2, 1), (0.5, 2)], ["computer", "wear"])
 )
 def test_the_more_is_left_the_less_deep_is_a_pass(name: str, finish: tuple[float, int], way: str) -> None:
-    """mill-2 takes up to 4 mm, and in aluminium 2 mm² of 0.1 mm more than what is left."""
+    """mill-2 takes up to 4 mm, and in aluminium 1.2 mm² of what is left: as much as of a slot."""
     leave, passes = finish
     settings = {"compensation": way, "spring_passes": 0, "stock_to_leave": leave, "floor_to_leave": 0.0}
     one = job(plate(machined=(FEATURES[name], OUTSIDE)), "mill-2", **settings)
@@ -35,5 +37,46 @@ def test_the_more_is_left_the_less_deep_is_a_pass(name: str, finish: tuple[float
 
 def test_a_finish_step_below_that_is_kept() -> None:
     mill = LIBRARY.get("mill-6")
-    assert finish_depth(CamSettings(finish_step=0.5), mill, "aluminium") == 3.0
-    assert finish_depth(CamSettings(finish_step=10, stock_to_leave=0.5), mill, "steel") < 60
+    assert finish_depth(job(plate(), finish_step=0.5), mill, 12.0, 12.0) == 3.0
+    thick = job(plate(material="steel"), finish_step=10, stock_to_leave=0.5)
+    assert finish_depth(thick, mill, 60.0, 60.0) < 60
+
+
+@pytest.mark.parametrize(
+    ("name", "stuff", "high", "passes"),
+    [
+        ("mill-3", "aluminium", 10.3, 1),  # it bends 0.017 mm off the wall, and as much in the lower of two
+        ("mill-3", "steel", 15.3, 3),
+        ("mill-1.6", "aluminium", 10.3, 4),  # slender: passes of 2 diameters
+        ("mill-6", "aluminium", 10.3, 1),
+    ],
+)
+def test_a_wall_is_finished_in_one_depth_where_the_mill_bears_that(
+    name: str, stuff: str, high: float, passes: int
+) -> None:
+    of, mill = job(plate(material=stuff, thickness=10.0)), LIBRARY.get(name)
+    step = finish_depth(of, mill, high, high)
+    assert math.ceil(high / step - 1e-9) == passes
+    if passes == 1:
+        assert wall_bending(of, mill, high, step) <= MOST
+        # Half as deep it would bend nearly as much: the load is nearer to its end.
+        assert wall_bending(of, mill, high, high / 2) > 0.5 * wall_bending(of, mill, high, high)
+
+
+def test_a_slender_mill_bends_no_more_in_a_deeper_finishing_pass() -> None:
+    """Within a turn of its helix each tooth is in the allowance over the same length."""
+    of, mill = job(plate()), LIBRARY.get("mill-1.6")
+    assert wall_bending(of, mill, 10.3, 3.4) < wall_bending(of, mill, 10.3, 2.6)
+
+
+def test_bending_off_a_wall_is_that_of_a_rod_under_a_load_along_its_end() -> None:
+    """A load all along a rod bends its end 3/8 as much as the same at the end."""
+    of, mill = job(plate()), LIBRARY.get("mill-3")
+    rod = mill.model_copy(update={"stick_out": 12.0, "flute_length": 12.0})
+    stuff, data = material("aluminium"), mill.cutting["aluminium"]
+    angle = math.acos(1 - 0.2 / 1.5)
+    chip = data.chip_load * min(1 / math.sin(angle), 2.0) * math.sqrt(0.2 / 3)
+    engaged = max(1.5 * angle / math.tan(math.radians(30)), 12.0 * 3 * angle / math.tau)
+    force = 0.5 * stuff.force * chip ** (1 - stuff.force_exponent) * engaged
+    inertia = math.pi * (0.75 * 3) ** 4 / 64
+    assert wall_bending(of, rod, 12.0, 12.0) == pytest.approx(3 / 8 * force * 12**3 / (3 * 6e5 * inertia))

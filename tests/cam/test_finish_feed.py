@@ -30,15 +30,15 @@ def moves(program, name):
 
 
 def test_walls_are_finished_with_chips_as_thick_as_planned() -> None:
-    """0.3 mm of a mill of 6: the engagement is 25.8 degrees, and chips are thinner than half."""
+    """0.2 mm of a mill of 6: the engagement is 21 degrees, and chips are thinner than half."""
     wall = plate()
     plain, raised = (plan(job(wall, "mill-6", chip_thinning=thin)) for thin in (False, True))
     slow, fast = (along(program, "outside: finish") for program in (plain, raised))
     assert max(fast) == pytest.approx(2 * max(slow), rel=1e-3)
     settings = CamSettings()
     assert finish_engagement(settings, 3.0) == math.pi / 6
-    assert finish_engagement(settings, 1.0) == pytest.approx(math.acos(0.7))
-    assert finish_engagement(settings, 0.25) == math.pi / 2
+    assert finish_engagement(settings, 1.0) == pytest.approx(math.acos(0.8))
+    assert finish_engagement(settings, 0.2) == math.pi / 2
     assert finish_engagement(settings, 1.0, inside=3.0) > finish_engagement(settings, 1.0)
 
 
@@ -52,7 +52,7 @@ def test_moves_whose_chips_are_too_thick_are_slowed_down() -> None:
     program, _, scene = posted(fast, of, control)
     gentler = slowed(program, scene)
     assert gentler is not None
-    assert max(feeds(gentler, "outside: rough")[1:]) <= 1.3 * max(feeds(plain, "outside: rough"))
+    assert max(feeds(gentler, "outside: rough")[1:]) <= 1.4 * max(feeds(plain, "outside: rough"))
     assert feeds(gentler, "outside: finish") == feeds(plain, "outside: finish")
 
 

@@ -76,4 +76,4 @@ def test_a_change_that_takes_long_makes_ladders_shorter() -> None:
         for change in (0, 600)
     }
     assert mills[0] == ["mill-6", "mill-2.5", "mill-2"]
-    assert mills[600] == ["mill-2.5", "mill-2"]
+    assert mills[600] == ["mill-2"]

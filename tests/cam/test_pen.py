@@ -65,7 +65,7 @@ class Cuts:
 
     def __init__(self, **taken: float) -> None:
         self.taken, self.ran, self.left = taken, [], 100.0
-        self.steps = SimpleNamespace(step_down=lambda mill: 1.0)
+        self.steps = SimpleNamespace(step_down=lambda mill, to_size=False: 1.0)
         self.stock = None
 
     def _heavy(self, _):

@@ -74,7 +74,8 @@ def test_named_tools_are_exactly_those():
 
 def test_choice_by_corners_and_thickness():
     assert names(plate()) == ["mill-6"]
-    assert names(plate(bore(12))) == ["spot-6", "drill-10", "mill-6"]
+    assert names(plate(bore(12))) == ["mill-6"]
+    assert names(plate(bore(12), material="steel")) == ["spot-6", "drill-10", "mill-6"]
     small = part(lobes(9, 18.0, 4.0, 900, 1.5), bore(8))
     chosen = choose_tools(small, CamSettings(), LIBRARY)
     assert all(t.flute_length >= 6.3 for t in chosen if t.kind is ToolKind.END_MILL)
@@ -194,8 +195,8 @@ def test_a_mill_too_wide_for_the_frame_is_not_used():
 @pytest.mark.parametrize(
     ("material", "slowest", "expected"),
     [
-        ("aluminium", 100, ["spot-6", "drill-6", "mill-6", "mill-5"]),
-        ("aluminium", 5000, ["spot-6", "drill-4", "mill-6", "mill-5"]),  # 70 m/min: up to 4.5 mm
+        ("aluminium", 100, ["mill-6", "mill-5"]),
+        ("aluminium", 5000, ["mill-6", "mill-5"]),
         ("steel", 5000, ["mill-5"]),  # 90 m/min: mills up to 5.7 mm, drills of 28 m/min up to 1.8 mm
     ],
 )

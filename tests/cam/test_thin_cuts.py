@@ -1,6 +1,7 @@
 """Rest roughing is fed faster where chips are thin, and nowhere else."""
 
 import math
+from itertools import pairwise
 
 import pytest
 import shapely
@@ -8,7 +9,7 @@ from by_control import posted, prove
 from planning_parts import bore, job, lobes, part
 
 from mechwright_cam.operations.pen import AIR
-from mechwright_cam.operations.thin_cuts import stretches
+from mechwright_cam.operations.thin_cuts import SHARES, stretches
 from mechwright_cam.plane.path import polyline
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Feed, FeedArc
@@ -22,22 +23,25 @@ def beside(width, start=-50.0):
     return shapely.box(start, -50, 50, width - RADIUS)
 
 
-@pytest.mark.parametrize(("degrees", "thin"), [(0, True), (15, True), (25, True), (35, False), (90, False)])
-def test_chips_are_thin_up_to_half_a_right_angle_s_sine(degrees, thin):
+@pytest.mark.parametrize(
+    ("degrees", "share"), [(0, 3.0), (15, 3.0), (25, 2.0), (35, 1.5), (50, 1.25), (90, 1.0)]
+)
+def test_the_thinner_the_chips_the_faster_the_feed(degrees, share):
     """Width of cut r (1 - cos φ): chips of sin φ feeds per tooth."""
     width = RADIUS * (1 - math.cos(math.radians(degrees)))
     (parts,) = stretches([LINE], beside(width), RADIUS)
-    assert [one for _, one in parts] == [thin]
+    assert [one for _, one in parts] == [share]
     assert parts[0][0] == LINE
 
 
 def test_a_path_is_divided_where_its_cut_becomes_thick():
     stock = beside(0.1).union(beside(RADIUS, 10.0))
     (parts,) = stretches([LINE], stock, RADIUS)
-    (first, thin), (second, thick) = parts
-    assert (thin, thick) == (True, False)
-    assert first + second == LINE or (first.start, second.end) == (LINE.start, LINE.end)
-    assert first.end == second.start
+    (first, thin), *_, (last, thick) = parts
+    assert (thin, thick) == (2.0, 1.0)
+    assert (first.start, last.end) == (LINE.start, LINE.end)
+    assert all(one.end == other.start for (one, _), (other, _) in pairwise(parts))
+    assert [share for _, share in parts] == sorted((share for _, share in parts), reverse=True)
     # The rim comes to the thick stock a radius before the centre does.
     assert 10 - 2 * RADIUS < first.end[0] <= 10 - RADIUS * math.cos(math.radians(30)) + 1e-6
 
@@ -45,8 +49,8 @@ def test_a_path_is_divided_where_its_cut_becomes_thick():
 def test_what_a_path_took_is_no_stock_for_the_next():
     back = LINE.reversed()
     first, second = stretches([LINE, back], beside(RADIUS), RADIUS)
-    assert [one for _, one in first] == [False]
-    assert [one for _, one in second] == [True]
+    assert [one for _, one in first] == [1.0]
+    assert [one for _, one in second] == [AIR]
 
 
 def rests(of):
@@ -60,8 +64,26 @@ def test_gaps_between_teeth_are_left_faster_than_entered():
     toothed = part(lobes(9, 15.0, 4.0, 900, 1.5), bore(8))
     of = job(toothed, "mill-8", "mill-3")
     slow = min(move.feed for move in rests(of))
-    assert all(m.feed == pytest.approx(slow) or m.feed == pytest.approx(AIR * slow) for m in rests(of))
+    assert {round(m.feed / slow, 2) for m in rests(of)} <= {1.0, *SHARES}
     fast = sum(move.feed > slow for move in rests(of))
     plain = rests(job(toothed, "mill-8", "mill-3", chip_thinning=False))
-    assert fast > sum(move.feed > slow for move in plain) > 0
+    assert fast > sum(move.feed > slow for move in plain)
     prove(posted(of), of).require()
+
+
+def test_a_gap_is_cut_to_and_fro():
+    """A level each way, without a way back through the air: every other pass begins where the last one ended."""
+    toothed = part(lobes(9, 15.0, 4.0, 900, 1.5), bore(8), thickness=10.0)
+    of = job(toothed, "mill-8", "mill-3")
+    every = [o for s in plan(of).sections for o in s.operations if o.name == "outside: rough the rest"]
+    places, here, levels = [], None, []
+    for move in every[0].moves:
+        if isinstance(move, Feed) and move.x is None and move.z is not None and move.z < 0:
+            levels.append((here, move.z))
+        if getattr(move, "x", None) is not None:
+            here = move.x, move.y
+    for (one, above), (two, below), (three, _) in zip(levels, levels[1:], levels[2:], strict=False):
+        if below < above and one == three:
+            places.append((one, two))
+    assert len(places) >= 9
+    assert all(one != two for one, two in places)

@@ -15,7 +15,12 @@ from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
-from mechwright_cam.operations.finishing import cut_width, finish_engagement, finish_heights
+from mechwright_cam.operations.finishing import (
+    FINISH_STEP,
+    cut_width,
+    finish_engagement,
+    finish_heights,
+)
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
@@ -229,7 +234,7 @@ def rough_bore(
         pen.helix(turn, free, -bore.top, bottom + leave, step_down, feed)
         pen.straight(bore.centre)
         radii = [free]
-    deepest = job.settings.finish_step * mill.diameter
+    deepest = (job.settings.finish_step or FINISH_STEP) * mill.diameter
     for radius in widening(free, widest, min(step, SIDE * mill.diameter)):
         wide = cut_width(radius, mill.radius, free + mill.radius)
         deep = max(step_down, min(deepest, step_down * mill.diameter / wide))

@@ -22,6 +22,7 @@ from mechwright_cam.operations.clearing import Roughing
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
 from mechwright_cam.operations.drilling import starting_drill
+from mechwright_cam.operations.ladder import recess_ladder
 from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer, cut_layers
 from mechwright_cam.operations.recess import is_recess, recess
 from mechwright_cam.operations.recess_zone import recess_zone
@@ -68,7 +69,10 @@ class Clear(Operation):
         return Task(feature, self, zone.tools, zone.top, zone.bottom, region, hole, zone)
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
-        """The largest mill that gets into all corners; none if the feature takes nothing of the plate."""
+        """The largest mill that gets into all corners, and wider ones before it that save time.
+
+        There is none if the feature takes nothing of the plate.
+        """
         if not is_recess(feature):
             return None
         bottom = bottom_of(every, feature.top, feature.depth)
@@ -82,7 +86,8 @@ class Clear(Operation):
             width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
             return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
         able = roomy_mills(able, shapes.must)
-        return [finest_needed(able, shapes.keep, every.settings, shapes.must if shapes.open else None)]
+        finest = finest_needed(able, shapes.keep, every.settings, shapes.must if shapes.open else None)
+        return recess_ladder(every, shapes.must, able, finest, -bottom)
 
     def open_up(self, layer: Layer, feature: Feature | Detail, *, floored: bool) -> None:
         """What comes before the contour passes; ``floored``: a pass over all of the floor comes after it."""

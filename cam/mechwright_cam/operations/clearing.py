@@ -9,7 +9,7 @@ the way to the nearest wall point crosses that ring. So with steps up to the rad
 
 import math
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.runs import Cavity, Run, write_levels, write_ring
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.thin_cuts import Stretch, stretches
 from mechwright_cam.operations.zone import CUSP, SLACK, Zone
@@ -66,38 +67,6 @@ TIGHT = 0.49
 """Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
 MANY = 0.5
 """A round mill that would need more than twice its rings to make a floor roughs with its own step first."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """A path of the centre at one depth."""
-
-    path: Path
-    open: bool
-    """The start is clear of stock, so the cutter may be sunk there."""
-    linked: bool
-    """The cutter may go straight from the end of the run before to the start of this one at depth."""
-    cleared: bool = False
-    """All of that way is cleared, so that it is no cut."""
-    beside: bool = False
-    """Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
-    centre may be plunged through that, slowly, which is shorter than a ramp."""
-    parts: tuple[Stretch, ...] = ()
-    """The path by the thickness of chips, where that is known."""
-
-
-@dataclass(frozen=True)
-class Cavity:
-    """Runs that remove connected stock, in cutting order; ``back``: the last leads to the first."""
-
-    core: shapely.Polygon
-    """That stock, less slivers at its edge."""
-    runs: tuple[Run, ...]
-    back: bool
-    cleared: bool
-    """All of the way back is cleared."""
-    bottom: float | None = None
-    """Down to which it is cut, z in mm, if that is not the bottom of its zone."""
 
 
 class Roughing:
@@ -212,7 +181,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = prepared(grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH))
+        near = self._near
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
             groups.setdefault(part, []).append(piece)
@@ -242,6 +211,7 @@ class Roughing:
         trails = [shapely.LineString(path.points(radius / 3)) for path in paths]
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
+        returns: tuple[Stretch, ...] = ()
         beside = np.zeros(len(paths), dtype=bool)
         if self._thick is not None:
             beside = ~shapely.contains_xy(self._thick, starts[:, 0], starts[:, 1])
@@ -265,9 +235,17 @@ class Roughing:
             here = shapely.clip_by_rect(self.stock.standing, *around)
             parts = stretches(paths, grow(here, self.stock.over, ROUGH), radius)
             runs = [replace(run, parts=part) for run, part in zip(runs, parts, strict=True)]
+            if (
+                len(runs) == 1
+                and runs[0].open
+                and not paths[0].closed
+                and not shapely.contains_xy(near, *paths[0].end)
+            ):
+                (returns,) = stretches([paths[0].reversed()], grow(here, self.stock.over, ROUGH), radius)
         ends = paths[-1].end, paths[0].start
         back = stays_inside(free, *ends)
-        return Cavity(core, tuple(runs), back, back and self._is_cleared(*ends, trails, near))
+        cleared = back and self._is_cleared(*ends, trails, near)
+        return Cavity(core, tuple(runs), back, cleared, returns=returns)
 
     def _is_cleared(
         self, a: Point, b: Point, trails: list[shapely.LineString], near: shapely.Geometry
@@ -282,6 +260,11 @@ class Roughing:
         gone = shapely.buffer(shapely.clip_by_rect(trails, *box), self.radius, quad_segs=6)
         left = shapely.intersection(way, shapely.clip_by_rect(self.stock.standing, x0, y0, x1, y1))
         return bool(shapely.difference(left, shapely.union_all(gone)).area <= SLIVER * self.tool.diameter)
+
+    @cached_property
+    def _near(self) -> shapely.Geometry:
+        """Where the cutter meets what stands, prepared."""
+        return prepared(grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH))
 
     @cached_property
     def _thick(self) -> shapely.Geometry | None:
@@ -300,6 +283,7 @@ class Roughing:
         blocked, core = self.blocked, self.core
         wanted = grow(core, self.touch, ROUGH)
         near = prepared(grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH))
+        around = (near, self._near) if self.stock.begun else ()
         order = 0
         while True:
             if order:
@@ -316,7 +300,8 @@ class Roughing:
                 inside = shapely.contains_xy(near, x, y)
                 if not inside.any():
                     continue
-                found.extend(pieces(dense, shapely.contains_xy(wanted, x, y), inside, self.room, order))
+                cuts = shapely.contains_xy(wanted, x, y)
+                found.extend(pieces(dense, cuts, inside, self.room, order, around))
             order += 1
 
     def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Array]:
@@ -356,38 +341,10 @@ class Roughing:
             first = cavity.runs[0]
             heights = levels(top, bottom if cavity.bottom is None else cavity.bottom, step_down)
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
-                _spiral(pen, first.path, top, heights)
+                write_ring(pen, first.path, top, heights)
             else:
-                _levels(pen, cavity, top, heights, thinning=thinning and not pen.over)
+                write_levels(pen, cavity, top, heights, thinning=thinning and not pen.over)
         pen.retract()
-
-
-def _spiral(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
-    """One closed ring: down along it without a stop, and once round at the bottom."""
-    pen.above(path.start)
-    pen.sink(top)
-    for z in heights:
-        pen.ramp(path, z)
-    pen.follow(path)
-
-
-def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float], *, thinning: bool) -> None:
-    """All runs at one height, then all at the next."""
-    above = top
-    for level, z in enumerate(heights):
-        for number, run in enumerate(cavity.runs):
-            # Back to the first run goes through what this level has already cleared.
-            back = number == 0 and level > 0 and cavity.back
-            feed = pen.air if run.cleared or (back and cavity.cleared) else None
-            pen.go(run.path.start, run.linked or back, feed)
-            if run.beside and not (run.open or run.linked):
-                pen.sink(above)
-                pen.sink(z, pen.rates.plunge)
-            elif not run.linked:
-                pen.enter(run.path, above, z, run.open, pen.air_down)
-            for part, thin in (thinning and run.parts) or ((run.path, False),):
-                pen.follow(part, pen.air if thin else None)
-        above = z
 
 
 def stays_inside(free: shapely.Geometry, a: Point, b: Point) -> bool:

@@ -10,7 +10,8 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from mechwright_cam.operations.clearing import Cavity, Roughing
+from mechwright_cam.operations.clearing import Roughing
+from mechwright_cam.operations.runs import Cavity
 from mechwright_cam.plane.offsets import ROUGH
 
 ALIKE = ROUGH

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.bending import MOST, wall_bending
 from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
@@ -28,24 +29,38 @@ LEAST_ENGAGEMENT = math.pi / 6
 along the path show."""
 
 
-def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
-    """Depth of a finishing pass, mm: ``finish_step`` diameters, or less where much is left for a fine mill.
+FINISH_STEP = 2.0
+"""Depth of a finishing pass in diameters, where the design says none and the mill does not bear more."""
+EASE = 0.08
+"""A finishing pass is deeper by this share rather than that there is one more."""
 
-    What stands on a wall is the allowance, or a little more: a pass has no larger section than a slot as deep
-    as ``step_down``.
+
+def finish_depth(job: Job, tool: Tool, high: float, deep: float) -> float:
+    """Depth of a finishing pass, mm, of a wall so ``high`` whose foot is ``deep`` mm below the stock's top.
+
+    It is as deep as the wall where that bends the mill next to nothing: a pass that is half as deep bends its
+    end hardly less, for the load is nearer to the end, and leaves a line. Else it is :data:`FINISH_STEP`
+    diameters; or what ``finish_step`` says. What stands on a wall is the allowance: a pass has no larger
+    section than a slot as deep as ``step_down``.
     """
-    return min(
-        settings.finish_step * tool.diameter, _slot(tool, material) / (settings.stock_to_leave + HEAVY)
-    )
+    settings = job.settings
+    section = _slot(tool, job.part.material) / max(settings.stock_to_leave, TOLERANCES.noise)
+    if settings.finish_step is not None:
+        return min(settings.finish_step * tool.diameter, section)
+    usual = FINISH_STEP * tool.diameter
+    for count in range(1, math.ceil(high / usual)):
+        if high / count <= section and wall_bending(job, tool, deep, high / count) <= MOST:
+            return high / count
+    return min(usual, section)
 
 
 def finish_engagement(settings: CamSettings, radius: float, inside: float = math.inf) -> float:
     """Engagement, rad, for which a finishing pass is fed, of a mill of this radius, mm.
 
-    Its width of cut is what :func:`finish_depth` allows for; on a circle ``inside`` a bore of that radius,
-    mm, more of the mill is in it. Where chips get thicker all the same the feed is lowered move by move.
+    Its width of cut is the allowance; on a circle ``inside`` a bore of that radius, mm, more of the mill is
+    in it. Where chips get thicker all the same the feed is lowered move by move.
     """
-    wide = settings.stock_to_leave + HEAVY
+    wide = settings.stock_to_leave
     if math.isfinite(inside):
         wide = cut_width(inside - radius, radius, inside - wide)
     if not settings.chip_thinning or wide >= radius:
@@ -77,9 +92,8 @@ def finish_heights(job: Job, tool: Tool, top: float, bottom: float, fillet: floa
 
     They are closer where a round mill has left a ``fillet`` of this height at the foot of the wall, mm.
     """
-    material = job.part.material
-    deep = finish_depth(job.settings, tool, material)
-    closer = _slot(tool, material) / max(fillet, TOLERANCES.noise)
+    deep = (1 + EASE) * finish_depth(job, tool, top - bottom, -bottom)
+    closer = _slot(tool, job.part.material) / max(fillet, TOLERANCES.noise)
     foot = min(bottom + max(fillet, 0.0), top)
     if closer < deep and foot > bottom:
         heights = (levels(top, foot, deep) if foot < top else []) + levels(foot, bottom, closer)
@@ -194,9 +208,13 @@ class Finishing:
             self._follow(pen, path, z, again=z == above)
             above = z
 
+    def _feed(self, pen: Pen, *, again: bool) -> float | None:
+        """Feed of a pass, mm/min; None for the usual one. Made again it takes what the mill has bent."""
+        return pen.thin(LEAST_ENGAGEMENT) if again and self.settings.chip_thinning else None
+
     def _follow(self, pen: Pen, path: Path, z: float, *, again: bool) -> None:
         """Along the wall in a pass at a height, which may be made ``again``."""
-        pen.follow(path, inside=1 if self.settings.climb else -1)
+        pen.follow(path, self._feed(pen, again=again), inside=1 if self.settings.climb else -1)
 
     def _loop(self, pen: Pen, path: Path, is_open: bool) -> None:
         """A closed path without room for leads: sunk where it is clear, else ramped along itself."""
@@ -204,6 +222,7 @@ class Finishing:
             return
         pen.above(path.start)
         pen.sink(self.zone.top)
+        above = self.zone.top
         for z in self.heights:
             if is_open:
                 pen.sink(z)
@@ -211,7 +230,8 @@ class Finishing:
                 # Where only this mill gets in nothing has roughed: no lap is deeper than its passes.
                 for height in levels(pen.z, z, self.step_down) if pen.z > z else ():
                     pen.ramp(path, height)
-            pen.follow(path, inside=1 if self.settings.climb else -1)
+            pen.follow(path, self._feed(pen, again=z == above), inside=1 if self.settings.climb else -1)
+            above = z
 
 
 def _from(ring: Array, at: int) -> Array:

@@ -83,7 +83,7 @@ class Groove(Operation):
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Along the middle, the floor in a pass of its own where an allowance is left on it."""
         (mill,), job = task.tools, steps.job
-        step_down, springs = steps.step_down(mill), job.settings.spring_passes
+        step_down, springs = steps.step_down(mill, to_size=True), job.settings.spring_passes
         if isinstance(task.data, Way):
             leave = floor_allowance(job, task.top, task.bottom)
             heights = levels(task.top, task.bottom + leave, step_down)

@@ -124,7 +124,7 @@ class Layer:
             cut = self._roughing(mill, allowance, thick)
             if allowance > 0 and cut.taken < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
-            self.add(what, mill, self._writing(cut, self.steps.step_down(mill)))
+            self.add(what, mill, self._writing(cut, self.steps.step_down(mill, to_size=True)))
             self.stock = cut.after_core()
 
     def _heavy(self, mill: Tool) -> shapely.Geometry:
@@ -150,9 +150,10 @@ class Layer:
     def finish(self, mill: Tool) -> None:
         """Along the wall."""
         settings, job, zone = self.settings, self.steps.job, self.zone
-        deep = self.pass_depth(mill, finish_depth(settings, mill, job.part.material))
+        high, foot = zone.top - zone.bottom_for(mill), -zone.bottom_for(mill)
+        deep = self.pass_depth(mill, finish_depth(job, mill, high, foot))
         if settings.compensation == "computer":
-            write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill)).write
+            write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill, to_size=True)).write
         else:
             write = CompensatedFinishing(zone, self.stock, job, mill).write
         # Up and down the slopes of tabs the mill takes more than the allowance.
@@ -222,13 +223,12 @@ def _finished_whole(upper: Layer, lower: Layer) -> bool:
     for layer in (upper, lower):
         layer.rough_heavy(mill)
     pairs = [(layer.zone, layer.stock) for layer in (upper, lower)]
-    whole = WholeWall(pairs[0], pairs[1], job, mill, upper.steps.step_down(mill))
+    whole = WholeWall(pairs[0], pairs[1], job, mill, upper.steps.step_down(mill, to_size=True))
     if upper.stock.fillet or lower.stock.fillet or not whole.fits():
         for layer, stock, cuts in before:
             layer.stock, layer.cuts = stock, cuts
         return False
-    deep = finish_depth(settings, mill, job.part.material)
-    moves = upper.steps.moves(mill, whole.write, finish_engagement(settings, mill.radius), deep)
+    moves = upper.steps.moves(mill, whole.write, finish_engagement(settings, mill.radius))  # its end is flat
     lower.cuts.append(Cut(f"{upper.zone.name}: finish", mill, moves))  # behind all that is roughed
     return True
 

@@ -17,8 +17,9 @@ from mechwright_cam.shop.tool import Tool
 
 APPROACH = 1.0
 """Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
-AIR = 2.0
-"""Feed through cleared ground in feeds of a full cut."""
+AIR = 3.0
+"""Feed through cleared ground in feeds of a full cut: where an edge should meet something after all chips are
+thin, and no proof lets pass more of programs with the cutting data of others."""
 DOWN = 1.5
 """The same straight down: where the end of a mill should meet something, that is still no more than a proof
 accepts of programs with the cutting data of others."""
@@ -49,12 +50,20 @@ class Pen:
     @property
     def air(self) -> float:
         """Feed through what is cleared, at depth, mm/min: no slower than in the cut."""
-        return max(self.rates.feed, min(AIR * self.rates.full, self.rates.fastest))
+        return self.times(AIR)
 
     @property
     def air_down(self) -> float:
         """Feed straight down through what is cleared, mm/min."""
-        return max(self.rates.feed, min(math.floor(DOWN * self.rates.full), self.rates.fastest))
+        return self.times(DOWN)
+
+    def thin(self, engagement: float) -> float:
+        """Feed, mm/min, with which no chip is thicker than planned up to an engagement, rad."""
+        return self.times(1 / math.sin(engagement))
+
+    def times(self, share: float) -> float:
+        """Feed, mm/min, in feeds of a full cut; no slower than in the cut."""
+        return max(self.rates.feed, min(math.floor(share * self.rates.full), self.rates.fastest))
 
     def above(self, point: Point) -> None:
         """Retract, rapid over a point and down to just over the stock."""

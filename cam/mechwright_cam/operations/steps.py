@@ -40,9 +40,9 @@ class Steps:
         self.copies = Copies()
         self.cuts: list[Cut] = []
 
-    def step_down(self, tool: Tool) -> float:
-        """Deepest pass of a mill that cuts with its whole width, mm."""
-        return pass_depth(self.job, tool, self.depths.get(tool.name, 0.0))
+    def step_down(self, tool: Tool, *, to_size: bool = False) -> float:
+        """Deepest pass of a mill with its whole width, mm; ``to_size`` if it leaves no allowance."""
+        return pass_depth(self.job, tool, self.depths.get(tool.name, 0.0), to_size=to_size)
 
     def moves(
         self,

@@ -1,18 +1,15 @@
 """Where roughing what is left takes so little that chips are thin: there the cutter is fed faster.
 
-In a gap that a wider mill has opened a finer one takes a full cut on its way to the bottom, and little beside
-on its way back. How much of it is in material follows from what still stands, which is known: at an
-engagement φ no chip is thicker than f_z sin φ, so up to :data:`THIN` it may have twice the feed of a full
-cut.
+In a gap that a wider mill has opened a finer one takes a full cut at the bottom, and little beside on its way
+there and back. How much of it is in material follows from what still stands, which is known: at an engagement
+φ no chip is thicker than f_z sin φ, so it may have 1 / sin φ times the feed of a full cut, up to :data:`AIR`.
 """
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.operations.engagement import engagements
@@ -20,15 +17,14 @@ from mechwright_cam.operations.pen import AIR
 from mechwright_cam.plane.offsets import ROUGH, grow
 from mechwright_cam.plane.path import Path
 
-THIN = math.asin(1 / AIR)
-"""Engagement, rad, up to which chips are no thicker than planned at the feed through cleared ground."""
-FINELY = 0.25
+SHARES = (1.25, 1.5, 2.0, AIR)
+"""Feeds in those of a full cut that stretches may have; finer steps save nothing."""
+ROUNDING = 1e-9
+"""Rounding of engagements."""
+FINELY = 0.1
 """Distance of the places at which the engagement is looked at, in radii."""
-WORTHWHILE = 0.25
-"""A stretch shorter than so many radii is fed like those beside it."""
-
-Stretch = tuple[Path, bool]
-"""A part of a path, and whether chips are thin all along it."""
+Stretch = tuple[Path, float]
+"""A part of a path, and its feed in feeds of a full cut."""
 
 
 def stretches(paths: Sequence[Path], standing: shapely.Geometry, radius: float) -> list[tuple[Stretch, ...]]:
@@ -45,23 +41,34 @@ def stretches(paths: Sequence[Path], standing: shapely.Geometry, radius: float) 
         ways = np.hypot(*np.diff(points, axis=0).T)
         engaged = np.pad(engagements(points, cleared, radius), 1, mode="edge")
         # The edges before and behind count as well: the greatest may lie between two places.
-        thin = np.maximum(np.maximum(engaged[:-2], engaged[2:]), engaged[1:-1]) <= THIN
-        found.append(_divided(path, np.cumsum(ways), thin, WORTHWHILE * radius))
+        most = np.maximum(np.maximum(engaged[:-2], engaged[2:]), engaged[1:-1])
+        found.append(_divided(path, np.cumsum(ways), feed_shares(most)))
         standing = shapely.difference(standing, grow(shapely.LineString(points), radius - ROUGH, ROUGH))
     return found
 
 
-def _divided(path: Path, end: Array, thin: NDArray[np.bool_], least: float) -> tuple[Stretch, ...]:
-    """The path in stretches; ``end`` is the way to the end of each edge, mm, and ``thin`` tells of it."""
-    borders = np.flatnonzero(np.diff(thin)).tolist()
-    for first, last in pairwise([-1, *borders, len(end) - 1]):
-        if end[last] - (end[first] if first >= 0 else 0.0) < least:
-            thin[first + 1 : last + 1] = False
+def feed_shares(engaged: Array) -> Array:
+    """Feeds (n,) in those of a full cut at which chips are no thicker than planned, at engagements, rad.
+
+    >>> feed_shares(np.radians([5.0, 29.0, 40.0, 80.0, 170.0])).tolist()
+    [3.0, 2.0, 1.5, 1.0, 1.0]
+    """
+    most = 1 / np.maximum(np.sin(np.minimum(engaged, math.pi / 2)), 1 / AIR)
+    steps = np.array((1.0, *SHARES))
+    found: Array = steps[np.searchsorted(steps, most + ROUNDING, side="right") - 1]
+    return found
+
+
+def _divided(path: Path, end: Array, share: Array) -> tuple[Stretch, ...]:
+    """The path in stretches; ``end`` is the way to the end of each edge, mm, and ``share`` its feed."""
+    # What is faster for one edge alone is no stretch: the least of each two, and of these the greater.
+    both = np.pad(np.minimum(share[:-1], share[1:]), 1, mode="edge") if len(share) > 1 else share
+    share = np.maximum(both[:-1], both[1:]) if len(share) > 1 else share
     parts: list[Stretch] = []
     rest, done = path, 0.0
-    for index in np.flatnonzero(np.diff(thin)).tolist():
+    for index in np.flatnonzero(np.diff(share)).tolist():
         part, rest = rest.split(float(end[index]) - done)
         if part.cuts:
-            parts.append((part, bool(thin[index])))
+            parts.append((part, float(share[index])))
             done += part.length
-    return (*parts, (rest, bool(thin[-1]))) if rest.cuts else tuple(parts)
+    return (*parts, (rest, float(share[-1]))) if rest.cuts else tuple(parts)

@@ -68,7 +68,7 @@ class WholeWall(Finishing):
                 pen.sink(self.height, pen.air_down)
             else:
                 pen.sink(z, pen.air_down if again else pen.rates.plunge)
-            pen.follow(part, pen.rates.full if beside else None, inside)
+            pen.follow(part, pen.rates.full if beside else self._feed(pen, again=again), inside)
 
     def _divided(self, path: Path) -> list[tuple[Path, bool, bool]]:
         """A path in parts, each with whether it is over a tab, and whether it is beside or over one."""

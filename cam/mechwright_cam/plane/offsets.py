@@ -10,6 +10,7 @@ piece
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -167,13 +168,19 @@ class Piece:
 
 
 def pieces(
-    ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: shapely.Geometry, order: int
+    ring: Array,
+    wanted: NDArray[np.bool_],
+    near: NDArray[np.bool_],
+    room: shapely.Geometry,
+    order: int,
+    around: Sequence[shapely.Geometry] = (),
 ) -> list[Piece]:
     """The runs of a ring (n + 1, 2), mm, densified, that have to be cut; ``order`` goes into the pieces.
 
     Per vertex ``wanted`` (n + 1,) tells that it cuts something, ``near`` that it is near something to cut. A
     run goes on while it is near, so that it starts and ends in the clear, and has a wanted vertex. ``room``,
-    prepared, is where the centre may be; a run that leaves it ends on its edge.
+    prepared, is where the centre may be; a run that leaves it ends on its edge. With shapes
+    ``around``, prepared, a run ends as soon as it is out of all of them, else at the next vertex.
     """
     inside = shapely.contains_xy(room, ring[:, 0], ring[:, 1])
     go = (near & inside)[:-1]
@@ -191,11 +198,51 @@ def pieces(
     for first, last in zip(np.flatnonzero(edges == 1) + 1, np.flatnonzero(edges == -1), strict=True):
         if want[first : last + 1].any():
             # One vertex more at each end: it is clear of everything, or it is where the room ends.
-            begin = _last_inside(points[first], points[first - 1], inside[first - 1], room)
-            end = _last_inside(points[last], points[last + 1], inside[last + 1], room)
-            run = np.concatenate((begin[None], points[first : last + 1], end[None]))
+            begin = _beyond(points[first::-1], inside[first::-1], around)
+            end = _beyond(points[last:], inside[last:], around)
+            first, last = first - begin, last + end
+            before = _last_inside(points[first], points[first - 1], inside[first - 1], room)
+            after = _last_inside(points[last], points[last + 1], inside[last + 1], room)
+            if around:
+                before = _first_outside(points[first], before, around)
+                after = _first_outside(points[last], after, around)
+            run = np.concatenate((before[None], points[first : last + 1], after[None]))
             found.append(Piece(run, order))
     return found
+
+
+SPARE = 0.02
+"""A run goes on by this much behind what it must be out of, mm: its fitted path ends as near as that."""
+FARTHER = 6
+"""A run may begin or end so many vertices farther away for the sake of being out of everything."""
+
+
+def _beyond(points: Array, inside: NDArray[np.bool_], shapes: Sequence[shapely.Geometry]) -> int:
+    """How many vertices farther along points (n, 2) a run has to go so that the next is out of the shapes.
+
+    It is 0 where none near enough is ``inside`` the room, (n,): then more of the way would be for nothing.
+    """
+    for farther, (x, y) in enumerate(points[1 : FARTHER + 2]):
+        if not inside[farther + 1]:
+            return 0
+        if not any(shapely.contains_xy(shape, x, y) for shape in shapes):
+            return farther
+    return 0
+
+
+def _first_outside(a: Array, b: Array, shapes: Sequence[shapely.Geometry]) -> Array:
+    """The first point outside some shapes on the way from a, in one of them, to b; b if that is in one."""
+
+    def within(place: Array) -> bool:
+        return any(shapely.contains_xy(shape, *place) for shape in shapes)
+
+    if within(b):
+        return b
+    low, high = 0.0, 1.0
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if within(a + middle * (b - a)) else (low, middle)
+    return a + min(high + SPARE / max(float(np.hypot(*(b - a))), SPARE), 1.0) * (b - a)
 
 
 def _last_inside(a: Array, b: Array, whole: bool, room: shapely.Geometry) -> Array:

@@ -10,7 +10,7 @@ from mechwright.contracts.materials import material as material_of
 from mechwright.contracts.part import Feature, Part
 from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.bending import MOST, SLENDER, deflection, pass_depth, says_step_down
+from mechwright_cam.operations.bending import SLENDER, deflection, most_bent, pass_depth, says_step_down
 from mechwright_cam.operations.choice import MisfitError, long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
@@ -177,8 +177,8 @@ def _bending(job: Job, tool: Tool, deep: float) -> Iterator[Finding]:
     if step < usual:
         message += f", in passes of {step:.2g} mm instead of {usual:.2g} mm, so that it bends less"
     yield Finding("cam.slender", Severity.NOTE, "cam.tools", message, slender, SLENDER)
-    bent = deflection(tool, material, deep, step)
-    if bent <= MOST + TOLERANCES.noise:
+    bent, most = deflection(tool, material, deep, step), most_bent(job)
+    if bent <= most + TOLERANCES.noise:
         return
     message = (
         f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}, "
@@ -190,7 +190,7 @@ def _bending(job: Job, tool: Tool, deep: float) -> Iterator[Finding]:
         where = f"cam.cutting.{tool.name}.step_down"
         remedy = "leave it out, and passes are as deep as the cutter bears"
         proposed = () if "." in tool.name else ({where: None},)
-    yield Finding.warning("cam.deflection", where, message, bent, MOST, "mm", remedy, proposed=proposed)
+    yield Finding.warning("cam.deflection", where, message, bent, most, "mm", remedy, proposed=proposed)
 
 
 def _figures(tool: Tool, workpiece: str) -> Iterator[Finding]:

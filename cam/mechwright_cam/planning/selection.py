@@ -1,7 +1,8 @@
 """Which cutters a part needs."""
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
+from itertools import product
 
 import shapely
 
@@ -13,6 +14,8 @@ from mechwright_cam.operations.choice import entry_place, usable_mills
 from mechwright_cam.operations.compensation import has_entries
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
+from mechwright_cam.operations.hole_times import holes_time
+from mechwright_cam.operations.ladder import change_time
 from mechwright_cam.operations.rates import runs_too_fast
 from mechwright_cam.operations.ream import reaming
 from mechwright_cam.operations.recess_zone import first_look, floor_mill
@@ -32,6 +35,8 @@ from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 AMPLE = 1000.0
 """Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
+MOST_DRILLS = 5
+"""Of no more drills all choices are compared."""
 OPENS = 0.6
 """A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
 then takes rings as wide as after the drill of the right size, only one or two more."""
@@ -87,7 +92,7 @@ def _chosen(
             chosen += _wanted(feature, every, chosen, operations)
     chosen = [*(chosen or mills), *_floor_mills(replace(every, tools=library.tools))]
     mills = list({mill.name: mill for mill in chosen}.values())
-    drills = _drills(every)
+    drills = _drills(every, mills)
     details = [tool for detail in every.details for tool in _wanted(detail, every, mills, operations)]
     details = list({tool.name: tool for tool in details}.values())
     mills += _entering(every, [*drills, *mills, *details], operations)
@@ -186,13 +191,18 @@ def _floor_mills(every: Job) -> list[Tool]:
     return found
 
 
-def _drills(every: Job) -> list[Tool]:
-    """Spot drill and drills for all holes through the plate, as few as open every hole well."""
+def _drills(every: Job, mills: Sequence[Tool]) -> list[Tool]:
+    """Spot drill and drills for all holes through the plate: as few as open them well, in the least time.
+
+    The ``mills`` are those that are chosen: they widen the holes, or open them themselves.
+    """
     wanted: list[tuple[float, Tool]] = []
+    needed: set[str] = set()
     drills: dict[str, Tool] = {}
     for feature in every.features:
         if isinstance(feature, Bore) and (core := core_drill(every, feature)) is not None:
             drills[core.name] = core
+            needed.add(core.name)
             continue
         if not through(every, feature.top + feature.depth):
             continue
@@ -202,6 +212,7 @@ def _drills(every: Job) -> list[Tool]:
             width = feature.diameter
             if drill is not None and mill is None:
                 drills[drill.name] = drill  # no other makes the hole to size
+                needed.add(drill.name)
         elif isinstance(feature, Profile) and feature.side == "inside":
             _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))
             width, drill = 2 * radius, starting_drill(every, 2 * radius, -every.floor)
@@ -212,5 +223,32 @@ def _drills(every: Job) -> list[Tool]:
     for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
         if not any(OPENS * width <= other.diameter <= drill.diameter for other in drills.values()):
             drills[drill.name] = drill
-    spots = every.tools_of(ToolKind.SPOT_DRILL) if drills else []
-    return spots[:1] + sorted(drills.values(), key=lambda tool: -tool.diameter)
+    spots = every.tools_of(ToolKind.SPOT_DRILL)[:1]
+    found = sorted(drills.values(), key=lambda tool: -tool.diameter)
+    some = _worthwhile(every, mills, found, needed, spots)
+    return (spots if some else []) + some
+
+
+def _worthwhile(
+    every: Job, mills: Sequence[Tool], drills: Sequence[Tool], needed: Set[str], spots: Sequence[Tool]
+) -> list[Tool]:
+    """Those of the drills with which holes take the least time: a mill may open them as well, on a helix.
+
+    Of those ``needed`` all stay, and where a mill cannot do it. All others are tried with and without.
+    """
+    free = [drill for drill in drills if drill.name not in needed]
+    if len(free) > MOST_DRILLS:
+        return list(drills)
+    ways = []
+    for chosen in product((True, False), repeat=len(free)):
+        left = {drill.name for drill, stays in zip(free, chosen, strict=True) if not stays}
+        some = [drill for drill in drills if drill.name not in left]
+        tools = (*mills, *some)
+        try:
+            seconds = holes_time(replace(every, tools=tools))
+        except ToolError:
+            continue
+        ways.append(
+            (seconds + (len(some) + (len(spots) if some else 0)) * change_time(every), len(some), some)
+        )
+    return min(ways, key=lambda way: way[:2])[2] if ways else list(drills)

@@ -143,11 +143,12 @@ class CamSettings(Parameters):
     )
     path: PathSettings = Field(PathSettings(), description="Accuracy of walls, and lines and arcs.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
-    finish_step: Ratio = Field(
-        2.0,
+    finish_step: Ratio | None = Field(
+        None,
         gt=0,
         le=10,
-        description="Deepest finishing pass in cutter diameters; less where much is left for a fine mill.",
+        description="Deepest finishing pass in cutter diameters; by default a wall is finished in one depth "
+        "where the cutter bears that, else in passes of 2.",
     )
     compensation: Compensation = Field(
         "computer",
