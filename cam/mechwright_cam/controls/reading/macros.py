@@ -45,6 +45,8 @@ MOST_ROWS = 5000
 """So many rows of numbers are run together."""
 FEW_LINES = 500
 """Fewer plain lines wait for what follows on them."""
+NO_VALUES = dict.fromkeys(range(1, OWN + 1), 0.0)
+"""The parameters of a subroutine that is called without values."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 
@@ -181,12 +183,14 @@ class Macros(Values):
     def _call(self, label: str, rest: str) -> None:
         if label[0] in "#[":
             label = str(whole(Reader(label, self._value).real()))
-        start, reader, arguments = self._start(label, "sub"), Reader(rest, self._value), []
-        while reader.at < len(reader.text):
-            arguments.append(reader.bracket())
-        if len(arguments) > OWN:
-            raise ValueError(f"a call has at most {OWN} values")
-        own = dict.fromkeys(range(1, OWN + 1), 0.0) | dict(enumerate(arguments, 1))
+        start, own = self._start(label, "sub"), NO_VALUES.copy()
+        if rest:
+            reader, arguments = Reader(rest, self._value), []
+            while reader.at < len(reader.text):
+                arguments.append(reader.bracket())
+            if len(arguments) > OWN:
+                raise ValueError(f"a call has at most {OWN} values")
+            own |= enumerate(arguments, 1)
         self._enter(Frame(self.at, start, own=own))
 
     def _call_by_number(self, rest: str) -> None:

@@ -57,8 +57,10 @@ class Modal(Compensation):
         self.offsets_are_zero = False
         self.diameters: Mapping[int, float] = {}
         self._changed: dict[tuple[Any, ...], tuple[State, State]] = {}
-        """A state, which lives as long as its identity stands here, and what changes have made of it: programs
-        go to and fro between a few."""
+        """A state, which lives as long as its identity stands here, and what changes have made of it.
+
+        Programs go to and fro between a few.
+        """
 
     @property
     def moves_plainly(self) -> bool:
