@@ -69,6 +69,9 @@ class Macros(Values):
         """How many plain lines follow on each other from each line on, 0 where it is not plain."""
         self.o_words = OWords(lines)
         self.words = self.o_words.words
+        marked = (index for index in self.words if "(" in lines[index] or ";" in lines[index])
+        self.commented = {index for index in marked if COMMENT.search(lines[index])}
+        """Lines of O-words with a comment."""
         self.done = 0
         """How many lines have been run."""
 
@@ -80,10 +83,10 @@ class Macros(Values):
                 yield from self._rows()
                 raise fail(self.at + 1, f"more than {MOST_LINES} lines are run; does a loop not end?")
             index = self.at
-            if index in self.words and (comments := COMMENT.findall(self.lines[index])):
+            if index in self.commented:
                 yield from self._rows()
                 check_comments(index + 1, self.lines[index])
-                yield index, "".join(comments)
+                yield index, "".join(COMMENT.findall(self.lines[index]))
             try:
                 try:
                     line = self._next(index)
