@@ -53,7 +53,7 @@ def in_the_cut(text: str) -> int:
 
 
 def before_the_last_retract(text: str) -> int:
-    return max(k for k, line in enumerate(text.splitlines()) if line == "M5") + 1
+    return max(k for k, line in enumerate(text.splitlines()) if re.fullmatch(r"(?:\d+ )?M5", line)) + 1
 
 
 def at_the_end(text: str) -> int:
@@ -74,6 +74,8 @@ HOME = {
     "G91 G28 X0. Y0. Z0.": CONTROLS,
     "G0 SUPA X0 Y0": ("siemens-840d",),
     "G0 SUPA X0 Y0 Z0": ("siemens-840d",),
+    "L X+0 Y+0 R0 FMAX M91": ("heidenhain-tnc",),
+    "L X+0 Y+0 Z+0 R0 FMAX M91": ("heidenhain-tnc",),
 }
 
 

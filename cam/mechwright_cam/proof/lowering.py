@@ -15,8 +15,8 @@ from mechwright_cam.controls.reading.run import Ints
 
 FEW_CELLS = 120
 """Cells of a disc up to which it is worth it."""
-CHUNK = 1_000_000
-"""Cells under so many places are worked out at a time: memory has a bound."""
+CHUNK = 100_000
+"""So many cells under places are worked out at a time: what a processor keeps near."""
 
 Heights = NDArray[np.float32]
 

@@ -45,6 +45,8 @@ MOST_ROWS = 5000
 """So many rows of numbers are run together."""
 FEW_LINES = 500
 """Fewer plain lines wait for what follows on them."""
+NO_VALUES = dict.fromkeys(range(1, OWN + 1), 0.0)
+"""The parameters of a subroutine that is called without values."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 
@@ -67,6 +69,9 @@ class Macros(Values):
         """How many plain lines follow on each other from each line on, 0 where it is not plain."""
         self.o_words = OWords(lines)
         self.words = self.o_words.words
+        marked = (index for index in self.words if "(" in lines[index] or ";" in lines[index])
+        self.commented = {index for index in marked if COMMENT.search(lines[index])}
+        """Lines of O-words with a comment."""
         self.done = 0
         """How many lines have been run."""
 
@@ -78,10 +83,10 @@ class Macros(Values):
                 yield from self._rows()
                 raise fail(self.at + 1, f"more than {MOST_LINES} lines are run; does a loop not end?")
             index = self.at
-            if index in self.words and (comments := COMMENT.findall(self.lines[index])):
+            if index in self.commented:
                 yield from self._rows()
                 check_comments(index + 1, self.lines[index])
-                yield index, "".join(comments)
+                yield index, "".join(COMMENT.findall(self.lines[index]))
             try:
                 try:
                     line = self._next(index)
@@ -181,12 +186,14 @@ class Macros(Values):
     def _call(self, label: str, rest: str) -> None:
         if label[0] in "#[":
             label = str(whole(Reader(label, self._value).real()))
-        start, reader, arguments = self._start(label, "sub"), Reader(rest, self._value), []
-        while reader.at < len(reader.text):
-            arguments.append(reader.bracket())
-        if len(arguments) > OWN:
-            raise ValueError(f"a call has at most {OWN} values")
-        own = dict.fromkeys(range(1, OWN + 1), 0.0) | dict(enumerate(arguments, 1))
+        start, own = self._start(label, "sub"), NO_VALUES.copy()
+        if rest:
+            reader, arguments = Reader(rest, self._value), []
+            while reader.at < len(reader.text):
+                arguments.append(reader.bracket())
+            if len(arguments) > OWN:
+                raise ValueError(f"a call has at most {OWN} values")
+            own |= enumerate(arguments, 1)
         self._enter(Frame(self.at, start, own=own))
 
     def _call_by_number(self, rest: str) -> None:

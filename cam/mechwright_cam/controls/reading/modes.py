@@ -56,8 +56,11 @@ class Modal(Compensation):
         self.rigid = dialect.tapping == "always"
         self.offsets_are_zero = False
         self.diameters: Mapping[int, float] = {}
-        self._changed: dict[tuple[Any, ...], State] = {}
-        """What changes have made of a state: programs go to and fro between a few."""
+        self._changed: dict[tuple[Any, ...], tuple[State, State]] = {}
+        """A state, which lives as long as its identity stands here, and what changes have made of it.
+
+        Programs go to and fro between a few.
+        """
 
     @property
     def moves_plainly(self) -> bool:
@@ -90,13 +93,14 @@ class Modal(Compensation):
     def _set(self, **changes: Any) -> None:
         state = self.state
         if any(getattr(state, name) != value for name, value in changes.items()):
-            key = state, *changes.items()
-            found = self._changed.get(key)  # once: the hash of a state is that of all its fields
-            if found is None:
+            key = id(state), *changes.items()  # the hash of a state is that of all its fields
+            known = self._changed.get(key)
+            if known is None:
                 if len(self._changed) >= MOST_CHANGES:
                     self._changed.clear()
-                found = self._changed[key] = replace(state, **changes)
-            self.state = found
+                found = replace(state, **changes)
+                known = self._changed[key] = state, self.known.setdefault(found, found)
+            self.state = known[1]
 
     def _state(self, group: str) -> None:
         if group not in self.state.stated:
@@ -105,9 +109,9 @@ class Modal(Compensation):
     def keep_state(self) -> None:
         """Give the present state its number, ``index``."""
         if self.state is not self.states[self.index]:
-            number = self.numbers.get(self.state)
+            number = self.numbers.get(id(self.state))
             if number is None:
-                number = self.numbers[self.state] = len(self.states)
+                number = self.numbers[id(self.state)] = len(self.states)
                 self.states.append(self.state)
             self.index = number
 

@@ -23,13 +23,25 @@ _O_WORD = re.compile(
 )
 _WORKED_OUT = re.compile(r"(?:n[0-9]+)?o((?:#|\[).*)call(.*)")
 """A call whose label is a value."""
-NO_ENDS = frozenset({"call", "return", "break", "continue"})
+NO_ENDS = frozenset({"call", "return", "break", "continue", "m98", "m99"})
 """Words with which nothing begins or ends."""
 ENDSUB, ENDIF, ENDREPEAT, ENDWHILE = (frozenset({f"end{it}"}) for it in ("sub", "if", "repeat", "while"))
 BRANCHES = frozenset({"elseif", "else", "endif"})
 _STARTS = frozenset("oOmMnN(;%")
 """With what a line of an O-word, of M98 or of the program's end begins."""
 _M98 = re.compile(r"(?:n[0-9]+)?m0*9([89])(?![0-9.])(.*)")
+
+
+def _o_word(line: str) -> tuple[str, str, str] | str:
+    """Label, word and the rest of an O-word, M98 or M99; what another line says, without blanks."""
+    code = "".join((COMMENT.sub("", line) if "(" in line or ";" in line else line).split()).lower()
+    if match := _O_WORD.fullmatch(code):
+        return str(int(match[1])) if match[1].isdigit() else match[1], match[2], match[3]
+    if match := _WORKED_OUT.fullmatch(code):
+        return match[1], "call", match[2]
+    if match := _M98.fullmatch(code):
+        return "", f"m9{match[1]}", match[2]
+    return code
 
 
 class OWords:
@@ -60,33 +72,30 @@ class OWords:
         self._found: dict[tuple[int, frozenset[str]], int] = {}
         self._behind: dict[tuple[int, frozenset[str]], int | None] = {}
         percents, inside = 0, ""
+        told: dict[str, tuple[str, str, str] | str] = {}  # a call may stand there a hundred thousand times
         for index, line in enumerate(lines):
             if line.lstrip()[:1] not in _STARTS:
                 continue
-            code = "".join((COMMENT.sub("", line) if "(" in line or ";" in line else line).split()).lower()
-            percents += code == "%"
-            if percents == 2:
-                break
-            if not code.lstrip("n0123456789").startswith(("o", "m")):
+            if line not in told:
+                told[line] = _o_word(line)
+            said = told[line]
+            if isinstance(said, str):
+                percents += said == "%"
+                if percents == 2:
+                    break
                 continue
-            if match := _O_WORD.fullmatch(code):
-                label = str(int(match[1])) if match[1].isdigit() else match[1]
-                word = match[2]
-                self.words[index] = (label, word, match[3])
-                if word in NO_ENDS:
-                    continue
-                self._places.setdefault(label, []).append(index)
-                if word == "sub":
-                    self._subs.append(index)
-                    inside = label
-                if word in BEGIN:
-                    place = (label, "sub" if word == "sub" else inside, word == "sub")
-                    self._twin[index] = self._first.setdefault(place, index)
-                inside = "" if word == "endsub" else inside
-            elif match := _WORKED_OUT.fullmatch(code):
-                self.words[index] = (match[1], "call", match[2])
-            elif match := _M98.fullmatch(code):
-                self.words[index] = ("", f"m9{match[1]}", match[2])
+            self.words[index] = said
+            label, word, _ = said
+            if word in NO_ENDS:
+                continue
+            self._places.setdefault(label, []).append(index)
+            if word == "sub":
+                self._subs.append(index)
+                inside = label
+            if word in BEGIN:
+                place = (label, "sub" if word == "sub" else inside, word == "sub")
+                self._twin[index] = self._first.setdefault(place, index)
+            inside = "" if word == "endsub" else inside
         self._starts: dict[tuple[str, str], int] = {}
         """The first line of each label with a word by which it may be called."""
         for label, places in self._places.items():

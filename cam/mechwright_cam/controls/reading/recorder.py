@@ -44,8 +44,10 @@ class Recorder:
         """Length of a unit of the program, mm."""
         self.ended = False
         self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
-        self.numbers = {self.states[0]: 0}
-        """Which of the states each is: those that come again are kept once."""
+        self.known = {self.states[0]: self.states[0]}
+        """Every state that has been, each once: those that come again are the same object."""
+        self.numbers = {id(self.states[0]): 0}
+        """Which of the states each is, by its identity."""
         self.index = 0
         self.tables: list[Array] = []
         self.rows: list[tuple[float, ...]] = []
