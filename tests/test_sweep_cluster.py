@@ -2,18 +2,22 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 from by_night import by_night
 from strokes import bytes_of, swept
 
+import mechwright
+from mechwright.errors import PluginError
 from mechwright.sweep import workers
-from mechwright.sweep.task import Task
+from mechwright.sweep.task import Source, Task
 
 
 @by_night
@@ -28,10 +32,14 @@ def cluster(tmp_path):
     pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
     started = []
 
-    def start(*words):
+    def start(*words, more=None):
         command = [sys.executable, "-m", f"distributed.cli.{words[0]}", *words[1:]]
         with (tmp_path / f"log-{len(started)}").open("wb") as out:
-            started.append(subprocess.Popen(command, stdout=out, stderr=out, start_new_session=True))
+            started.append(
+                subprocess.Popen(
+                    command, stdout=out, stderr=out, start_new_session=True, env=os.environ | (more or {})
+                )
+            )
         return started[-1]
 
     yield start
@@ -51,10 +59,11 @@ def scheduler_of(cluster, port):
     )
 
 
-def worker_of(cluster, port, folder):
+def worker_of(cluster, port, folder, more=None):
     return cluster(
         "dask_worker", f"tcp://127.0.0.1:{port}", "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny",
         "--no-dashboard", "--local-directory", str(folder), "--death-timeout", "60",
+        more=more,
     )  # fmt: skip
 
 
@@ -117,6 +126,28 @@ def test_one_pool_does_every_task_once(monkeypatch):
     assert len(pools) == 1
     assert sorted(task.first for task, _ in done) == list(range(100))
     assert all(content == task.name.encode() for task, content in done)
+
+
+def test_a_worker_that_comes_later_with_another_program_makes_no_table():
+    with pytest.raises(
+        PluginError, match=r"^it has python [^\n]+; here it is python 0: install the same on both$"
+    ):
+        Source("{}", "strokes.toml", "slider-crank").alike("python 0", Task("part-000000", 0, 0))
+
+
+@by_night
+def test_a_worker_with_another_program_is_refused_in_one_line(tmp_path, cluster):
+    other = tmp_path / "other" / "mechwright"
+    shutil.copytree(Path(mechwright.__file__).parent, other, ignore=shutil.ignore_patterns("__pycache__"))
+    (other / "errors.py").write_text((other / "errors.py").read_text() + "# changed\n")
+    port = 20000 + (os.getpid() + 7) % 20000
+    scheduler_of(cluster, port)
+    worker_of(cluster, port, tmp_path / "a", {"PYTHONPATH": str(other.parent)})
+    done = swept(tmp_path / "out", "--scheduler", f"tcp://127.0.0.1:{port}")
+    assert done.exit_code == 1
+    assert re.fullmatch(
+        r"--scheduler: worker tcp://[\d.:]+: it has [^\n]+: install the same on both", str(done.exception)
+    )
 
 
 @by_night

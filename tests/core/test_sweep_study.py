@@ -1,15 +1,17 @@
 """Studies: what a file can ask for, which designs that gives, and what is measured of them."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
-from bowl_family import BOWL, BowlParams, study
+from bowl_family import BOWL, BowlParams, OneFamily, study
 from pydantic import Field
 
 from mechwright import DesignError, Stage
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.sweep.draw import drawn
+from mechwright.sweep.study import study_of
 
 SHAPES = {"ranges": {"shape": {"values": ["round", "square"]}}}
 
@@ -109,6 +111,11 @@ def test_what_a_study_cannot_ask_for_is_one_line(changed, said):
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
     assert str(caught.value).count("bowl.toml") == 1
+
+
+def test_a_chain_is_refused_by_name():
+    with pytest.raises(DesignError, match=r"^chain.toml: stage: a chain is of no one family[^\n]+by itself$"):
+        study_of({"stage": [{"family": "bowl"}], "study": {}}, Path("chain.toml"), OneFamily(BOWL))
 
 
 def test_a_study_may_have_as_many_tables_as_can_be_listed():

@@ -180,6 +180,11 @@ def load_study(path: Path, host: Host) -> Study:
 
 def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
     """The study that a file ``path`` with this content holds; raises as ``load_study`` does."""
+    if "stage" in content:
+        raise DesignError(
+            f"{path}: stage: a chain is of no one family, and a study varies designs of one; sweep a stage "
+            "by itself"
+        )
     tables = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "parameters", TABLE, *tables))
     if units_of(content, path) != "mm":

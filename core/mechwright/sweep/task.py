@@ -14,6 +14,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from mechwright.contracts.evaluation import Batch
+from mechwright.errors import PluginError
 from mechwright.plugins.host import host
 from mechwright.sweep.draw import drawn
 from mechwright.sweep.heard import Heard, listen, taken
@@ -77,10 +78,27 @@ class Source:
         listen()
         return self.done(task), taken()
 
+    def alike(self, own: str, task: Task) -> tuple[bytes, list[Heard]]:
+        """The same by a worker that may have come after the others were asked what they have.
+
+        Raises
+        ------
+        PluginError
+            It has something else than ``own``, the fingerprint of the process that asks.
+        """
+        if (said := fingerprint(self.family)) != own:
+            raise PluginError(unlike(said, own))
+        return self.told(task)
+
 
 @lru_cache(maxsize=4)
 def _opened(source: Source) -> Study:
     return study_of(json.loads(source.text), Path(source.name), host())
+
+
+def unlike(said: str, own: str) -> str:
+    """What is told of a worker with another fingerprint."""
+    return f"it has {said}; here it is {own}: install the same on both"
 
 
 @cache

@@ -14,7 +14,7 @@ from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.extras import optional
 from mechwright.sweep.heard import Heard, Teller
-from mechwright.sweep.task import Source, Task, fingerprint
+from mechwright.sweep.task import Source, Task, fingerprint, unlike
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
@@ -137,13 +137,13 @@ class Cluster:
     def _once(self, client: Any, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
         distributed = optional("distributed")
         threads = max(sum(client.nthreads().values()), 1)
-        waiting = iter(tasks)
+        waiting, own = iter(tasks), fingerprint(source.family)
         running: dict[str, tuple[Any, Task]] = {}
         # With results it would fetch them by itself, and wait for ever if the scheduler ended meanwhile.
         ended = distributed.as_completed(loop=client.loop)
         while True:
             for task in _some(waiting, AHEAD * threads - len(running)):
-                future = client.submit(source.told, task, pure=False)
+                future = client.submit(source.alike, own, task, pure=False)
                 running[future.key] = future, task
                 ended.add(future)
             if not running:
@@ -201,9 +201,7 @@ class Cluster:
         own = fingerprint(family)
         for worker, said in client.run(fingerprint, family).items():
             if said != own:
-                raise PluginError(
-                    f"--scheduler: worker {worker} has {said}; here it is {own}: install the same on both"
-                )
+                raise PluginError(f"--scheduler: worker {worker}: {unlike(said, own)}")
 
 
 def _lost() -> tuple[type[BaseException], ...]:
