@@ -204,7 +204,9 @@ def _corners(
 ) -> tuple[complex, complex]:
     """A plate under both pivots, with a hole for a screw in each corner, whose radius is ``corner``, mm."""
     reach = max(boss.radius for boss in own["ground"])
-    low = complex(-reach - 2 * corner, -max(reach, params.screw_offset or 0.0) - corner)
+    # With a rim between the two holes of one end, which may be large.
+    aside = max(reach, params.screw_offset or 0.0, corner - params.rim / 2)
+    low = complex(-reach - 2 * corner, -aside - corner)
     return low, complex(params.ground, 0) - low
 
 

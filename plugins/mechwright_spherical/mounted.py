@@ -42,7 +42,8 @@ def axis_parts(params: SphericalParams) -> Iterator[Part]:
 
 def axis_frames(params: SphericalParams) -> dict[str, tuple[str, Array]]:
     """Frames to the body that each is fixed to, and its rotation (3, 3) in that; none without a flange."""
-    if not hubs_of(params):
+    # Not whether there are hubs: what pins without bush or ring forbid are parts, and no motion.
+    if params.stand.motor_flange is None:
         return {}
     arc, far = link_arcs(linkage_of(params))["ground"], motor_opposite(params)
     turned, output = math.pi if far else 0.0, "arm" if params.kind == "five-bar" else "rocker"

@@ -273,3 +273,15 @@ def test_a_machine_is_built_clear_and_its_bodies_are_those_of_its_bill(example, 
     assert len(solids) == count == bodies
     assert all((folder / f"{plate}.nc").exists() for plate in ("base", "motor-plate", "base-plate"))
     assert all((folder / f"{name}.pdf").exists() for name in ("shaft-a0", "shaft-b0", "motor-pillar"))
+
+
+@pytest.mark.parametrize("example", [EXAMPLE, FIVE])
+def test_pins_without_bush_or_ring_forbid_parts_and_no_motion(example):
+    wanted = design(example=example)
+    found = design(example=example, hardware={"pin_diameter": 7.3})
+    stopping = errors(found.judge())
+    assert any(one.code == "spherical.mount" for one in stopping)
+    assert not [one for one in stopping if one.stage == "motion"]
+    moved, usual = found.solve(19), wanted.solve(19)
+    for name in ("axle-a0", "axle-b0", "hub-a0", "hub-b0"):
+        np.testing.assert_allclose(moved.poses[name].rotation, usual.poses[name].rotation, atol=1e-12)
