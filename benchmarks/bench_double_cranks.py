@@ -1,4 +1,4 @@
-"""Random double cranks from check to proven programs: ``python benchmarks/bench_double_cranks.py``.
+"""Random double cranks and rockers, up to proven programs: ``python benchmarks/bench_double_cranks.py``.
 
 Every design has links or arcs at random, all else by default, and a transmission angle above 20 degrees. All
 are checked, which finds their layers and compares the plates over the turn. Of the first ones all bodies are
@@ -26,7 +26,7 @@ from mechwright.cli.app import make_app
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_spherical.checks import weakest
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.mobility import kind
+from mechwright_spherical.mobility import input_ways, kind
 from mechwright_spherical.params import FourBarTable, SphericalParams
 
 LEAST = math.radians(20)
@@ -37,6 +37,15 @@ SIZES = (12.0, 100.0)
 
 ARCS = (15.0, 90.0)
 """Arcs, degrees."""
+
+NAMES = {
+    "planar": "planar double cranks",
+    "spherical": "spherical double cranks",
+    "rockers": "spherical double rockers",
+}
+
+SHORTEST_SWING = 10
+"""Degrees that a rocker swings at least."""
 
 
 def planar(seed: int) -> Iterator[str]:
@@ -68,6 +77,24 @@ def spherical(seed: int) -> Iterator[str]:
             yield "\n".join([*head, "[parameters.four_bar]", *rows])
 
 
+def rockers(seed: int) -> Iterator[str]:
+    """Tables of spherical Grashof double rockers, each over the swing that keeps the transmission angle."""
+    rng = np.random.default_rng(seed)
+    names = ("ground", "input", "coupler", "output")
+    while True:
+        arcs = [round(float(angle), 1) for angle in rng.uniform(*ARCS, 4)]
+        radians = np.radians(arcs).tolist()
+        if kind(*radians) != "Grashof double rocker":
+            continue
+        low, high = max(input_ways(*radians, LEAST), key=lambda way: way[1] - way[0], default=(0.0, 0.0))
+        start, end = math.ceil(math.degrees(low)), math.floor(math.degrees(high))
+        if end - start >= SHORTEST_SWING:
+            rows = [f"{name} = {angle}" for name, angle in zip(names, arcs, strict=True)]
+            head = ['family = "spherical"', "[parameters]", 'kind = "four-bar"', "radius = 80"]
+            rows += [f"start = {start}", f"travel = {end - start}"]
+            yield "\n".join([*head, "[parameters.four_bar]", *rows])
+
+
 def passed(texts: list[str], first: int, *command: str) -> int:
     """How many designs a command accepts; says what it says of the others, one line for each."""
     good, start = 0, time.perf_counter()
@@ -92,14 +119,14 @@ def passed(texts: list[str], first: int, *command: str) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("kind", nargs="?", choices=("planar", "spherical"), default="planar")
+    parser.add_argument("kind", nargs="?", choices=("planar", "spherical", "rockers"), default="planar")
     parser.add_argument("--seed", type=int, default=18)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--checked", type=int, default=150)
     parser.add_argument("--modelled", type=int, default=20)
     parser.add_argument("--built", type=int, default=5)
     asked = parser.parse_args()
-    source = {"planar": planar, "spherical": spherical}[asked.kind](asked.seed)
+    source = {"planar": planar, "spherical": spherical, "rockers": rockers}[asked.kind](asked.seed)
     most = max(asked.checked, asked.modelled, asked.built)
     texts = list(islice(source, asked.first, asked.first + most))
     kept = []
@@ -107,7 +134,7 @@ def main() -> int:
     for command, count in steps:
         if count:
             refused = count - passed(texts[:count], asked.first, command)
-            kept.append(require(f"{asked.kind} double cranks that {command} refuses", refused, 0.0))
+            kept.append(require(f"{NAMES[asked.kind]} that {command} refuses", refused, 0.0))
     return 0 if all(kept) else 1
 
 

@@ -47,7 +47,7 @@ HIDDEN = {
     ),
     "web of a short crank": (
         "slider-crank",
-        {"crank": 3, "rod": 10, "offset": 1},
+        {"crank": 3, "rod": 10, "offset": 1, "pin": 2},
         "slider-crank.crank-web",
     ),
     "no order of layers": (

@@ -16,12 +16,12 @@ from mechwright.contracts.evaluation import SAMPLES
 from mechwright.tolerances import falls_short
 from mechwright_slider_crank import period_kernels as kernels
 from mechwright_slider_crank.bounds import bears
-from mechwright_slider_crank.checks import LEAST_WEB, TURN_MARGIN
+from mechwright_slider_crank.checks import TURN_MARGIN
 from mechwright_slider_crank.course import TURN_BACK
 from mechwright_slider_crank.limit_motion import LIMIT
 from mechwright_slider_crank.many import Cranks
 from mechwright_slider_crank.rooms import forbid_layers
-from mechwright_slider_crank.sizes import Sizes, filled_in
+from mechwright_slider_crank.sizes import LEAST_WEB, Sizes, filled_in
 
 _APART = {"swing_from", "swing_to", "crank_shape", "coupler_bore", "rod_width", "rod_bend", "screw_hole"}
 """What is not varied here."""

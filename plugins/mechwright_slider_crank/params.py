@@ -105,7 +105,9 @@ class SliderCrankParams(Parameters):
     )
     crank_shape: Literal["disc", "arm"] = Field("disc", description="Whether the crank is a disc or an arm.")
     pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20."
+        None,
+        description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20, or for short "
+        "ones 1.5 or 1.",
     )
     shaft: Annotated[float, Field(ge=1, le=300), Unit("mm")] | None = Field(
         None, description="Diameter of the crank's shaft; left out, one and a half pins."

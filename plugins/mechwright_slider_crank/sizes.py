@@ -13,6 +13,10 @@ PIN_SHARE = 0.125
 """Pin diameter over crank: slender enough that slider and rails keep out of the crank's way."""
 PIN_RANGE = (2.0, 20.0)
 """mm: the smallest and the largest dowel pin that is easy to get."""
+FINE_PINS = (1.5, 1.0)
+"""mm: dowel pins of cranks that are too short for the smallest usual one."""
+LEAST_WEB = 1.0
+"""mm between two bores, or a bore and the rim: thinner webs spread when a pin is pressed in."""
 SHAFT_SHARE = 1.5
 """Shaft diameter over pin diameter: the shaft is twisted as well as bent."""
 WALL_SHARE = 0.5
@@ -97,6 +101,10 @@ def _whole(value: Any) -> Any:
     return np.rint(value) if isinstance(value, np.ndarray) else round(value)
 
 
+def _where(which: Any, one: float, two: float) -> Any:
+    return np.where(which, one, two) if isinstance(which, np.ndarray) else one if which else two
+
+
 def _larger(one: Any, two: Any) -> Any:
     arrays = isinstance(one, np.ndarray) or isinstance(two, np.ndarray)
     return np.maximum(one, two) if arrays else max(one, two)
@@ -125,7 +133,12 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
         return default if value is None else value
 
     least, most = PIN_RANGE
-    pin = given("pin", _smaller(_larger(least, _whole(PIN_SHARE * table("crank"))), most))
+    crank, shaft = table("crank"), table("shaft")
+    usual = _smaller(_larger(least, _whole(PIN_SHARE * crank)), most)
+    for fine in FINE_PINS:
+        beside = SHAFT_SHARE * usual if shaft is None else shaft
+        usual = _smaller(usual, _where(crank - (usual + beside) / 2 < LEAST_WEB, fine, most))
+    pin = given("pin", usual)
     wall = given("wall", _larger(LEAST_WALL, WALL_SHARE * pin))
     width = given("slider_width", pin + 4 * wall)
     rail = given("rail", dowel_of(pin) + 2 * wall)

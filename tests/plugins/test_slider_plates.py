@@ -16,7 +16,7 @@ from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.figures import limits
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import body_poses, layout_of, masses_of, parts_of, standing_sizes
-from mechwright_slider_crank.sizes import sizes_of
+from mechwright_slider_crank.sizes import filled_in, sizes_of
 
 DESIGNS = (
     {"crank": 51.23710482942299, "rod": 113.28305527097052, "offset": 50},
@@ -229,3 +229,15 @@ def test_usual_rails_stay_as_they_are():
     layout = layout_of(SliderCrankParams())
     assert layout.sizes.overhang == layout.sizes.rail
     assert layout.sizes == sizes_of(SliderCrankParams())
+
+
+@pytest.mark.parametrize(("crank", "pin"), [(3, 1.5), (2.5, 1.0), (3.5, 2.0), (2.9, 1.5), (40, 5)])
+def test_short_cranks_have_fine_pins(crank, pin):
+    params = SliderCrankParams(crank=crank, rod=4 * crank, offset=0)
+    assert sizes_of(params).pin == pin
+    assert errors(findings(params)) == []
+    assert filled_in({"crank": np.array([crank, 40.0]), "bushing": 1.0}.get).pin.tolist() == [pin, 5.0]
+
+
+def test_a_shaft_that_is_said_leaves_room_for_the_pin():
+    assert sizes_of(SliderCrankParams(crank=4, rod=20, shaft=4.2)).pin == 1.5
