@@ -62,7 +62,8 @@ def _goes_in(scene: Scene) -> NDArray[np.bool_]:
     low = np.fmin(run.start[:, 2], run.end[:, 2]) < -NEAR
     still = (np.abs(run.end[:, :2] - run.start[:, :2]) <= NEAR).all(axis=1)
     up = still & (run.end[:, 2] >= run.start[:, 2])
-    return (run.kind == Kind.RAPID) & low & ~up & ~of_taps(scene)
+    found: NDArray[np.bool_] = (run.kind == Kind.RAPID) & low & ~up & ~of_taps(scene)
+    return found
 
 
 def coolant(scene: Scene) -> Check:
