@@ -120,7 +120,7 @@ def _usual(control: str, comment: str, *, cycles: bool, sides: bool) -> dict[str
 CASES: dict[str, Callable[[], list[str]]] = {
     "Klartext: 100,000 lines": _lines,
     "Klartext: 100,000 lines with all words": lambda: _lines(" R0 F1000"),
-    "Klartext: 100,000 feeds": lambda: [f"{line} F{500 + k % 99}" for k, line in enumerate(_lines())],
+    "Klartext: 100,000 feeds": lambda: [f"L {place} F{500 + k % 99}" for k, place in enumerate(places(MANY))],
     "Klartext: 100,000 rapids": lambda: _lines(" R0 FMAX"),
     "Klartext: 100,000 lines in stock": lambda: [
         *("L X+0 Y+0 R0 FMAX", "L Z-0.5 R0 F1000", *(f"L {place}" for place in places(MANY)))
