@@ -108,13 +108,14 @@ def test_load_of_every_mill(cut):
         wide = ~down & (angle > 120) & (rows[:, 6] > 0.3 * tool.radius * depth)
         step_down = data.step_down * tool.diameter
         assert (depth[wide] <= step_down + 0.02).all()
-        # The feed: no more per tooth than the data say, but where little of the mill is engaged, as in finishing,
-        # twice that; beside a tab it is more for a moment. And not idling.
-        fast = angle[~down & (depth > 0.05) & (load > 1.001)]
-        assert (fast <= 90).all()
-        assert np.count_nonzero(fast > 48) <= 0.01 * fast.size
+        # The feed: no chip is thicker than the data say, up to three times that per tooth where little of the
+        # mill is engaged; beside a tab it is more for a moment. And not idling.
+        fast = ~down & (depth > 0.05) & (load > 1.001)
+        chip = load[fast] * np.sin(np.radians(np.minimum(angle[fast], 90)))
+        assert (angle[fast] <= 90).all()
+        assert np.count_nonzero(chip > 1.25) <= 0.01 * chip.size
         every = [m for m in moves if m.tool == tool.number and m.kind == "feed"]
         load = np.array([m.feed / m.rpm / tool.flutes for m in every])
-        assert (load <= 2 * data.chip_load * 1.001).all()
+        assert (load <= 3 * data.chip_load * 1.001).all()
         assert np.median(load) > 0.2 * data.chip_load
         assert all(m.rpm * np.pi * tool.diameter / 1000 <= data.cutting_speed * 1.01 for m in every)
