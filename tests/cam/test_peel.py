@@ -8,10 +8,10 @@ import shapely
 from by_control import BY_NAME
 from planning_parts import bore, job, lobes, part, plate, rounded_box
 
-from mechwright.contracts.part import Part
+from mechwright.contracts.part import Part, is_outside
 from mechwright_cam.machining import Machined, machine
 from mechwright_cam.operations.engagement import engagements
-from mechwright_cam.operations.peel import AHEAD, BACK, step_of
+from mechwright_cam.operations.peel import AHEAD, BACK, Peel, step_of
 from mechwright_cam.plane.offsets import densified
 from mechwright_cam.program.moves import FeedArc
 
@@ -67,6 +67,10 @@ def test_by_default_outsides_are_cut_as_ever() -> None:
     names = [o.name for o in made(plate(bore(12.0)), "mill-6").proof.operations]
     assert "outside: rough" in names
     assert "outside: peel" not in names
+    of = job(plate(bore(12.0)), "mill-6")
+    outside = next(feature for feature in of.features if is_outside(feature))
+    assert Peel().claim(outside, of) is None
+    assert Peel().choose(outside, of, ()) is None
 
 
 def test_the_faster_of_both_is_taken() -> None:

@@ -15,6 +15,7 @@ before. So the step follows from the engagement that is asked for.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -79,6 +80,10 @@ class Peel(Contour):
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
         """The outsides of a job with ``outsides = "adaptive"``."""
         return super().claim(feature, job) if job.settings.outsides == "adaptive" else None
+
+    def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
+        """Those of an outside whose channel leaves a frame, where it is not cut with the full width."""
+        return None if every.settings.outsides == "contour" else super().choose(feature, every, chosen)
 
     def open_up(self, layer: Layer) -> None:
         """Loops all around; none where one pass of full width would do, or all around the part goes."""
