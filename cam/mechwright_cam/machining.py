@@ -9,7 +9,7 @@ from mechwright.build import Build
 from mechwright.contracts.finding import Finding, Stage, at_stage, errors
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
-from mechwright.errors import DesignError, PluginError
+from mechwright.errors import DesignError, PluginError, ProofError, ToolError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.exactness import posted
@@ -247,6 +247,8 @@ def machine(
     ProofError
         The program would not cut the right part.
     """
+    if job.settings.outsides == "faster":
+        return _faster(job, control, place, assignments, rules)
     cam = job.settings
     tools = Library(job.tools).measured(cam.measured.lengths).tools
     if tools != job.tools:
@@ -266,3 +268,22 @@ def machine(
     proof = judge(scene, rules)
     proof.require()
     return Machined(job, program, files, proof, scene)
+
+
+def _faster(
+    job: Job, control: Control, place: int, assignments: Assignments | None, rules: Sequence[Rule]
+) -> Machined:
+    """The program with the channels of outsides cut in the way that takes less time, as both are simulated.
+
+    Bounded engagement is tried first; where it cannot be, or its program is no better, the full width stands.
+    """
+    made: list[Machined] = []
+    for way in ("contour", "adaptive"):
+        settings = job.settings.model_copy(update={"outsides": way})
+        tried = replace(job, settings=settings)
+        try:
+            made.append(machine(tried, control, place, assignments, rules))
+        except (ToolError, ProofError, DesignError):
+            if not made:
+                raise
+    return min(made, key=lambda one: one.proof.time_estimate_s)

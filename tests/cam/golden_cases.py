@@ -202,6 +202,21 @@ CASES: dict[str, Case] = {
         thickness=3,
         settings={"hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},
     ),
+    "peel": Case(
+        (Profile("outside", PLATE, "outside", 0, 6),),
+        ("mill-8",),
+        (
+            "outside: peel",
+            "outside below the tabs: rough",
+            "outside: finish",
+        ),
+        thickness=6,
+        settings={
+            "outsides": "adaptive",
+            "engagement": 90,
+            "hold": {"method": "tabs", "tabs": 2, "tab_width": 4},
+        },
+    ),
     "offsets": Case(
         (Profile("outside", PLATE, "outside", 0, 3), hole("hole", 0, 0, 5, 3)),
         ("mill-8", "spot-6", "drill-5"),

@@ -37,18 +37,18 @@ NEARLY = 1e-6
 
 
 def roughing_mills(
-    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None
+    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None, wide: float = 1.0
 ) -> list[Tool]:
-    """The mills whose channel around the part leaves a frame, largest first.
+    """The mills whose channel around the part, ``wide`` diameters, leaves a frame, largest first.
 
     Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
     error if no mill leaves one.
     """
     apart = _neighbour(job, part)
-    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill), apart)]
+    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill, wide), apart)]
     if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
-    least = channel_width(job, mills[-1])
+    least = channel_width(job, mills[-1], wide)
     if apart < 2 * least + LEAST_FRAME:
         raise DesignError(
             f"cam.nest.gap: {apart:.2f} mm between the parts of {job.part.name} leave no frame between two "
@@ -63,9 +63,9 @@ def roughing_mills(
     )
 
 
-def channel_width(job: Job, mill: Tool) -> float:
-    """Width of the channel that a mill opens around the part in one pass, mm."""
-    return mill.diameter + max(job.settings.stock_to_leave, SLACK)
+def channel_width(job: Job, mill: Tool, wide: float = 1.0) -> float:
+    """Width of the channel that a mill opens around the part, so many diameters and what is left, mm."""
+    return wide * mill.diameter + max(job.settings.stock_to_leave, SLACK)
 
 
 def _has_frame(job: Job, part: shapely.Geometry, width: float, apart: float) -> bool:
@@ -103,10 +103,10 @@ def _neighbour(job: Job, part: shapely.Geometry) -> float:
 
 
 def channel_of(
-    job: Job, part: shapely.Polygon, mill: Tool
+    job: Job, part: shapely.Polygon, mill: Tool, wide: float = 1.0
 ) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
-    width = channel_width(job, mill)
+    width = channel_width(job, mill, wide)
     thin = thinned(part)  # the finishing of the wall does not depend on it
     if not _has_frame(job, part, width, _neighbour(job, part)):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from functools import partial
+from typing import ClassVar
 
 import shapely
 
@@ -36,12 +37,14 @@ class Contour(Operation):
     """Cuts an outside in one layer, or with tabs in two: above and below their tops."""
 
     name = "contour"
+    wide: ClassVar[float] = 1.0
+    """Width of the channel, in diameters of the mill that opens it."""
 
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
         """Any outside through the plate; without zones where all of its edges are those of the stock."""
         if not is_outside(feature):
             return None
-        zones = _zones(job, feature)
+        zones = _zones(job, feature, self.wide)
         tools, region = (zones[0].tools, zones[0].clear) if zones else ((), shapely.Polygon())
         return Task(feature, self, tools, -feature.top, job.floor, region, data=zones)
 
@@ -56,7 +59,8 @@ class Contour(Operation):
         widest = max(HANDY, ROUGHING_SHARE * narrow)
         mills = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
         if settings.stock != Plate() or isinstance(every.part, Nest):  # else it is made large enough
-            mills = roughing_mills(every, mills, shape, framed=settings.hold.method == "tabs")
+            framed = settings.hold.method == "tabs"
+            mills = roughing_mills(every, mills, shape, framed=framed, wide=self.wide)
 
         def fits(mill: Tool) -> bool:
             slot = fills_a_slot(mill.radius, shape, settings.stock_to_leave, settings.path.bias)
@@ -70,8 +74,13 @@ class Contour(Operation):
         layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in task.data]
         if not layers:
             return stock
+        for layer in layers:
+            self.open_up(layer)
         steps.cuts += cut_layers(layers)
         return layers[-1].stock
+
+    def open_up(self, layer: Layer) -> None:
+        """What comes before the passes along the wall."""
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """Out of the plate with all of a rounded corner."""
@@ -86,8 +95,8 @@ class Contour(Operation):
         return corner_remarks(task.data[0], job) if task.data else []
 
 
-def _zones(job: Job, feature: Profile) -> list[Zone]:
-    """The layers of an outside, from the top down."""
+def _zones(job: Job, feature: Profile, wide: float) -> list[Zone]:
+    """The layers of an outside, from the top down; its channel is so many diameters ``wide``."""
     if not through(job, feature.top + feature.depth):
         raise DesignError(
             f"part {job.part.name}: the outside {feature.name} ends {feature.depth:g} mm below "
@@ -99,9 +108,9 @@ def _zones(job: Job, feature: Profile) -> list[Zone]:
     if own and own[0].ramped:
         able = _flat_mills(job, able)
     # A mill too wide for the frame is as good as none, for finishing as well.
-    mills = roughing_mills(job, able, part)
+    mills = roughing_mills(job, able, part, wide=wide)
     mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
-    clear, channel = channel_of(job, part, mills[0])
+    clear, channel = channel_of(job, part, mills[0], wide)
     if shapely.is_empty(clear):
         return []  # all of its edges are those of the stock
     choose = partial(last_mills, keep=part, settings=job.settings)
@@ -122,11 +131,16 @@ def _zones(job: Job, feature: Profile) -> list[Zone]:
         # Rounded upwards: a decimal too low would already cut the tabs.
         height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
         low = partial(layer, top=height, bottom=job.floor, below=True)
+        if wide > 1:  # so low a layer is cut with the full width of the mill
+            under, narrow = channel_of(job, part, mills[0])
+            low = partial(low, channel=narrow)
+        else:
+            under = clear
         if own[0].ramped:
-            lower = low(name=f"{feature.name} over the tabs", clear=clear, slopes=tuple(own))
+            lower = low(name=f"{feature.name} over the tabs", clear=under, slopes=tuple(own))
         else:
             tabs = shapely.union_all([tab.shape for tab in own])
-            lower = low(name=f"{feature.name} below the tabs", clear=clear.difference(tabs), tabs=tabs)
+            lower = low(name=f"{feature.name} below the tabs", clear=under.difference(tabs), tabs=tabs)
         return [whole(bottom=height, below=False), lower]
 
     last = tuple(choose(mills))

@@ -12,6 +12,7 @@ from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.engrave import Engrave
 from mechwright_cam.operations.face import Face
 from mechwright_cam.operations.groove import Groove
+from mechwright_cam.operations.peel import Peel
 from mechwright_cam.operations.ream import Ream
 from mechwright_cam.operations.tap import TapOperation
 from mechwright_cam.operations.thread import ThreadOperation
@@ -24,6 +25,7 @@ BUILT_IN: tuple[Operation, ...] = (
     Face(),
     Adaptive(),
     Clear(),
+    Peel(),
     Contour(),
     ChamferOperation(),
     ThreadOperation(),

@@ -122,7 +122,7 @@ def _sections(scene: Scene) -> Check | None:
         if tool.kind not in MILLS or not loads.step.size:
             continue
         asked = 0.0
-        if cam.clearing == "adaptive":
+        if cam.adaptive:
             asked = BEYOND * cam.adaptive_depth * (1 - math.cos(math.radians(cam.engagement))) / 2
         limit = max(SECTIONS * data.step_down, asked) * tool.diameter**2
         large = loads.section > limit
@@ -180,7 +180,7 @@ def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[t
 def _deepest(scene: Scene, data: CuttingData) -> float:
     """Depth of a planned pass in diameters."""
     settings = scene.job.settings
-    return max(data.step_down, settings.adaptive_depth if settings.clearing == "adaptive" else 0.0)
+    return max(data.step_down, settings.adaptive_depth if settings.adaptive else 0.0)
 
 
 def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[list[int], list[float]]:

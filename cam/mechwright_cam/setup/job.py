@@ -41,6 +41,11 @@ LEAST_TURN = 0.05
 large D is: on a smaller one rounding to three decimals would change its direction by degrees."""
 
 
+PEELED = 1.3
+"""Width of a channel that is opened with bounded engagement, in diameters of its mill: wider ones take longer
+loops, and narrower ones more of them."""
+
+
 def wear_margin(settings: CamSettings) -> float:
     """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
     return 0.0 if settings.compensation == "computer" else settings.wear_limit + LEAST_TURN

@@ -10,7 +10,7 @@ from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.errors import DesignError
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.holding import Clamp, ToeClamp
-from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.job import PEELED, Job
 from mechwright_cam.setup.nest import Nest, moved_feature
 from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.setup.tabs import lay_tabs
@@ -38,7 +38,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
     nothing of the part can be held as the settings say.
     """
     settings = _with_usual_tabs(settings, part.thickness)
-    widest = widest_mill(tools)
+    widest = widest_mill(tools) * (1.0 if settings.outsides == "contour" else PEELED)
     # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
     stock = plate_box(part, settings, widest + 3.0)
     origin = {

@@ -171,6 +171,11 @@ class CamSettings(Parameters):
         "contour",
         description="How recesses and openings are roughed: along their walls, or with bounded engagement.",
     )
+    outsides: Literal["contour", "adaptive", "faster"] = Field(
+        "contour",
+        description="How the channel around an outside is roughed: with the mill's full width, wider and "
+        "with bounded engagement, or as is faster.",
+    )
     engagement: Degrees = Field(
         60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
     )
@@ -208,6 +213,11 @@ class CamSettings(Parameters):
                     f"measured.more: {offset} is none of more_offsets; name it there, or leave it out"
                 )
         return self
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether anything is cleared with bounded engagement."""
+        return "adaptive" in {self.clearing, self.outsides}
 
     @property
     def offsets(self) -> tuple[str, ...]:
