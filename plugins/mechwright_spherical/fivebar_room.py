@@ -12,7 +12,7 @@ the passage is cut into stretches, and in each the extreme of a fine grid is cor
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -21,8 +21,8 @@ from mechwright import Array
 from mechwright.mechanics.tracing.order import one_way
 from mechwright.mechanics.tracing.points import random_angles
 from mechwright_spherical.chain import body_point, third_position
-from mechwright_spherical.fourbar_room import MARGIN, USUAL, Bounds, kabsch
-from mechwright_spherical.vectors import cross
+from mechwright_spherical.fourbar_room import MARGIN, USUAL, Bounds, flat, kabsch
+from mechwright_spherical.path_kernels import five_bars_missed, five_bars_pinched, shares
 
 ARCS = 5
 """Ground, crank, coupler, rocker, arm."""
@@ -33,20 +33,26 @@ STRETCHES = 8
 FINE = 12
 """Steps of a stretch: 3.75 degrees of the crank at most, where a parabola misses an extreme by 1e-7."""
 
-TRIED, COARSE = 8, 24
+TRIED, COARSE = 8, 3
 """Random shapes for each start, most of which cannot be assembled over the whole passage, and the steps of
-the passage, for a ratio up to 1, in which that is asked."""
+a stretch in which that is asked."""
 
 
 @dataclass(frozen=True)
 class FiveShapes:
-    """Linkages (...): arcs (..., 5), arm's angle, place of the path point, quaternion, first crank angle."""
+    """Linkages (...) by their unknowns (..., 12), or (..., 13) with the first crank angle."""
 
-    arcs: Array
-    phase: Array
-    point: tuple[Array, Array, Array]
-    turn: Array
-    first: Array
+    rows: Array
+
+    @property
+    def arcs(self) -> Array:
+        """(..., 5), rad."""
+        return self.rows[..., :ARCS]
+
+    @property
+    def first(self) -> Array:
+        """(...) crank angle at the first point, of timed points."""
+        return self.rows[..., -1]
 
 
 @dataclass(frozen=True)
@@ -83,26 +89,14 @@ class FiveBarRoom:
     bounds: Bounds
 
     def made(self, x: Array) -> FiveShapes:
-        """The linkages of unknowns (..., 12), or (..., 13) with the first crank angle."""
-        arcs, phase, kappa, eta = x[..., :ARCS], x[..., 5], x[..., 6], x[..., 7]
-        turn = x[..., 8:12]
-        turn = turn / np.sqrt((turn**2).sum(axis=-1, keepdims=True))
-        coupler = arcs[..., 2]
-        across = np.cos(eta) * np.sin(kappa) / np.sin(coupler)
-        factors = (
-            np.cos(eta) * np.cos(kappa) - across * np.cos(coupler),
-            across,
-            np.sin(eta) / np.sin(coupler),
-        )
-        return FiveShapes(arcs, phase, factors, turn, x[..., -1])
+        """See ``Traced``."""
+        return FiveShapes(x)
 
     def missed(self, made: FiveShapes, theta: Array) -> Array:
         """See ``Traced``."""
-        p = self._own(made, self.angles(made, theta))
-        w, v = made.turn[..., 0], np.moveaxis(made.turn[..., 1:], -1, 0)[..., None]
-        twice = 2 * cross(np.broadcast_to(v, p.shape), p)
-        placed = p + w[..., None] * twice + cross(np.broadcast_to(v, p.shape), twice)
-        return (np.moveaxis(placed, 0, -1) - self.targets) / self.size
+        lead, rows, angles = flat(made.rows, self.angles(made, theta))
+        found = five_bars_missed(rows, angles, self.ratio, float(self.side), self.targets, self.size)
+        return found.reshape(*lead, *self.targets.shape)
 
     def angles(self, made: FiveShapes, theta: Array) -> Array:
         """Crank angles (..., n) of the points, rad."""
@@ -111,7 +105,7 @@ class FiveBarRoom:
     def driven(self, made: FiveShapes, theta: Array) -> tuple[Array, Array]:
         """Pins A and B (3, ..., n) in the linkage's own coordinates: z is a0, and y square to both axes."""
         ground, crank, _, _, arm = (made.arcs[..., k, None] for k in range(ARCS))
-        phi = made.phase[..., None] + self.ratio * theta
+        phi = made.rows[..., 5, None] + self.ratio * theta
         zero = 0 * (theta + crank)
         a = np.stack([np.sin(crank) * np.cos(theta), np.sin(crank) * np.sin(theta), np.cos(crank) + zero])
         out, along = np.sin(arm) * np.cos(phi), np.cos(arm) + zero
@@ -124,14 +118,6 @@ class FiveBarRoom:
         )
         return a, b
 
-    def _own(self, made: FiveShapes, theta: Array) -> Array:
-        """Path points (3, ..., n) in the linkage's own coordinates; NaN where it cannot be assembled."""
-        a, b = self.driven(made, theta)
-        coupler, rocker = made.arcs[..., 2, None], made.arcs[..., 3, None]
-        c = third_position(a, b, np.cos(coupler), np.cos(rocker), np.asarray(float(self.side)))
-        one, two, three = (factor[..., None] for factor in made.point)
-        return body_point((a,), (c,), (one, two, three))[0]
-
     def exceeded(self, made: FiveShapes, theta: Array) -> Array:
         """Arcs beyond their bounds, rad, and cosines of the transmission angle; 0 or less is kept."""
         low, high = self.bounds.least - made.arcs, made.arcs - self.bounds.greatest
@@ -142,39 +128,15 @@ class FiveBarRoom:
             + MARGIN
         )
 
-    def cosines(self, made: FiveShapes, theta: Array) -> Array:
+    def cosines(self, made: FiveShapes, theta: Array, fine: int = FINE) -> Array:
         """Greatest cosines of μ and of 180° - μ in each stretch of the passage, (..., 2 stretches)."""
         stretches = STRETCHES * math.ceil(max(1.0, abs(self.ratio)))
-        steps = stretches * FINE
-        diagonal = self._diagonal(made, self._passage(made, theta, np.arange(-1, steps + 2) / steps))
-        mean, factor = _linked(made)
-        least, most = _extremes(diagonal, stretches)
-        return np.concatenate([(most - mean) / factor, (mean - least) / factor], axis=-1)
-
-    def _passage(self, made: FiveShapes, theta: Array, parts: Array) -> Array:
-        """Crank angles (..., k) at parts (k,) of the passage of the points."""
         angles = self.angles(made, theta)
         first = angles[..., :1]
         last = first + self.sense * math.tau if self.closed else angles[..., -1:]
-        found: Array = first + (last - first) * parts
-        return found
-
-    def _diagonal(self, made: FiveShapes, theta: Array) -> Array:
-        """A.B (..., k) at crank angles (..., k): products of functions of the angle and of the shape.
-
-        The angles are the same for many shapes, and only their sines and cosines take time.
-        """
-        c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(self.ratio * theta), np.sin(self.ratio * theta)
-        waves = np.stack([c, c * cr, c * sr, s * cr, s * sr, cr, sr, np.ones_like(c)], axis=-2)
-        (sg, cg), (s1, c1), (s4, c4), (sp, cp) = (
-            (np.sin(one), np.cos(one)) for one in (*(made.arcs[..., k] for k in (0, 1, 4)), made.phase)
-        )
-        sizes = [
-            s1 * sg * c4, s1 * cg * s4 * cp, -s1 * cg * s4 * sp, s1 * s4 * sp, s1 * s4 * cp,
-            -c1 * sg * s4 * cp, c1 * sg * s4 * sp, c1 * cg * c4,
-        ]  # fmt: skip
-        found: Array = (np.stack(sizes, axis=-1)[..., None, :] @ waves)[..., 0, :]
-        return found
+        lead, rows, ends = flat(made.rows, np.concatenate([first, last], axis=-1))
+        found = five_bars_pinched(rows, ends[:, 0], ends[:, 1], self.ratio, stretches, fine)
+        return found.reshape(*lead, -1)
 
     def ordered(self, theta: Array, sense: Array) -> Array:
         """See ``Traced``; angles that are given are in order."""
@@ -190,13 +152,9 @@ class FiveBarRoom:
         still = np.tile([1.0, 0.0, 0.0, 0.0], (many, 1))
         x = np.concatenate([arcs, np.stack(rest, axis=-1), still, theta[:, :1]], axis=1)
         made = self.made(x)
-        parts = np.linspace(0, 1, COARSE * math.ceil(max(1.0, abs(self.ratio))) + 1)
-        mean, factor = _linked(made)
-        cosine = (self._diagonal(made, self._passage(made, theta, parts)) - mean) / factor
-        good = np.flatnonzero(np.abs(cosine).max(axis=-1) < 1)[:count]
+        good = np.flatnonzero(self.cosines(made, theta, COARSE).max(axis=-1) < 1)[:count]
         x, theta = x[good], theta[good]
-        with np.errstate(all="ignore"):
-            own = np.moveaxis(self._own(self.made(x), theta), 0, -1)
+        own = replace(self, targets=0 * self.targets, size=1.0).missed(self.made(x), theta)
         good = np.flatnonzero(np.isfinite(own).all(axis=(1, 2)))
         x, theta, own = x[good], theta[good], own[good]
         error = np.empty(0)
@@ -214,7 +172,7 @@ class FiveBarRoom:
         at = np.array([theta])
         a, b = self.driven(made, at)
         c = third_position(a, b, np.cos(made.arcs[2]), np.cos(made.arcs[3]), np.asarray(float(self.side)))
-        p = body_point((a,), (c,), made.point)[0]
+        p = body_point((a,), (c,), shares(float(x[6]), float(x[7]), float(x[2])))[0]
         ground = float(made.arcs[0])
         frame = Rotation.from_quat(x[8:12], scalar_first=True).as_matrix()
         own = {
@@ -223,23 +181,3 @@ class FiveBarRoom:
             **{name: one[:, 0] for name, one in (("a", a), ("b", b), ("c", c), ("p", p))},
         }
         return {name: np.asarray(frame @ one) for name, one in own.items()}
-
-
-def _linked(made: FiveShapes) -> tuple[Array, Array]:
-    """Products of cosines and of sines (..., 1) of coupler and rocker."""
-    coupler, rocker = made.arcs[..., 2, None], made.arcs[..., 3, None]
-    return np.cos(coupler) * np.cos(rocker), np.sin(coupler) * np.sin(rocker)
-
-
-def _extremes(values: Array, stretches: int) -> tuple[Array, Array]:
-    """Least and greatest value in each stretch (..., stretches) of a curve with a step more at either end."""
-    before, here, after = values[..., :-2], values[..., 1:-1], values[..., 2:]
-    rise, fall = here - before, here - after
-    peak = rise * fall > 0
-    # At the ends only what is inside: there the curve goes on as it came.
-    peak[..., 0] &= np.abs(fall[..., 0]) < np.abs(rise[..., 0])
-    peak[..., -1] &= np.abs(rise[..., -1]) < np.abs(fall[..., -1])
-    bend = np.where(peak, rise + fall, 1.0)
-    turned = here + np.where(peak, (rise - fall) ** 2 / (8 * bend), 0.0)
-    inner, ends = turned[..., :-1].reshape(*turned.shape[:-1], stretches, FINE), turned[..., FINE::FINE]
-    return np.minimum(inner.min(axis=-1), ends), np.maximum(inner.max(axis=-1), ends)

@@ -8,7 +8,7 @@ least where the passage begins or ends or θ is a whole half turn.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -16,10 +16,9 @@ from scipy.spatial.transform import Rotation
 from mechwright import Array
 from mechwright.mechanics.tracing.order import one_way
 from mechwright.mechanics.tracing.points import random_angles
-from mechwright_spherical.chain import body_point, third_position
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.mobility import mobility
-from mechwright_spherical.vectors import cross
+from mechwright_spherical.path_kernels import four_bars_missed
 
 USUAL = math.radians(110.0)
 """Longest arcs of the starts: an arc and its supplement are the same link."""
@@ -42,12 +41,14 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Shapes:
-    """Linkages (...): arcs, place of the path point, quaternion (..., 4), first input angle if timed."""
+    """Linkages (...) by their unknowns (..., 10), or (..., 11) with the first input angle."""
 
-    arcs: tuple[Array, Array, Array, Array]
-    point: tuple[Array, Array, Array]
-    turn: Array
-    first: Array
+    rows: Array
+
+    @property
+    def first(self) -> Array:
+        """(...) input angle at the first point, of timed points."""
+        return self.rows[..., -1]
 
 
 @dataclass(frozen=True)
@@ -81,40 +82,22 @@ class FourBarRoom:
     bounds: Bounds
 
     def made(self, x: Array) -> Shapes:
-        """The linkages of unknowns (..., 10), or (..., 11) with the first input angle."""
-        a1, a2, a3, a4, kappa, eta = (x[..., k] for k in range(6))
-        turn = x[..., 6:10]
-        turn = turn / np.sqrt((turn**2).sum(axis=-1, keepdims=True))
-        along = np.cos(eta) * np.sin(kappa) / np.sin(a3)
-        factors = np.cos(eta) * np.cos(kappa) - along * np.cos(a3), along, np.sin(eta) / np.sin(a3)
-        return Shapes((a1, a2, a3, a4), factors, turn, x[..., -1])
+        """See ``Traced``."""
+        return Shapes(x)
 
     def missed(self, made: Shapes, theta: Array) -> Array:
         """See ``Traced``."""
-        p = self._own(made, self._angles(made, theta))
-        w, v = made.turn[..., 0], np.moveaxis(made.turn[..., 1:], -1, 0)[..., None]
-        twice = 2 * cross(np.broadcast_to(v, p.shape), p)
-        placed = p + w[..., None] * twice + cross(np.broadcast_to(v, p.shape), twice)
-        return (np.moveaxis(placed, 0, -1) - self.targets) / self.size
+        lead, rows, angles = flat(made.rows, self._angles(made, theta))
+        found = four_bars_missed(rows, angles, float(self.side), self.targets, self.size)
+        return found.reshape(*lead, *self.targets.shape)
 
     def _angles(self, made: Shapes, theta: Array) -> Array:
         return theta if self.turns is None else made.first[..., None] + self.turns + 0 * theta
 
-    def _own(self, made: Shapes, theta: Array) -> Array:
-        """Path points (3, ..., n) in the linkage's own coordinates; NaN where it cannot be assembled."""
-        a1, a2, a3, a4 = (one[..., None] for one in made.arcs)
-        sine = np.sin(a2)
-        zero = 0 * (theta + a2)
-        a = np.stack([sine * np.cos(theta), sine * np.sin(theta), np.cos(a2) + zero])
-        c = np.stack([np.sin(a1) + zero, zero, np.cos(a1) + zero])
-        b = third_position(a, c, np.cos(a3), np.cos(a4), np.asarray(-float(self.side)))
-        factors = tuple(one[..., None] for one in made.point)
-        return body_point((a,), (b,), (factors[0], factors[1], factors[2]))[0]
-
     def exceeded(self, made: Shapes, theta: Array) -> Array:
         """Arcs beyond their bounds, rad, and cosines of the transmission angle; 0 or less is kept."""
-        arcs = np.stack(made.arcs, axis=-1)
-        a1, a2, a3, a4 = (one[..., None] for one in made.arcs)
+        arcs = made.rows[..., :4]
+        a1, a2, a3, a4 = (arcs[..., k, None] for k in range(4))
         ends = self.extremes(self._angles(made, theta))
         diagonal = np.cos(a1) * np.cos(a2) + np.sin(a1) * np.sin(a2) * np.cos(ends)
         cosine = (diagonal - np.cos(a3) * np.cos(a4)) / (np.sin(a3) * np.sin(a4))
@@ -148,8 +131,7 @@ class FourBarRoom:
         shapes = np.concatenate([arcs, point]).T
         still = np.tile([1.0, 0.0, 0.0, 0.0], (m, 1))
         x = np.concatenate([shapes, still, theta[:, :1]], axis=1)
-        with np.errstate(all="ignore"):
-            own = np.moveaxis(self._own(self.made(x), theta), 0, -1)
+        own = replace(self, targets=0 * self.targets, size=1.0).missed(self.made(x), theta)
         good = np.isfinite(own).all(axis=(1, 2))
         x, theta, own = x[good], theta[good], own[good]
         if not len(x):
@@ -171,6 +153,17 @@ class FourBarRoom:
         """Its orientation (3, 3): columns are its axes in space."""
         found: Array = Rotation.from_quat(x[6:10], scalar_first=True).as_matrix()
         return found
+
+
+def flat(rows: Array, angles: Array) -> tuple[tuple[int, ...], Array, Array]:
+    """Shape (...) of linkages (..., k) at angles (..., n) together, and both as (m, k) and (m, n)."""
+    lead = np.broadcast_shapes(rows.shape[:-1], angles.shape[:-1])
+    one, two = (np.broadcast_to(each, (*lead, each.shape[-1])) for each in (rows, angles))
+    return (
+        lead,
+        np.ascontiguousarray(one).reshape(-1, rows.shape[-1]),
+        np.ascontiguousarray(two).reshape(-1, angles.shape[-1]),
+    )
 
 
 def kabsch(points: Array, targets: Array) -> tuple[Array, Array]:
