@@ -48,6 +48,9 @@ from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
 from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
 
+LOCKED = 85.0
+"""Degrees of pressure angle: at 90 the force of a tooth has no lever left about the shaft."""
+
 ON_AXIS = 0.0005
 """A middle nearer to its axis is said to be on it, mm: half of the last digit that is told."""
 
@@ -157,12 +160,13 @@ def _drive(params: NoncircularParams) -> Iterator[Finding]:
         nearest(params, lambda one: extremes_of(one).steepest.value <= most),
         "let the ratio change over a longer angle of the driver",
     )
-    yield Finding.warning(
+    locked = exceeds(angle, LOCKED)
+    yield (Finding.error if locked else Finding.warning)(
         "gear.pressure-angle",
         "law",
         f"the pressure angle that the shaft sees reaches {angle:.1f} degrees at "
         f"{math.degrees(steepest.angle):.1f} degrees of gear 1, above {SHAFT_PRESSURE_ANGLE:g}: the "
-        "teeth push more than they turn",
+        + ("teeth lock, for they push past the shaft" if locked else "teeth push more than they turn"),
         angle,
         SHAFT_PRESSURE_ANGLE,
         "deg",
