@@ -49,7 +49,7 @@ from mechwright_noncircular_gears.strength_checks import strength_findings
 from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
 
 LOCKED = 85.0
-"""Degrees of pressure angle that the shaft sees from which on teeth lock: at 90 their force turns nothing."""
+"""Degrees of pressure angle: at 90 the force of a tooth has no lever left about the shaft."""
 
 ON_AXIS = 0.0005
 """A middle nearer to its axis is said to be on it, mm: half of the last digit that is told."""

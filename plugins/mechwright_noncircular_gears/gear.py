@@ -8,6 +8,7 @@ import numpy as np
 from mechwright import Array, Outline, kept
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import (
+    FIT,
     Rack,
     RolledCurve,
     RolledPair,
@@ -96,17 +97,33 @@ def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
     at (j + δ + 1/2) p. The contact runs clockwise in the driver and in a ring, against their arcs' sense.
     """
     (one, two), (rack, mate) = curves_of(params), racks_of(params)
-    offset = params.tooth_offset
+    offset, fit = params.tooth_offset, fit_of(params)
     if params.sector is not None:
         count, hub = params.teeth, hub_of(params) / 2
         return (
-            alike(SectorTeeth.over(one, rack, count, (-count, 0), -offset, hub)),
-            alike(SectorTeeth.over(two, mate, count, (0, count), offset + 0.5, hub)),
+            alike(replace(SectorTeeth.over(one, rack, count, (-count, 0), -offset, hub), fit=fit)),
+            alike(replace(SectorTeeth.over(two, mate, count, (0, count), offset + 0.5, hub), fit=fit)),
         )
     return (
-        alike(Teeth(one, rack, params.teeth, -offset % 1.0)),
-        alike(Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0)),
+        alike(Teeth(one, rack, params.teeth, -offset % 1.0, fit=fit)),
+        alike(Teeth(two, mate, params.mate_teeth, params.side * (offset + 0.5) % 1.0, fit=fit)),
     )
+
+
+STEADY = 35.0
+"""Least pitch radius of the driven gear, mm, at which flanks within FIT turn it to 5 µrad."""
+
+
+FINEST = 0.2
+"""Of FIT: below a radius of 7 mm flanks of metal are no nearer than that to anything."""
+
+
+def fit_of(params: NoncircularParams) -> float:
+    """How near outlines come to the exact flanks, mm: a smaller gear is turned more by the same error."""
+    found = extremes_of(params)
+    ratio = found.slowest.value if params.internal else found.fastest.value
+    least = pair_of(params).distance / (1 + params.side * ratio)
+    return FIT * min(1.0, max(least / STEADY, FINEST))
 
 
 def hub_of(params: NoncircularParams) -> float:

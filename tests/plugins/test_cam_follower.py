@@ -158,6 +158,42 @@ def test_sizes_that_another_program_prints():
     assert round((high - low) / scale, 2) == 2.55
 
 
+def test_pressure_angle_that_another_program_prints():
+    """The same README and cam with a roller of 0.5 in, in its plot of the pressure angle: R_b = 1.25091 in for 30°.
+
+    The angle there is the greatest of its samples, so that the radius is good to five digits.
+    """
+    scale = 10.0
+    table = {"angles": (90, 90, 90, 90), "lifts": (0, scale, scale, 0), "roller_radius": scale / 2, "bore": 0}
+    printed = extremes_of(cam(base_radius=1.25091 * scale, **table), False)
+    assert round(math.degrees(printed.pressure.value), 2) == 30.0
+    wanted = SizeRequirement(**table, greatest_pressure_angle=30, offset=0.0)
+    (best,) = smallest(wanted, lambda done, what: None).candidates
+    assert best.params.base_radius / scale == pytest.approx(1.2509, abs=1e-4)
+
+
+def test_rates_that_a_textbook_prints():
+    """R. S. Khurmi and J. K. Gupta, Theory of Machines, the first exercise with a valve on cams.
+
+    Harmonic motion through 50 mm in a third of a turn, at rest for a twelfth, back in a sixth, 100 rev/min, a
+    roller of 20 mm, a least radius of the cam of 25 mm: 0.39 and 0.78 m/s, 6.17 and 24.67 m/s² are printed.
+    """
+    valve = cam(
+        angles=(120, 30, 60, 150),
+        lifts=(50, 50, 0, 0),
+        laws=["simple-harmonic"],
+        base_radius=25,
+        roller_radius=10,
+        speed=100,
+        bore=0,
+    )
+    omega = valve.omega
+    for segment, (speed, acceleration) in zip((0, 2), ((0.39, 6.17), (0.78, 24.67)), strict=True):
+        rates = cycle_of(valve).segments[segment].at(np.linspace(0, 1, 1001))
+        assert np.abs(rates.v).max() * omega / 1e3 == pytest.approx(speed, abs=0.006)
+        assert round(np.abs(rates.a).max() * omega**2 / 1e3, 2) == acceleration
+
+
 def test_flat_face_radius():
     """ρ = R_b + s + s'' for a slide; a lever's by differences of its profile."""
     params = cam(contact="flat", laws=["4-5-6-7"])

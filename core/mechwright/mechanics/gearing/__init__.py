@@ -10,7 +10,7 @@ driver, driven gear
     The gear whose angle is given, and the other.
 """
 
-from mechwright.mechanics.gearing.contour import FIT, gear_loop, tip_sites
+from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
 from mechwright.mechanics.gearing.mesh import Mesh, mesh, swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
@@ -22,7 +22,7 @@ from mechwright.mechanics.gearing.rolled import RolledCurve, RolledPair, Rolling
 from mechwright.mechanics.gearing.round import Round, RoundPair
 from mechwright.mechanics.gearing.sector import SectorTeeth, sector_loop
 from mechwright.mechanics.gearing.shaper import Shaper
-from mechwright.mechanics.gearing.teeth import Teeth
+from mechwright.mechanics.gearing.teeth import FIT, Teeth
 
 __all__ = [
     "FIT",

@@ -11,12 +11,8 @@ from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import BSpline, Point, Segment
 from mechwright.mechanics.gearing.candidates import Ints
 from mechwright.mechanics.gearing.rack import SIDES
-from mechwright.mechanics.gearing.teeth import Teeth
+from mechwright.mechanics.gearing.teeth import FIT, Teeth
 from mechwright.tolerances import TOLERANCES
-
-FIT = 0.0001
-"""Deviation of the outline from the exact curves, mm: a tenth of what an outline may have, for one degree
-more. Errors of a flank turn the driven gear; this one turns it by a few microradians."""
 
 _NEAR = 0.01
 """Share of a curve at each end within which a jump of its curvature does not matter: some nanometres."""
@@ -81,7 +77,9 @@ def share(chain: Chain, starts: list[Array] | None, ends: list[Array] | None) ->
             nets[-1][-1] = ends[j]
 
 
-def _fitted(curves: CurvesOf, first: Array, last: Array, breaks: Array, period: float) -> tuple[Chain, float]:
+def _fitted(
+    curves: CurvesOf, first: Array, last: Array, breaks: Array, period: float, fit: float = FIT
+) -> tuple[Chain, float]:
     """Fit curves from parameters (n,) to (n,), each in pieces between the breaks (m,) that lie within it.
 
     ``curves(rows, s)`` gives points (k, l, 2), mm, of curves ``rows`` (k,) at parameters s (k, l). A fit
@@ -92,7 +90,7 @@ def _fitted(curves: CurvesOf, first: Array, last: Array, breaks: Array, period: 
     def points(t: Array) -> Array:
         return curves(rows, _between(starts, ends, t))
 
-    nets, error = fit_nets(points, rows.size, FIT)
+    nets, error = fit_nets(points, rows.size, fit)
     chain: Chain = [[] for _ in range(first.size)]
     for place, row in enumerate(rows):
         own = [net[place] for net in nets]
@@ -146,7 +144,7 @@ def flanks(teeth: Teeth) -> tuple[Chain, Chain, float]:
     def curves(rows: Ints, s: Array) -> Array:
         return teeth.rack.flank(teeth.curve.frame(s), start[rows], side[rows])
 
-    chain, error = _fitted(curves, first, last, teeth.curve.breaks, math.tau)
+    chain, error = _fitted(curves, first, last, teeth.curve.breaks, math.tau, teeth.fit)
     return chain[: teeth.count], chain[teeth.count :], error
 
 

@@ -1,7 +1,7 @@
 """Teeth at equal arcs of a pitch curve: where each flank, fillet, root and tip begins and ends."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,10 @@ from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 from mechwright.mechanics.gearing.rack import SIDES, Rack
+
+FIT = 0.0001
+"""Deviation of an outline from the exact curves, mm: a tenth of what an outline may have, for one degree
+more. Errors of a flank turn the driven gear; this one turns it by a few microradians."""
 
 _TRIM = 1e-13
 """Residual of the tip trim in units of the mean radius: rounding, ten times."""
@@ -40,6 +44,8 @@ class Teeth:
         Number of teeth z.
     offset
         Arc at the middle of tooth 0, in pitches.
+    fit
+        Deviation of the flanks of an outline from the exact ones, mm.
 
     Arrays over flanks have shape (z, 2): the space, then its side -1 and +1.
     """
@@ -48,6 +54,7 @@ class Teeth:
     rack: Rack
     count: int
     offset: float
+    fit: float = field(default=FIT, kw_only=True)
 
     @cached_property
     def tooth_arcs(self) -> Array:
