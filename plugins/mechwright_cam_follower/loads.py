@@ -11,6 +11,7 @@ The follower stays on its cam as long as F is above 0. Of a conjugate pair the f
 and the second where it is below.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +24,9 @@ from mechwright_cam_follower.sized import Sized, V
 
 SHARPEST = 1e-3
 """Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
+
+LOCKED = 89.0
+"""Degrees of pressure angle beyond which a cam locks and does not push; forces are told as those there."""
 
 
 def inertia_at(params: Sized[V], rates: Rates) -> Array:
@@ -75,9 +79,9 @@ class Loads:
 def loads_at(params: Sized[V], rates: Rates, contacts: tuple[Contact, ...]) -> Loads:
     """Loads of one contact, or of both of a conjugate pair."""
     whole = force_at(params, rates)
-    scale = 1.0 if params.translating else 1000.0
+    scale, least = 1.0 if params.translating else 1000.0, math.cos(math.radians(LOCKED))
     forces = tuple(
-        np.maximum(sign * whole, 0.0) * scale / contact.share
+        np.maximum(sign * whole, 0.0) * scale / np.maximum(contact.share, least * contact.lever)
         for sign, contact in zip((1.0, -1.0), contacts, strict=False)
     )
     if len(contacts) == 1:
