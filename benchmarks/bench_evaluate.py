@@ -98,6 +98,14 @@ def cam_follower(share: Array, theta: Array) -> Array:
     return np.asarray(np.arctan((velocity - offset) / height))
 
 
+def noncircular_gears(share: Array, theta: Array) -> Array:
+    """Ratio of a window with quintic blends."""
+    ratio, width, blend = 0.6 + 0.3 * share, 2.0, 1.5
+    x = np.clip((np.abs(theta - np.pi) - width / 2) / blend, 0, 1)
+    beyond = (2 * np.pi - ratio * (width + blend)) / (2 * np.pi - width - blend)
+    return np.asarray(ratio + (beyond - ratio) * x**3 * (10 - 15 * x + 6 * x * x))
+
+
 PLAIN: dict[str, Plain] = {
     "geneva": geneva,
     "four-bar": four_bar,
@@ -106,6 +114,7 @@ PLAIN: dict[str, Plain] = {
     "elliptic-gears": elliptic_gears,
     "five-bar": five_bar,
     "cam-follower": cam_follower,
+    "noncircular-gears": noncircular_gears,
 }
 
 

@@ -12,6 +12,7 @@ The follower stays on its cam as long as F is above 0. Of a conjugate pair the f
 and the second where it is below.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,9 @@ from mechwright_cam_follower.sized import Sized, V
 
 SHARPEST = 1e-3
 """Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
+
+LOCKED = 89.0
+"""Degrees of pressure angle beyond which a cam locks and does not push; forces are told as those there."""
 
 
 def inertia_at(params: Sized[V], acceleration: Array) -> Array:
@@ -81,9 +85,9 @@ def loads_at(
 ) -> Loads:
     """Loads of one contact, or of both of a conjugate pair; ``acceleration`` as of :func:`force_at`."""
     whole = force_at(params, rates, acceleration)
-    scale = 1.0 if params.translating else 1000.0
+    scale, least = 1.0 if params.translating else 1000.0, math.cos(math.radians(LOCKED))
     forces = tuple(
-        np.maximum(sign * whole, 0.0) * scale / contact.share
+        np.maximum(sign * whole, 0.0) * scale / np.maximum(contact.share, least * contact.lever)
         for sign, contact in zip((1.0, -1.0), contacts, strict=False)
     )
     if len(contacts) == 1:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
 from mechwright.mechanics.laws import Rates
+from mechwright.mechanics.peaks import Tops, climbed
 from mechwright_cam_follower.cycle import Segment, cycle_of
 from mechwright_cam_follower.extremes import GRID, HAIR, cams_of
 from mechwright_cam_follower.geometry import Contact, Geometry, geometry_of
@@ -23,12 +24,6 @@ SPARE = 2.0
 
 ROUNDING = 1e-13
 """Share by which two samples of one value differ."""
-
-NEARER = (1 / 16, 1 / 256)
-"""Steps, in those of the grid, of the samples through which parabolas are put one after the other."""
-
-SETTLED = 5e-6
-"""Share by which the last parabola may have raised a value: what is left is 1/256² of that."""
 
 
 class Cams:
@@ -133,74 +128,22 @@ class Course:
     def greatest(self, measure: Measure) -> tuple[Array, NDArray[np.bool_]]:
         """The greatest values (n,) over the turn, and whether each has been found for sure."""
         size = len(self.cams)
-        tops = [_top(measure(seen), size) for seen in self.seen]
+        tops = [Tops.of(measure(seen), size) for seen in self.seen]
         best, sure = np.max([top.value for top in tops], axis=0), np.ones(size, dtype=bool)
         likely = best + ROUNDING * np.abs(best)
         for piece, top in zip(self.pieces, tops, strict=True):
             near = np.flatnonzero(top.value + SPARE * top.rise > likely)
             if piece.segment.law is None or not near.size:
                 continue
-            value, settled = _climbed(self.cams.some(near), piece, measure, top.place[near], top.value[near])
+
+            def asked(which: NDArray[np.intp], u: Array, piece: Piece = piece) -> Array:
+                values = measure(Seen(self.cams.some(which), piece.segment.at(piece.inside(u))))
+                return np.broadcast_to(values, u.shape)
+
+            value, settled = climbed(asked, top, near, piece.low, piece.high, GRID)
             best[near] = np.maximum(best[near], value)
             sure[near] &= settled
         return best, sure & np.isfinite(best)
-
-
-@dataclass(frozen=True)
-class _Top:
-    """The greatest sample (n,) of a piece, in shares of steps where a parabola has its top, and its rise."""
-
-    value: Array
-    place: Array
-    rise: Array
-
-
-def _top(values: Array, size: int) -> _Top:
-    values = np.where(np.isnan(values), -np.inf, values)
-    place = np.argmax(values, axis=1)
-    row = np.arange(len(values))
-    most = values[row, place]
-    if values.shape[1] < 3:
-        return _Top(*(np.broadcast_to(one, size) for one in (most, place + 0.0, 0 * most)))
-    middle = np.clip(place, 1, values.shape[1] - 2)
-    shift, top = _vertex(*(values[row, middle + one] for one in (-1, 0, 1)))
-    return _Top(*(np.broadcast_to(one, size) for one in (most, middle + shift, np.maximum(top - most, 0.0))))
-
-
-def _vertex(left: Array, centre: Array, right: Array) -> tuple[Array, Array]:
-    """Where a parabola through three values is greatest, at most a step off its middle, and how great."""
-    bend, slope = left - 2 * centre + right, (right - left) / 2
-    inside = np.abs(slope) <= -bend
-    shift = np.where(inside, -slope / np.where(inside & (bend < 0), bend, -1.0), np.sign(slope))
-    shift = np.where(np.isfinite(slope), shift, 0.0)
-    top: Array = np.where(inside, centre + slope * shift / 2, np.maximum(left, right))
-    return shift, np.where(np.isfinite(top), top, centre)
-
-
-def _climbed(
-    cams: Cams, piece: Piece, measure: Measure, place: Array, found: Array
-) -> tuple[Array, NDArray[np.bool_]]:
-    """The greatest values (n,) about a place, by parabolas through ever nearer samples, and if they stand."""
-    step = (piece.high - piece.low) / (GRID - 1)
-    middle, best, settled = piece.low + step * place, found.copy(), np.zeros(len(cams), dtype=bool)
-    for wide in NEARER:
-        left = np.flatnonzero(~settled)
-        some = cams if left.size == len(cams) else cams.some(left)
-        around = np.clip(middle[left], piece.low + wide * step, piece.high - wide * step)
-        values = _asked(some, piece, measure, around[:, None] + wide * step * np.array([-1.0, 0.0, 1.0]))
-        last = np.maximum(best[left], values.max(axis=1))
-        middle[left] = around + wide * step * _vertex(*values.T)[0]
-        best[left] = np.maximum(last, _asked(some, piece, measure, middle[left, None])[:, 0])
-        settled[left] = best[left] - last <= SETTLED * np.abs(last)
-        if settled.all():
-            break
-    return best, settled
-
-
-def _asked(cams: Cams, piece: Piece, measure: Measure, u: Array) -> Array:
-    values = measure(Seen(cams, piece.segment.at(piece.inside(u))))
-    found: Array = np.where(np.isnan(values), -np.inf, np.broadcast_to(values, u.shape))
-    return found
 
 
 def extremes(

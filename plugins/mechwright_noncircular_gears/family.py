@@ -1,6 +1,6 @@
 """The family ``noncircular-gears``."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import shapely
 
     from mechwright import AsMade, MadePart, Motion, Mounting, Part, Progress, Synthesis, Transmission
+    from mechwright.contracts.evaluation import Batch, Columns
 
 
 class NoncircularGears(Family[NoncircularParams]):
@@ -22,6 +23,7 @@ class NoncircularGears(Family[NoncircularParams]):
     summary = "A pair of gears that turns one shaft by any law of the other, with lobes of any numbers."
     Params = NoncircularParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
+    batch = 1 << 16
 
     def check(self, params: NoncircularParams) -> Sequence[Finding]:
         """The law, convexity, undercut, tips, roots, bore, pressure angle at the shaft, the mesh proof."""
@@ -89,3 +91,12 @@ class NoncircularGears(Family[NoncircularParams]):
         if not isinstance(requirement, FitRequirement):
             return super().synthesise(kind, requirement, progress)
         return from_wish(requirement, progress)
+
+    def evaluate(
+        self, batch: "Batch[NoncircularParams]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Columns":
+        """The motion of many pairs at once, by laws of numbers; their teeth one by one."""
+        from mechwright.contracts.by_arrays import by_arrays
+        from mechwright_noncircular_gears.evaluation import answer
+
+        return by_arrays(self, batch, columns, stage, answer)

@@ -266,6 +266,19 @@ def test_torque_is_the_power_of_the_follower():
     )
 
 
+def test_a_cam_that_locks_has_forces_all_the_same():
+    """A flat face that is touched beyond the lever's axis cannot be pushed; its motion is one all the same."""
+    kind = {"follower": "oscillating", "contact": "flat", "swings": (45, 45, 0, 0), "turning": "cw"}
+    params = CamParams(**kind, angles=(60, 120, 120, 60), base_radius=18, centre_distance=177)
+    motion = motion_of(params, 721)
+    assert np.degrees(np.abs(motion["pressure_angle"])).max() > 100
+    for name in ("contact_force", "contact_pressure"):
+        values = motion[name]
+        assert np.isfinite(values).all()
+        assert values.min() >= 0
+    assert "follower.undercut" in [finding.code for finding in findings(params)]
+
+
 def test_conjugate_pair_shares_the_force():
     """One of both cams carries, never both; together they do what the acceleration asks."""
     params = cam(conjugate=True, speed=900, laws=["cycloidal"], mass=2.0)

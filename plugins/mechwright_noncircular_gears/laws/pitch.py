@@ -32,6 +32,12 @@ _CLOSED = 4 * float(np.finfo(float).eps)
 """Error of a centre distance that is bracketed: rounding."""
 
 
+def _root(square: float) -> float:
+    """Of one number, or of those (n, 1) of many laws at once."""
+    root: float = math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+    return root
+
+
 @dataclass(frozen=True)
 class PitchLaw(RatioLaw):
     """A law by a pitch curve; ``eccentricity`` is its shape, 0 for a circle about the axis, ``side`` σ."""
@@ -63,7 +69,7 @@ class EllipseLaw(PitchLaw):
     def apart(self) -> float:
         """In units of the semi-latus rectum."""
         e2, k = self.eccentricity**2, self.lobes[1] / self.lobes[0]
-        return (self.side + math.sqrt(1 - (1 - e2) * (1 - k * k))) / (1 - e2)
+        return (self.side + _root(1 - (1 - e2) * (1 - k * k))) / (1 - e2)
 
     def radius(self, phi: Array) -> tuple[Array, Array, Array]:
         """1/(1 - e cos N1 φ) and its derivatives."""
@@ -81,7 +87,7 @@ class LimaconLaw(PitchLaw):
         """In units of the mean radius."""
         e2, q = self.eccentricity**2, 1 + self.side * self.lobes[0] / self.lobes[1]
         within = 1 - 1 / q**2
-        return self.side / within * (1 + math.sqrt(1 - within * (1 - e2)))
+        return self.side / within * (1 + _root(1 - within * (1 - e2)))
 
     def radius(self, phi: Array) -> tuple[Array, Array, Array]:
         """1 + e cos N1 φ and its derivatives."""
