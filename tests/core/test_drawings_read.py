@@ -208,6 +208,26 @@ def test_what_is_unclear_is_refused_with_its_place(draw, said):
     assert told.faults[0].remedy
 
 
+@pytest.mark.parametrize("hidden", [False, True])
+def test_an_entity_of_a_kind_that_nobody_knows_is_told_with_its_layer(hidden):
+    """It has no attributes, and asking for them ended the program."""
+
+    def draw(space):
+        box(space, 0, 0, 40, 40, "OUTLINE")
+        space.add_circle((9, 9), 3, {"layer": "HOLES", "invisible": int(hidden)})
+
+    data = saved(draw)
+    assert data.count(b"\nCIRCLE") == 1
+    part, told = part_in(data.replace(b"\nCIRCLE", b"\nGADGET"))
+    if hidden:
+        assert part is not None
+        assert any("invisible" in note for note in told.notes)
+    else:
+        assert part is None
+        assert "on layer HOLES is no curve of a plane" in told.faults[0].message
+        assert 'layers = {"HOLES" = "ignore"}' in told.faults[0].remedy
+
+
 @pytest.mark.parametrize("draw", [bomb, endless])
 def test_blocks_within_blocks_end(draw, monkeypatch):
     monkeypatch.setattr(shown, "MOST", 300)

@@ -186,22 +186,33 @@ class _Walk:
 
 def _look(document: "Drawing", entity: Any, outer: _Look | None) -> _Look:
     """Layer, colour and line type that show: layer 0 and BYBLOCK are those of the block's reference."""
-    layer = str(entity.dxf.get("layer", "0"))
+    layer = str(_said(entity, "layer", "0"))
     if outer is not None and layer == "0":
         layer = outer.layer
     own = document.layers.get(layer) if document.layers.has_entry(layer) else None
-    colour = abs(int(entity.dxf.get("color", 256)))
+    colour = abs(int(_said(entity, "color", 256)))
     if colour == 0:
         colour = outer.colour if outer is not None else 7
     elif colour == 256:
         colour = abs(int(own.dxf.color)) if own is not None else 7
-    linetype = str(entity.dxf.get("linetype", "BYLAYER")).lower()
+    linetype = str(_said(entity, "linetype", "BYLAYER")).lower()
     if linetype == "byblock":
         linetype = outer.linetype if outer is not None else "continuous"
     elif linetype in {"bylayer", ""}:
         linetype = str(own.dxf.linetype).lower() if own is not None else "continuous"
     handle = str(entity.dxf.get("handle") or "")
     return _Look(layer, colour, linetype, handle or (outer.handle if outer is not None else ""))
+
+
+_CODES = {"layer": 8, "color": 62, "linetype": 6, "invisible": 60}
+
+
+def _said(entity: Any, name: str, usual: object) -> Any:
+    """What an entity says of itself; of a kind that ezdxf does not know there are its groups alone."""
+    if entity.dxf.is_supported(name):
+        return entity.dxf.get(name, usual)
+    said = (tags.get_first_value(_CODES[name], None) for tags in entity.xtags.subclasses)
+    return next((value for value in said if value is not None), usual)
 
 
 def _hidden(document: "Drawing", entity: Any, look: _Look, named: Callable[[str, int], str]) -> str:
@@ -214,7 +225,7 @@ def _hidden(document: "Drawing", entity: Any, look: _Look, named: Callable[[str,
     own = document.layers.get(look.layer) if document.layers.has_entry(look.layer) else None
     if own is not None and (own.is_off() or own.is_frozen()):
         return f"layer {look.layer}, which is {'frozen' if own.is_frozen() else 'off'}"
-    if entity.dxf.get("invisible", 0):
+    if _said(entity, "invisible", 0):
         return "invisible entities"
     if look.linetype not in THROUGH and not said:
         return f"lines of type {look.linetype.upper()}"
