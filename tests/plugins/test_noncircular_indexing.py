@@ -152,7 +152,7 @@ def test_the_nearest_index_that_works_is_named() -> None:
     params = NoncircularParams.model_validate(
         {"law": "geneva", "slots": 3, "ramp": 0.337, "window": 164, "teeth": 37}
     )
-    (wrong,) = errors(NoncircularGears().judge(params))
+    (wrong,) = errors(NoncircularGears().check(params))
     assert wrong.code == "gear.convexity"
     change = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
     assert 164 < change["window"] < 190
