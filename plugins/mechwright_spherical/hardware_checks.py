@@ -9,16 +9,16 @@ from mechwright import Finding, Severity, Stage, of_stage
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
-from mechwright_spherical.flat import strip
 from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, ground_beyond, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.mount_checks import mount_findings
 from mechwright_spherical.params import MOST_RADIUS, SphericalParams
-from mechwright_spherical.places import gear_span, link_arcs, second_size
+from mechwright_spherical.places import gear_span, link_arcs
 from mechwright_spherical.seats import seats_of, slotted_of
 from mechwright_spherical.setting_checks import slot_findings
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
+from mechwright_spherical.strips import strip_findings
 from mechwright_spherical.vectors import arc
 
 WALL = 1.0
@@ -47,7 +47,7 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
     yield from _drive(params, linkage, shells)
     yield from _stand(params, linkage, shells)
     yield from mount_findings(params)
-    yield from _strips(params, linkage, shells)
+    yield from strip_findings(params, linkage, shells)
 
 
 def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
@@ -330,26 +330,3 @@ def _post(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator
             "deg",
             f"use {math.ceil(10 * least) / 10:g}° or more, a smaller plate, or a higher post",
         )
-
-
-def _strips(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
-    flat, hardware = params.flat, params.hardware
-    if not flat.make:
-        return
-    arcs = {**link_arcs(linkage), **ground_arcs(params), **second_size(linkage, shells)}
-    arcs |= {f"coupler{phase.number}": math.acos(float(phase.loop.ca)) for phase in linkage.phases}
-    shortest = hardware.boss_diameter / 2
-    for name, angle in arcs.items():
-        link = "coupler" if name.startswith("coupler") else name
-        found = strip(angle, shells.arc(link)[0], flat)
-        if falls_short(found.leg, shortest):
-            yield Finding.error(
-                "spherical.strip",
-                "flat.bend_radius",
-                f"the strip of the {link} has {found.leg:.4g} mm between bore and bend, and its round end "
-                f"takes {shortest:g} mm",
-                found.leg,
-                shortest,
-                "mm",
-                "use a smaller bend_radius, smaller bosses or a larger radius, or flat.make = false",
-            )

@@ -62,7 +62,7 @@ def hardware_errors(
     _stand(found, left, some, few, own, ground + thick)
     if some["flat.make"] is True:
         _strips(found, left, some, few, own, (coupler, crank, ground))
-    elif some["flat.make"] is not False:
+    elif "flat.make" in some.varied:
         found.doubt(np.ones(left.size, bool), left)
 
 

@@ -316,7 +316,10 @@ class DriveTable(Parameters):
 class FlatTable(Parameters):
     """Links as flat strips, to be cut on a two-axis mill and bent."""
 
-    make: bool = Field(True, description="Whether drawings and programs of the strips are made.")
+    make: bool | None = Field(
+        None,
+        description="Whether drawings and programs of the strips are made; left out, where all can be bent.",
+    )
     thickness: Millimetres = Field(3.0, ge=0.3, le=20, description="Thickness of the strips.")
     bend_radius: Millimetres = Field(3.0, ge=0.1, le=50, description="Inside radius of the bends.")
     neutral: Ratio = Field(

@@ -19,6 +19,7 @@ from mechwright_spherical.places import gear_cones, link_arcs, pin_places, secon
 from mechwright_spherical.seats import clamp_of, head_of, slotted_of, stud_length
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import FLANGE_SCREWS, MOUNTING_SCREWS, base_outline
+from mechwright_spherical.strips import makes_strips
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -163,7 +164,7 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         for number in range(1, len(FLANGE_SCREWS) + len(MOUNTING_SCREWS) + 1):
             base = threaded(base, f"bore-{number}", f"M{thread:g}")
     yield base
-    if not flat.make:
+    if not makes_strips(params, linkage, shells):
         return
     arcs = link_arcs(linkage) | ground_arcs(params)
     arcs |= {f"{n}-n": a for n, a in second_size(linkage, shells).items()}

@@ -3,7 +3,7 @@
 import importlib
 
 import pytest
-from beam_family import Beam, bench, design
+from beam_family import Beam, bench, design, error, told
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -121,3 +121,16 @@ def test_a_change_that_cannot_be_the_best_is_not_brought_near(monkeypatch):
     assert near == [{"parameters.width": 21}]
     assert next(found) == far
     assert near[1:] == [far], "the next best, where it is asked for"
+
+
+def test_what_is_proposed_is_tried_before_the_tries_are_spent_on_another_finding():
+    class Proposing(Beam):
+        def _first(self, params):
+            yield error("beam.never", "length", "try holes or pins.first")
+            if params.tilt > 30:
+                yield error("beam.tilt", "tilt", "less", proposed=({"parameters.tilt": 30},))
+
+    never, tilt = told(design(Proposing, tilt=77.0), tries=6, seconds=60.0)
+    assert never.fix is None
+    assert "in 6 tries" in never.remedy
+    assert tilt.fix == {"parameters.tilt": 30}

@@ -137,6 +137,7 @@ def test_what_no_ring_can_be_is_named_and_mended(table, code, key):
     params = ring(**{"eccentricity": None if "law" in table else 0.15, **table})
     found = errors(FAMILY.check(params), Stage.MACHINING)
     assert [one.code for one in found] == [code]
+    assert [one.code for one in errors(FAMILY.judge(params), Stage.MACHINING)] == [code]
     if key:
         changes = {name.removeprefix("parameters."): value for name, value in found[0].proposed[0].items()}
         assert key in changes

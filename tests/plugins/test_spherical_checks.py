@@ -114,7 +114,7 @@ CASES = [
     ),
     ("spherical.stand", {"stand": {"screw": 20}}, "stand.screw"),
     ("spherical.stand", {"stand": {"height": 3}}, "stand.height"),
-    ("spherical.strip", {"flat": {"bend_radius": 50}}, "flat.bend_radius"),
+    ("spherical.strip", {"flat": {"bend_radius": 50, "make": True}}, "flat.bend_radius"),
 ]
 
 

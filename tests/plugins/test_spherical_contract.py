@@ -53,7 +53,7 @@ class TestSpherical(DayContract):
         ({"stand": {"arc": 8}}, "stand.arc"),
         ({"stand": {"screw": 20}}, "stand.screw"),
         ({"drive": {"idler": 1, "share": 0.2}}, "drive.idler"),
-        ({"flat": {"bend_radius": 50}}, "flat.bend_radius"),
+        ({"flat": {"bend_radius": 50, "make": True}}, "flat.bend_radius"),
     )
     derivatives: ClassVar = (
         ("theta", "omega"),

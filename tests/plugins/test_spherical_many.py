@@ -39,13 +39,15 @@ def test_cranks_and_levers_of_both_branches():
     assert not MANY.alone
 
 
-def test_sizes_of_links_and_stand():
+@pytest.mark.parametrize("flat", [{}, {"flat": {"make": True}}])
+def test_sizes_of_links_and_stand(flat):
     batch = MANY.drawn(
-        40, ONE, **CRANKS, hardware__boss_diameter=(7, 30), hardware__gap=(0.1, 1.5), stand__arc=(10, 60),
+        40, {**ONE, **flat}, **CRANKS, hardware__boss_diameter=(7, 30), hardware__gap=(0.1, 1.5), stand__arc=(10, 60),
         radius=(30, 100), flat__bend_radius=(1, 50), four_bar__point_azimuth=(-20, 80),
     )  # fmt: skip
     found = MANY.same(batch, ["alpha_psi.greatest"], Stage.PARTS)
-    assert {"spherical.boss", "spherical.gap", "spherical.stand", "spherical.strip"} <= set(found.counts)
+    assert {"spherical.boss", "spherical.gap", "spherical.stand"} <= set(found.counts)
+    assert ("spherical.strip" in found.counts) == bool(flat)
     assert not MANY.alone
 
 

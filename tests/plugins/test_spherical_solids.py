@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.contracts.finding import Severity
+from mechwright.contracts.finding import Severity, errors
 from mechwright_spherical import links, solids
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import external, internal, train_of
@@ -270,3 +270,22 @@ def test_a_strip_is_drawn_with_its_bores_and_a_pair_of_notches_for_each_bend():
     area = 12 * found.length + math.pi * 36 - 2 * math.pi * 6.05**2 / 4 - 4 * math.pi * 1.5**2 / 2
     assert outline.area == pytest.approx(area, abs=1e-6)
     outline.polygon()
+
+
+def test_strips_that_cannot_be_bent_are_left_out_and_told_of():
+    """Asked for they are an error; a design that says nothing builds without them."""
+    small = Spherical().Params(kind="four-bar", radius=10)
+    found = Spherical().check(small)
+    assert errors(found) == []
+    assert [one.severity for one in found if one.code == "spherical.strip"] == [Severity.NOTE]
+    assert not [part for part in Spherical().parts(small) if part.name.startswith("flat-")]
+    asked = small.model_copy(update={"flat": FlatTable(make=True)})
+    assert {one.code for one in errors(Spherical().check(asked))} == {"spherical.strip"}
+
+
+def test_strips_are_made_where_all_of_them_can_be_bent():
+    usual = Spherical().Params(kind="four-bar")
+    said = usual.model_copy(update={"flat": FlatTable(make=True)})
+    made = [[part.name for part in Spherical().parts(one)] for one in (usual, said)]
+    assert made[0] == made[1]
+    assert "flat-crank" in made[0]

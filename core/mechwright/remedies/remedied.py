@@ -10,7 +10,17 @@ from mechwright.remedies.advice import advised
 from mechwright.remedies.bench import Bench, Limits, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
-from mechwright.remedies.search import Worth, best_step, path_of, refined, related, unnamed, worth, written
+from mechwright.remedies.search import (
+    Worth,
+    best_step,
+    path_of,
+    proposed_step,
+    refined,
+    related,
+    unnamed,
+    worth,
+    written,
+)
 from mechwright.remedies.words import said
 
 NOT_ENOUGH = "that was tried, and is not enough by itself"
@@ -46,6 +56,11 @@ def holds(bench: Bench, finding: Finding, change: Change) -> bool:
 
 def _remedied(bench: Bench, findings: list[Finding]) -> list[Finding]:
     grave = [finding for finding in findings if _grave(finding)]
+    before = bench.errors({}) or []
+    # What is proposed is tried for each before the tries are spent on values that nobody proposed.
+    for finding in findings:
+        if finding.severity is not Severity.NOTE:
+            proposed_step(bench, same(finding, bench.found({})) or finding, {}, before)
     # What removes several errors at once is sought first, before the tries are spent on each by itself.
     whole = nearest(bench) if len(grave) > 1 else None
     alone = [_alone(bench, finding) for finding in findings]
