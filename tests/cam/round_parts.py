@@ -46,7 +46,8 @@ def laid(*features: Feature, tools: tuple[str, ...] = (), library: Library = LIB
     part = Part("plate", Outline(PLATE, inner), THICK, "aluminium", machined=features)
     if not any(isinstance(feature, Profile) for feature in features):
         cam = {"stock": {"margin": 0}, **cam}
-    wanted = CamSettings.model_validate({"tools": tools, **cam})
+    strong = {"spindle_power": 11, "spindle_torque": 60}  # plain plans are not slowed to what a spindle has
+    wanted = CamSettings.model_validate({"tools": tools, "machine": strong, **cam})
     return make_job(part, wanted, choose_tools(part, wanted, library))
 
 

@@ -103,7 +103,7 @@ def test_a_tool_too_long_for_the_travel_is_found() -> None:
 @pytest.mark.parametrize("held", [{}, {"method": "bore", "clamp_diameter": 6, "clamp_height": 8}])
 def test_cutters_are_chosen_that_get_over_the_part(thickness, held) -> None:
     small = CamSettings.model_validate({"machine": {"travel_z": 80}, "hold": held})
-    of = plate(bore(12.0), bore(6.0, (20.0, 0.0)), thickness=thickness)
+    of = plate(bore(12.0), bore(6.0, (20.0, 0.0)), thickness=thickness, material="steel")
     chosen = choose_tools(of, small, LIBRARY)
     low = make_job(of, small, chosen)
     assert list(check_machine(low)) == []
