@@ -75,7 +75,7 @@ def main() -> int:
     parser.add_argument("count", nargs="?", type=int, default=200)
     parser.add_argument("--family", choices=FAMILIES, action="append")
     parser.add_argument("--first", type=int, default=0, help="number of the first: for parts of a long run")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=12)
     asked = parser.parse_args()
     numbers = range(asked.first, asked.first + asked.count)
     kept = [of_family(name, numbers, asked.rounds) for name in asked.family or FAMILIES]

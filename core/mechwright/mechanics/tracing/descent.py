@@ -21,6 +21,9 @@ from mechwright.arrays import Array
 SLOPE = 1e-6
 """Step of central differences, for unknowns of the order of 1: their error is 1e-10."""
 
+ONE_SIDED = 1e-8
+"""Step of differences to one side, whose error is 1e-8: enough for steps that are not yet the last."""
+
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-15, 1e8
 """Marquardt's λ at the start; where steps are Newton's; and where a start has given up."""
 
@@ -79,10 +82,12 @@ def descend(
     weight: Array | float,
     steps: int,
     multipliers: Array | float = 0.0,
+    fine: bool = False,
 ) -> tuple[Array, Array]:
     """Take at most ``steps`` steps from starts (s, k) and (s, n).
 
-    ``weight`` of the limits is one, or (s, 1); ``multipliers`` are none, or (s, q).
+    ``weight`` of the limits is one, or (s, 1); ``multipliers`` are none, or (s, q). Slopes are differences to
+    one side, or if ``fine`` to both, which take twice as long.
     """
     x, theta = x.copy(), traced.ordered(theta, sense)
     count = len(x)
@@ -97,7 +102,7 @@ def descend(
         live = live[(damping[live] < MOST_DAMPING) & (cost[live] > ARRIVED)]
         if live.size == 0:
             break
-        dx, dt = _step(traced, x[live], theta[live], damping[live], weights[live], pushed[live])
+        dx, dt = _step(traced, x[live], theta[live], damping[live], weights[live], pushed[live], fine)
         dx, dt = (np.where(np.isfinite(one), one, 0.0) for one in (dx, dt))
         most = np.maximum(np.abs(dx).max(axis=1), np.abs(dt).max(axis=1)) / LONGEST_STEP
         scale = 1 / np.maximum(most, 1.0)[:, None]
@@ -122,7 +127,7 @@ def settle(traced: Traced, x: Array, theta: Array, sense: Array, steps: int) -> 
     live = np.arange(len(x))
     for _ in range(OUTER):
         x[live], theta[live] = descend(
-            traced, x[live], theta[live], sense[live], weight[live], steps, multipliers[live]
+            traced, x[live], theta[live], sense[live], weight[live], steps, multipliers[live], fine=True
         )
         with np.errstate(all="ignore"):
             over = traced.exceeded(traced.made(x[live]), theta[live])
@@ -150,20 +155,21 @@ def _cost(traced: Traced, x: Array, theta: Array, weight: Array, pushed: Array) 
 
 
 def _step(
-    traced: Traced, x: Array, theta: Array, damping: Array, weight: Array, pushed: Array
+    traced: Traced, x: Array, theta: Array, damping: Array, weight: Array, pushed: Array, fine: bool
 ) -> tuple[Array, Array]:
     """Steps (s, k) and (s, n)."""
     # All places about x in one go: the arrays are small, and each call on them costs more than its numbers.
-    steps = SLOPE * np.eye(x.shape[1])[:, None, :]
+    steps = (SLOPE if fine else ONE_SIDED) * np.eye(x.shape[1])[:, None, :]
+    places = [x[None], x + steps, x - steps] if fine else [x[None], x + steps]
     with np.errstate(all="ignore"):
-        made = traced.made(np.concatenate([x[None], x + steps, x - steps]))
-        miss, gained = _central(traced.missed(made, theta))
+        made = traced.made(np.concatenate(places))
+        miss, slopes = _differences(traced.missed(made, theta), fine)
         here = traced.made(x[None])
         ahead, behind = traced.missed(here, np.stack([theta + SLOPE, theta - SLOPE]))
-        over, passed = _central(traced.exceeded(made, theta))
-    tangent, slopes = (ahead - behind) / (2 * SLOPE), gained / (2 * SLOPE)
+        over, passed = _differences(traced.exceeded(made, theta), fine)
+    tangent = (ahead - behind) / (2 * SLOPE)
     limits = np.maximum(weight * over + pushed, 0.0)
-    limit_slopes = np.where((limits > 0)[..., None], passed * (weight / (2 * SLOPE))[..., None], 0.0)
+    limit_slopes = np.where((limits > 0)[..., None], passed * weight[..., None], 0.0)
     length = np.sqrt((tangent**2).sum(axis=-1)) + 1e-150
     unit = tangent / length[..., None]
     kept = 1 / (1 + damping)[:, None]
@@ -180,10 +186,12 @@ def _step(
     return dx, -on / length * kept
 
 
-def _central(values: Array) -> tuple[Array, Array]:
-    """Values (...) at x, and differences (..., k) over two steps of each unknown, of those at all places."""
+def _differences(values: Array, fine: bool) -> tuple[Array, Array]:
+    """Values (...) at x, and slopes (..., k) by each unknown, of those at all places."""
+    if not fine:
+        return values[0], np.moveaxis(values[1:] - values[0], 0, -1) / ONE_SIDED
     ahead, behind = np.split(values[1:], 2)
-    return values[0], np.moveaxis(ahead - behind, 0, -1)
+    return values[0], np.moveaxis(ahead - behind, 0, -1) / (2 * SLOPE)
 
 
 def _solved(rows: Array, values: Array, damping: Array) -> Array:

@@ -22,9 +22,16 @@ STAGES = ((96, 12, 1.0), (32, 24, 10.0), (12, 40, 30.0))
 SETTLED, LAST_STEPS = 15, 200
 """Most steps between two changes of the multipliers, and of those that come close in the end."""
 
-CLOSE, FINISHED = 1e-3, 2
-"""Root mean square distance, in sizes of the path, from which points may be met exactly in the end, and how
-many of a room are followed there: where the points hardly tell linkages apart, the way is long and flat."""
+SETTLING = 4
+"""How many of the last stage are brought to rest besides those that are near: others seldom win."""
+
+CLOSE, NEAR, FINISHED = 1e-3, 1e-4, 2
+"""Root mean square distances, in sizes of the path, from which points may be met exactly in the end, by a
+linkage that still comes nearer or by any; and how many of a room are followed there: where the points hardly
+tell linkages apart, the way is long and flat."""
+
+COMING = 0.9
+"""Share of its distance that is left of a linkage that still comes nearer, after it was brought to rest."""
 
 MET = 1e-8
 """Root mean square distance, in sizes of the path, at which points are met exactly, for the search."""
@@ -159,16 +166,19 @@ def _at_rest(room: Room, number: int, x: Array, theta: Array, cost: Array) -> li
         if len(x):
             one = distinct(x, SAME_START)
             x, theta = x[one], theta[one]
-    return followed(room, number, x, theta)
+    near = np.sqrt(squares(room, x, theta) / theta.shape[1]) < NEAR
+    near[:SETTLING] = True
+    return followed(room, number, x[near], theta[near])
 
 
 def followed(room: Room, number: int, x: Array, theta: Array) -> list[Trace]:
     """Linkages (s, k), (s, n) brought to rest within the limits; those that come close, to where they end."""
     if not len(x):
         return []
+    before = np.sqrt(squares(room, x, theta) / theta.shape[1])
     x, theta = settle(room, x, theta, _senses(room, x), SETTLED)
     mean = np.sqrt(squares(room, x, theta) / theta.shape[1])
-    close = np.flatnonzero((mean > MET) & (mean < CLOSE))
+    close = np.flatnonzero((mean > MET) & (mean < np.where(mean < COMING * before, CLOSE, NEAR)))
     close = close[np.argsort(mean[close], kind="stable")][:FINISHED]
     if close.size:
         x[close], theta[close] = settle(room, x[close], theta[close], _senses(room, x[close]), LAST_STEPS)
