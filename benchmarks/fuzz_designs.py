@@ -37,7 +37,7 @@ SECONDS = 60.0
 MEGABYTES = 1500
 AGAIN = 10
 """Tables drawn by chance before the keys that are refused are left out: most of the time goes there else."""
-PORTION = 200
+PORTION = 25
 SOUND = ("built", "parts refused", "motion refused", "refused by an error")
 
 

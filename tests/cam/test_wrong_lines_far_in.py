@@ -2,7 +2,9 @@
 
 import pytest
 from by_control import BY_NAME, interpret
+from shop import SPOT
 
+from mechwright.designs.inches import Units
 from mechwright.errors import ProgramError
 
 HEAD = (
@@ -43,3 +45,19 @@ def test_a_wrong_line_is_told_with_its_number(line: str, said: str, place: int) 
 def test_without_a_tolerance_there_is_an_exact_stop() -> None:
     assert BY_NAME["linuxcnc"].rounding(0.0) == ["G61"]
     assert BY_NAME["linuxcnc"].rounding(0.004) == ["G64", "P0.004", "Q0"]
+
+
+def test_a_length_offset_without_its_number_is_told_by_its_code() -> None:
+    with pytest.raises(ProgramError, match=r"^line 5: G43 without H takes what Fanuc had last; write H"):
+        interpret("%\nO1234\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG43 Z5.\n", BY_NAME["fanuc"])
+
+
+@pytest.mark.parametrize(("more", "line"), [("", 0), ("(a note)\n", 0), ("\n(a note)\nG0 Z9\n", 412)])
+def test_code_behind_the_end_is_told_with_its_line(more: str, line: int) -> None:
+    """Lines 1 to 409 are the program."""
+    assert interpret(program("X1 Y2", 7) + more, BY_NAME["linuxcnc"]).beyond == line
+
+
+@pytest.mark.parametrize(("units", "said"), [("mm", "D 6 mm:"), ("inch", "D 0.23622 in:")])
+def test_a_tool_is_noted_in_the_units_of_the_program(units: Units, said: str) -> None:
+    assert said in BY_NAME["linuxcnc"].speaking(units).tool_note(SPOT)
