@@ -55,6 +55,7 @@ _CALL_WORD = re.compile(rf"(S|F|DL|DR)({NUMBER})")
 _DEF = re.compile(r"TOOL DEF (\d+)")
 _CYCL = re.compile(r"CYCL DEF (\d+)(?:\.(\d))?(?: (.*))?")
 _DATUM = re.compile(r"(?:[A-Z][A-Z .-]*?)?(?: ?Q339 ?= ?([+]?\d+))?")
+_CYCLE_NAME = re.compile(r"[A-Z .-]*")
 _NAMED = re.compile(r"([A-Z]+)")
 _ODD = re.compile(r"[^\t -~]")
 
@@ -254,6 +255,10 @@ class _Reading:
         if cycle == 247 and part is None:
             return self._datum(number, rest)
         if cycle in {9, 32} and part == "0":
+            if not _CYCLE_NAME.fullmatch(rest):
+                raise fail(
+                    number, f"CYCL DEF {cycle}.0 {rest}: the name of the cycle stands there and no word"
+                )
             self.cycle = cycle, 1
             return ""
         if cycle in {9, 32} and part == "1" and self.cycle == (cycle, 1):

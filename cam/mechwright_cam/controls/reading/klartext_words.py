@@ -77,7 +77,9 @@ def worked_out(value: float) -> str:
 def words_of(number: int, code: str, letters: str | tuple[str, ...]) -> dict[str, str]:
     """Name and value of each word behind the first: R0 as G40, DR as G2 or G3, M functions together."""
     words: dict[str, str] = {}
-    pieces = code.replace("F MAX", "FMAX").split()[1:]
+    first, *pieces = code.replace("F MAX", "FMAX").split()
+    if not (first.isalpha() or first == "-"):
+        raise refused(number, first)
     for piece in pieces:
         match = _WORD.fullmatch(piece)
         if match is None:
