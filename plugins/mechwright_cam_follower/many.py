@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
 from mechwright.mechanics.laws import Rates
-from mechwright.mechanics.peaks import Tops, climbed
+from mechwright.mechanics.peaks import NEARER, Asked, Tops, climbed
 from mechwright_cam_follower.cycle import Segment, cycle_of
 from mechwright_cam_follower.extremes import GRID, HAIR, cams_of
 from mechwright_cam_follower.geometry import Contact, Geometry, geometry_of
@@ -24,6 +24,11 @@ SPARE = 2.0
 
 ROUNDING = 1e-13
 """Share by which two samples of one value differ."""
+
+
+LEVEL = 1e-5
+"""Share by which the end of a piece may lie below the greatest sample of all, and have a hill beside it that
+is the greatest: such a hill is narrower than a step, and as low."""
 
 
 class Cams:
@@ -109,6 +114,17 @@ class Piece:
         clipped: Array = np.clip(u, self.low + HAIR * (self.low > 0), self.high - HAIR)
         return clipped
 
+    def rises(self, top: Tops, which: NDArray[np.intp], asked: Asked) -> NDArray[np.bool_]:
+        """Of all designs (n,) whether one of some goes up from an end that is its greatest sample."""
+        found = np.zeros(top.value.size, dtype=bool)
+        first, last = top.place[which] <= 0, top.place[which] >= GRID - 1
+        ends = which[first | last]
+        if ends.size:
+            step = NEARER[0] * (self.high - self.low) / (GRID - 1)
+            beside = np.where(top.place[ends] <= 0, self.low + step, self.high - step)
+            found[ends] = asked(ends, beside[:, None])[:, 0] > top.value[ends]
+        return found
+
 
 def pieces_of(params: CamParams) -> Iterator[Piece]:
     """The smooth pieces of a turn."""
@@ -130,16 +146,21 @@ class Course:
         size = len(self.cams)
         tops = [Tops.of(measure(seen), size) for seen in self.seen]
         best, sure = np.max([top.value for top in tops], axis=0), np.ones(size, dtype=bool)
-        likely = best + ROUNDING * np.abs(best)
+        likely, level = best + ROUNDING * np.abs(best), best - LEVEL * np.abs(best)
         for piece, top in zip(self.pieces, tops, strict=True):
-            near = np.flatnonzero(top.value + SPARE * top.rise > likely)
-            if piece.segment.law is None or not near.size:
+            if piece.segment.law is None:
                 continue
 
             def asked(which: NDArray[np.intp], u: Array, piece: Piece = piece) -> Array:
                 values = measure(Seen(self.cams.some(which), piece.segment.at(piece.inside(u))))
                 return np.broadcast_to(values, u.shape)
 
+            high = top.value + SPARE * top.rise > likely
+            near = np.flatnonzero(
+                high | piece.rises(top, np.flatnonzero(~high & (top.value >= level)), asked)
+            )
+            if not near.size:
+                continue
             value, settled = climbed(asked, top, near, piece.low, piece.high, GRID)
             best[near] = np.maximum(best[near], value)
             sure[near] &= settled

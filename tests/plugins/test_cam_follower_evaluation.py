@@ -97,3 +97,14 @@ def test_pairs_and_keyways_are_left_to_each():
     varied = {"base_radius": np.array([40.0])}
     for content in ({"conjugate": True}, {"keyway_width": 5}):
         assert not covered(Designs(CamParams.model_validate(content), varied))
+
+
+def test_a_top_beyond_the_first_parabolas_is_followed():
+    """The force is greatest shortly before the rise ends, and bends more and more on the way there."""
+    lift = 27.641466417404814
+    content = {"lifts": [lift, lift, 0, 0], "laws": ["3-4-5", "4-5-6-7"], "speed": 36.4, "offset": -11.765}
+    one = Batch(CamParams, content, {"base_radius": np.array([49.05]), "roller_radius": np.array([19.62])})
+    asked = ("contact_force_max", "contact_pressure_max")
+    found = FAMILY.evaluate(one, asked)
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, asked, Stage.PARTS))
+    assert (found.forbidden == 0).all()

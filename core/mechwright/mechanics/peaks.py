@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 
-NEARER = (1 / 16, 1 / 256)
-"""Steps, in those of the grid, of the samples through which parabolas are put one after the other."""
+NEARER = (1 / 16, 1 / 16, 1 / 16, 1 / 256)
+"""Steps, in those of the grid, of the samples through which parabolas are put one after the other: a top
+that lies beyond the samples is followed by the next ones."""
 
 SETTLED = 5e-6
 """Share by which the last parabola may have raised a value: what is left is 1/256² of that."""
@@ -87,10 +88,13 @@ def climbed(
         left = np.flatnonzero(~settled)
         around = np.clip(middle[left], low + wide * step, high - wide * step)
         values = _told(asked(which[left], around[:, None] + wide * step * np.array([-1.0, 0.0, 1.0])))
+        known = values.max(axis=1) <= best[left]
         last = np.maximum(best[left], values.max(axis=1))
-        middle[left] = around + wide * step * _vertex(*values.T)[0]
+        shift = _vertex(*values.T)[0]
+        middle[left] = np.clip(around + wide * step * shift, low, high)
         best[left] = np.maximum(last, _told(asked(which[left], middle[left, None]))[:, 0])
-        settled[left] = best[left] - last <= SETTLED * np.abs(last)
+        # A top beyond the samples is followed, unless they only lead to what is known.
+        settled[left] = (known | (np.abs(shift) < 1)) & (best[left] - last <= SETTLED * np.abs(last))
         if settled.all():
             break
     return best, settled
