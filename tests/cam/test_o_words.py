@@ -105,3 +105,15 @@ def test_subroutines_may_name_their_branches_alike() -> None:
         interpret("o1 if [1]\no1 endif\no1 if [1]\no1 endif\nM2")
     with pytest.raises(ProgramError, match="line 3: O7 begins something in line 1 already"):
         interpret("o7 sub\no7 endsub\no7 sub\no7 endsub\nM2")
+
+
+@pytest.mark.parametrize(("end", "good"), [("G40", False), ("g 040", False), ("G40\nG0 X40 Y40", True)])
+def test_a_subroutine_ends_behind_g40_only_once_the_tool_has_left_the_contour(end: str, good: bool) -> None:
+    """Where the tool stands then, LinuxCNC decides by what it has queued; so the line of the end is refused."""
+    body = f"O1 sub\nG0 X0 Y0 Z5\nG41.1 D6 G1 X10 Y5 F500\nG1 X30\nG0 Z5\n{end}\nO1 endsub\n"
+    program = f"{HEAD}{body}T1 M6\nS1000 M3\nO1 call\nG0 X50 Y50\nM2\n"
+    if good:
+        assert interpret(program).ended
+    else:
+        with pytest.raises(ProgramError, match="line 9: a subroutine ends between G40 and the next move"):
+            interpret(program)

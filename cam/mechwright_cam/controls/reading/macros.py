@@ -47,6 +47,7 @@ FEW_LINES = 500
 """Fewer plain lines wait for what follows on them."""
 NO_VALUES = dict.fromkeys(range(1, OWN + 1), 0.0)
 """The parameters of a subroutine that is called without values."""
+_ENDS = re.compile(r"[Gg][ \t]*0*40(?![0-9.])")
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 
@@ -72,6 +73,8 @@ class Macros(Values):
         marked = (index for index in self.words if "(" in lines[index] or ";" in lines[index])
         self.commented = {index for index in marked if COMMENT.search(lines[index])}
         """Lines of O-words with a comment."""
+        self.settling = {index for index, line in enumerate(lines) if "40" in line and _ENDS.search(line)}
+        """Lines with G40: whether a subroutine may end behind one is known once it has been run."""
         self.done = 0
         """How many lines have been run."""
 
@@ -100,7 +103,7 @@ class Macros(Values):
                 raise fail(index + 1, str(error)) from None
             if isinstance(line, Row):
                 self.waiting.append(line)
-                if len(self.waiting) < MOST_ROWS:
+                if len(self.waiting) < MOST_ROWS and index not in self.settling:
                     continue
             elif line is not None:
                 yield from self._rows()
