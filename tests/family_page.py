@@ -7,19 +7,27 @@ from pathlib import Path
 from mechwright import Family
 
 ROOT = Path(__file__).parents[1]
-SHARED = ("machine.py", "designs.py")
-"""Of the core, in mechanics/adjustable: findings of every synthesis with phases."""
+SHARED = ("adjustable/machine.py", "adjustable/designs.py")
+"""Of the core, in mechanics: findings of every synthesis with phases."""
 
 
 class FamilyPage:
-    """The page ``docs/<name>.md`` of a family, and the sources of its plugin and of what it shares."""
+    """The page ``docs/<name>.md`` of a family, and the sources of its plugin and of what it shares.
 
-    def __init__(self, family: type[Family], package: str, prefixes: Sequence[str]) -> None:
+    ``shared`` are more sources of the core, in mechanics.
+    """
+
+    def __init__(
+        self, family: type[Family], package: str, prefixes: Sequence[str], shared: Sequence[str] = ()
+    ) -> None:
         self.family = family
         self.text = (ROOT / "docs" / f"{family.name}.md").read_text(encoding="utf-8")
         self.code = rf"((?:{'|'.join(prefixes)})\.(?!html)[a-z-]+)"
-        shared = [ROOT / "core" / "mechwright" / "mechanics" / "adjustable" / name for name in SHARED]
-        sources = [*shared, *(ROOT / "plugins" / package).rglob("*.py")]
+        mechanics = ROOT / "core" / "mechwright" / "mechanics"
+        sources = [
+            *(mechanics / name for name in (*SHARED, *shared)),
+            *(ROOT / "plugins" / package).rglob("*.py"),
+        ]
         self.source = "".join(path.read_text(encoding="utf-8") for path in sources)
 
     def assert_findings(self) -> None:

@@ -146,7 +146,7 @@ def test_an_error_of_the_motion_stops_everything(run: Run, tmp_path: Path) -> No
 
 
 def test_a_page_without_bodies_still_has_its_points(run: Run, tmp_path: Path) -> None:
-    path = design(tmp_path, "slider-crank", {"crank": 30, "rod": 41, "offset": 10})
+    path = design(tmp_path, "slider-crank", {"crank": 30, "rod": 41, "offset": 10, "pin": 30})
     assert run("solve", path, "-o", tmp_path / "o")[0] == 0
     page = data_of(tmp_path / "o" / "motion.html")
     assert [layer["name"] for layer in page["layers"]] == ["ground", "crank", "rod", "slider"]

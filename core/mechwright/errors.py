@@ -94,25 +94,29 @@ class ProofError(MechwrightError, RuntimeError):
 def did_you_mean(name: str, known: Iterable[str], most: int = 3) -> str:
     """Which of some known names somebody may have meant by another; empty where none is like it.
 
-    Capitals, blanks and hyphens count for nothing. Names that begin with what was written come first, then
-    the one that is spelt most like it, then those that have it as one of their words.
+    Several names that begin with what was written come first, then the one that is spelt most like it, then
+    one that begins with it, then those that have it as one of their words. Capitals, blanks and hyphens
+    count for nothing, unless a name is like it as it is written.
 
     >>> did_you_mean("nema17", ["NEMA 17 - 34", "NEMA 17 - 40", "NEMA 23 - 56"])
     "did you mean 'NEMA 17 - 34' or 'NEMA 17 - 40'?"
     >>> did_you_mean("cranck", ["crank", "rod"]), did_you_mean("diameter", ["pin_diameter", "rim"])
     ("did you mean 'crank'?", "did you mean 'pin_diameter'?")
-    >>> did_you_mean("stroke", ["crank", "rod"])
-    ''
+    >>> did_you_mean("tooth", ["teeth", "tooth_offset"]), did_you_mean("stroke", ["crank", "rod"])
+    ("did you mean 'teeth'?", '')
     """
     import difflib
 
     plain = {one: "".join(filter(str.isalnum, one.lower())) for one in known}
     own = "".join(filter(str.isalnum, name.lower()))
     begun = [one for one, words in plain.items() if len(own) >= _LEAST_TOLD and words.startswith(own)]
+    written = difflib.get_close_matches(name, plain, 1, _ALIKE)
     close = difflib.get_close_matches(own, plain.values(), 1, _ALIKE)
     spelt = [one for one, words in plain.items() if words in close][:1]
     within = [one for one in plain if own in one.lower().split("_") and len(own) >= _LEAST_TOLD]
-    found = next((some for some in (begun, spelt, within) if 0 < len(some) <= most), [])
+    several = begun if len(begun) > 1 else []
+    kinds = (several, written, begun, spelt, within)
+    found = next((some for some in kinds if 0 < len(some) <= most), [])
     if not found:
         return ""
     *others, last = map(repr, found)

@@ -261,7 +261,7 @@ def test_a_path_for_a_tool_of_another_diameter_is_called_so(
 
 def test_a_single_wrong_coordinate_is_no_wrong_tool() -> None:
     (one,) = made("profile-inside", "linuxcnc")
-    way = "G1 Y2.9719 F3921\n"
+    way = "G1 Y2.9719 F4692\n"
     assert way in one.text
     proof = prove(one.text.replace(way, f"{way}X8.9985\nX7.9985\n"), one.job)
     assert not proof.ok

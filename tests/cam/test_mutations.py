@@ -107,10 +107,10 @@ def test_a_cycle_stops_short_of_the_stock() -> None:
 @pytest.mark.parametrize(
     ("operation", "old", "new"),
     [
-        ("drill", "F267", "F2670"),
-        ("drill", "S4456", "S445.6"),
+        ("drill", "F376", "F3760"),
+        ("drill", "S5093", "S509.3"),
         ("pocket-contour", "S8754", "S1754"),
-        ("slot", "F1470\nX10.9246", "F14700\nX10.9246"),
+        ("slot", "F1750\nX10.9246", "F17500\nX10.9246"),
         ("chamfer", "S7003", "S700.3"),
         ("thread", "S12000 M3", "S1200 M3"),
         ("ball", "S11671", "S1167.1"),
@@ -126,15 +126,17 @@ def test_a_flat_mill_plunges_slowly() -> None:
     """Straight down into material no chip is thinner than the feed per tooth."""
     one = made("tabs")
     lines = one.text.splitlines()
-    at = next(k for k, line in enumerate(lines) if line.startswith("X-15.1546") and "Z" in line)
-    lines[at - 1 : at] = ["G1 Z0 F1960", "G1 Z-0.5 F4000"]
+    at = lines.index("G1 Z0 F2346") + 1
+    assert "Z-" in lines[at]  # the ramp, from the top of the stock
+    lines.insert(at, "G1 Z-0.5 F4000")
     found = asked("chips", "\n".join(lines), one.job)
+    assert not found.passed
     assert found.line == at + 1
 
 
 def test_edges_do_not_run_too_fast() -> None:
-    found = refused(made("drill"), "S4456", "S8912", "cutting-speed")
-    assert "S8912 turns T7 (drill-5) at 140 m/min in aluminium, the tool library says 70" in found.message
+    found = refused(made("drill"), "S5093", "S10186", "cutting-speed")
+    assert "S10186 turns T7 (drill-5) at 160 m/min in aluminium, the tool library says 80" in found.message
 
 
 @pytest.mark.parametrize(

@@ -225,7 +225,7 @@ def test_the_command_writes_a_file_that_is_read(tmp_path, command_line):
         shop = read_shop(path)
         assert shop.workshop.units == units
         mill = shop.library.get("mill-6")
-        assert (mill.diameter, mill.cutting["aluminium"].chip_load) == (6.0, 0.042)
+        assert (mill.diameter, mill.cutting["aluminium"].chip_load) == (6.0, 0.05)
         assert mill.holder == "ER20"
         assert mill.holder_diameter == pytest.approx(40, abs=0.01)
     assert read_shop(tmp_path / "inch.toml").thicknesses("aluminium")[1] == 6.35

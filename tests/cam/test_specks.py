@@ -22,7 +22,7 @@ def test_a_speck_is_thinner_than_numbers_tell(wide: float) -> None:
 def test_a_ridge_on_a_floor_is_stock() -> None:
     """The second ring of a recess, left out, leaves one that is 0.05 mm wide and more."""
     one = made("pocket-contour", "linuxcnc")[0]
-    text = one.text.replace("X-6.5985 Y-2.6 F1960\nX6.6\nY2.5997\nX-6.5995 Y2.5983\n", "")
+    text = one.text.replace("X-6.5985 Y-2.6 F2346\nX6.6\nY2.5997\nX-6.5995 Y2.5983\n", "")
     assert text != one.text
     assert not prove(text, one.job).checks["leftover"].passed
 

@@ -165,7 +165,7 @@ STATES = {
     "G92.1": ("fanuc", "haas"),
     "G92.2": ("fanuc", "haas", "mach3", "grbl"),
     "G43.2 G28.1 G30.1 G7 G8 M48 M50 M60 M61 M62 M64 M66 M70 M72 M73 M100": ("linuxcnc",),
-    "G10.6 G43.1 G50.1 G66 G107 M97 M98 M99 M61": ("fanuc", "haas"),
+    "G10.6 G43.1 G50.1 G66 G107 M99 M61": ("fanuc", "haas"),
     "M29": ("haas",),
     "G59.3 G54.1 G154 G43 G41 G42 G81 G73 G98 M6 M19": ("grbl",),
 }  # fmt: skip
@@ -181,6 +181,27 @@ def test_states_that_are_not_modelled_are_refused_by_name(words: str, controls: 
                 f"line {LINE}: {name} is (no code that|not supported)", said(f"{word} P1", control)
             )
             assert found, (control, word, said(f"{word} P1", control))
+
+
+NO_CALL = "is no code that is read in programs for"
+
+
+@pytest.mark.parametrize(
+    ("control", "line", "reason"),
+    [
+        *((c, "M97 P1", "M97 is not read here; write M98") for c in ("fanuc", "mach3")),
+        ("haas", "M98 P1", "M98 is not read here; a subprogram of this file is called by M97"),
+        *((c, "M98 P1", "there is no O1 in this file; no other is read") for c in ("fanuc", "mach3")),
+        ("haas", "M97 P1", "there is no N1 in this file; no other is read"),
+        *((c, word, f"{word} {NO_CALL}") for c in ("fanuc", "haas", "mach3") for word in ("M97", "M98")),
+        *((c, f"M97 P1 {x}", f"M97 {NO_CALL}") for c in ("fanuc", "haas", "mach3") for x in ("Q1", "X1.")),
+        *(("grbl", f"{word} P1", f"{word} {NO_CALL}") for word in ("M97", "M98")),
+        ("linuxcnc", "M97 P1", f"M97 {NO_CALL}"),
+        ("linuxcnc", "M98 P1", "there is no subroutine 1 in this file; no other is read"),
+    ],
+)
+def test_subprograms_that_are_not_called_are_refused_by_name(control: str, line: str, reason: str) -> None:
+    assert said(line, control).startswith(f"line {LINE}: {reason}")
 
 
 @pytest.mark.parametrize(

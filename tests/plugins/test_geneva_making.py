@@ -155,7 +155,12 @@ def test_a_groove_is_cut_at_full_width_only_if_asked():
 def test_a_straight_slot_is_not_cut_at_full_width():
     wheel = parts("straight")["wheel"]
     used = cutters(wheel)
-    assert used["outside: finish"] <= used["outside: rough"] < 8
+    # A mill that is wider than the slots stays out of them; those that enter are smaller than the roller.
+    enter = {name: d for name, d in used.items() if d < 8.08}
+    assert {"outside: rough the rest", "outside below the tabs: rough the rest", "outside: finish"} <= set(
+        enter
+    )
+    assert enter["outside: finish"] <= min(enter.values()) <= max(enter.values()) < 8
     shape = shapely.Polygon(wheel.outline.outer.flatten())
     mills = [LIBRARY.get(f"mill-{d}") for d in (16, 8, 6)]
     assert [m.diameter for m in outside_mills(mills, shape, 0.2, BIAS)] == [16, 6]

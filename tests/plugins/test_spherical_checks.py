@@ -135,7 +135,7 @@ def test_every_error_and_warning_is_caused_above():
     folder = Path(findings.__wrapped__.__code__.co_filename).parent
     text = "".join(
         (folder / f"{name}.py").read_text(encoding="utf-8")
-        for name in ("checks", "hardware_checks", "setting_checks")
+        for name in ("checks", "hardware_checks", "setting_checks", "strips")
     )
     notes = {"spherical.mobility", "spherical.arcs"}
     assert set(re.findall(r'"(spherical\.[a-z-]+)"', text)) - notes == {case[0] for case in CASES}

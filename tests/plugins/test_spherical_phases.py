@@ -144,7 +144,11 @@ def test_a_five_bar_with_three_phases_has_one_set_of_links():
 
 
 def test_a_sphere_without_room_for_the_links_is_refused():
-    _, result = ask(phases=[points[:4] for points in SPHERE], linkage="four-bar", radius=6, tried=200)
+    """What is rejected on the smallest sphere that may be asked for is built on one of 60 mm."""
+    phases = [points[:4] for points in SPHERE]
+    _, result = ask(phases=phases, linkage="four-bar", radius=60, greatest_arc=75, tried=200)
+    assert result.candidates
+    _, result = ask(phases=phases, linkage="four-bar", radius=5, greatest_arc=75, tried=200)
     assert not result.candidates
     assert [one.code for one in errors(result.findings)] == ["spherical.synthesis"]
     assert {"spherical.gap", "spherical.clearance"} & {reason.code for reason in result.rejected}

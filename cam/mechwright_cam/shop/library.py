@@ -2,6 +2,7 @@
 
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -11,7 +12,9 @@ from mechwright.designs.files import read_toml
 from mechwright.designs.inches import converted, told_in, units_of
 from mechwright.designs.tables import read_table
 from mechwright.errors import DesignError, ToolError
+from mechwright.reading import kind_of, read_bytes
 from mechwright_cam.shop.crib import read_crib
+from mechwright_cam.shop.formats.contract import Format
 from mechwright_cam.shop.formats.known import format_of
 from mechwright_cam.shop.tool import CuttingChange, CuttingData, Tool, ToolKind
 
@@ -108,7 +111,7 @@ def load_library(path: Path | None = None, at_hand: Library | None = None) -> Li
     at_hand = built_in() if at_hand is None else at_hand
     if path is None:
         return at_hand
-    form = format_of(path)
+    form = _form_of(path)
     if form is not None:
         crib = read_crib(path, form)
         tools, told, base = crib.tools, crib.told, Library(())
@@ -123,8 +126,18 @@ def load_library(path: Path | None = None, at_hand: Library | None = None) -> Li
 
 def library_files(path: Path) -> tuple[Path, ...]:
     """The files that a library consists of, itself first; raises as :func:`load_library` does."""
-    form = format_of(path)
+    form = _form_of(path)
     return (path, *(form.beside(path) if form is not None else ()))
+
+
+def _form_of(path: Path) -> Format | None:
+    """The format of a library; a folder is told as a folder, whatever its name ends in."""
+    mode = 0
+    with suppress(OSError, ValueError):  # told when it is read
+        mode = path.stat().st_mode
+    if mode and kind_of(mode):
+        read_bytes(path)  # says what it is
+    return format_of(path)
 
 
 def read_tools(path: Path) -> tuple[Tool, ...]:
