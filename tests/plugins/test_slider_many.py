@@ -75,18 +75,19 @@ def test_what_has_no_way_goes_one_by_one(content):
     assert MANY.alone == 2
 
 
-def testbounds_of_of_rooms_hold_the_rooms_and_leave_few_open():
+def test_bounds_of_rooms_hold_the_rooms_and_leave_few_open():
     batch = MANY.drawn(400, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
     designs = by_arrays.Designs(batch.common, batch.varied)
-    many = moved(by_arrays.Answer(400), designs)
-    blocked, free = bounds_of(designs, many, filled_in(designs.__getitem__), rods=True)
+    many, sizes = moved(by_arrays.Answer(400), designs), filled_in(designs.__getitem__)
+    blocked, free = bounds_of(designs, many, sizes, rods=True)
+    overhang = np.broadcast_to(sizes.overhang, 400)
     assert not (blocked & free).any()
     stuck, stands = decided(blocked, free)
     assert np.mean(stuck | stands) > 0.99
     for place in range(6):
         none = np.zeros_like(blocked)
         measured, clear = none.copy(), none.copy()
-        measure(designs, place, measured, clear)
+        measure(designs, place, overhang[place], measured, clear)
         assert (measured[place] ^ clear[place]).all()
         assert not (blocked[place] & clear[place]).any()
         assert not (free[place] & measured[place]).any()
