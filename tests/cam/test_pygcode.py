@@ -36,7 +36,9 @@ def test_kept_programs(control: str) -> None:
     "control", [pytest.param(one, marks=() if one in {"fanuc", "grbl"} else by_night) for one in CONTROLS]
 )
 def test_every_operation(control: str) -> None:
-    cases = [name for name, case in CASES.items() if not name.startswith("tap")]  # no move writes them out
+    cases = [name for name in CASES if not name.startswith("tap")]  # no move writes them out
+    if control != "grbl":
+        cases.remove("offsets")  # it knows no subprograms
     programs = [one.program for operation in cases for one in made(operation, control)]
     texts = [host().get(Control, control).write(without_cycles(program)) for program in programs]
     assert agree(texts, control, 0.0) > 20 * len(texts)

@@ -52,7 +52,7 @@ SPOILS: dict[str, tuple[Callable[..., Any], str]] = {
     "less of it": (lambda _: os.environ.pop("PATH"), "the environment"),
     "filters": (lambda _: warnings.simplefilter("ignore"), "the filters of warnings"),
     "shown": (lambda _: setattr(warnings, "showwarning", loud), "who shows warnings"),
-    "signals": (lambda _: signal.signal(signal.SIGINT, signal.SIG_IGN), "handlers of signals"),
+    "signals": (lambda _: signal.signal(signal.SIGTERM, lambda *_: None), "handlers of signals"),
     "blocked": (blocked, "handlers of signals"),
     "recursion": (lambda _: sys.setrecursionlimit(5000), "the limit of recursion"),
     "digits": (lambda _: sys.set_int_max_str_digits(0), "the limit of digits"),
