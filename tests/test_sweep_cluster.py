@@ -129,6 +129,7 @@ def test_one_pool_does_every_task_once(monkeypatch):
 
 
 def test_a_worker_that_comes_later_with_another_program_makes_no_table():
+    pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
     with pytest.raises(
         PluginError, match=r"^it has python [^\n]+; here it is python 0: install the same on both$"
     ):
