@@ -35,7 +35,7 @@ def fit(task: Task, x: Array, theta: Array, steps: int, weights: tuple[float, ..
     """Fit from starts (s, k) and (s, n); ``steps`` for each of the weights."""
     sense = _senses(task, theta)
     for weight in weights:
-        x, theta = descend(task, x, theta, sense, weight, steps)
+        x, theta = descend(task, x, theta, sense, weight, steps, fine=True)
     squares = (task.misses(x, theta) ** 2).sum(axis=(-1, -2))
     return Fit(x, theta, squares, task.excess(x, theta).max(axis=-1))
 
