@@ -172,8 +172,8 @@ def test_pressure_angle_that_another_program_prints():
     assert best.params.base_radius / scale == pytest.approx(1.2509, abs=1e-4)
 
 
-def test_rates_that_a_textbook_prints():
-    """R. S. Khurmi and J. K. Gupta, Theory of Machines, the first exercise with a valve on cams.
+def test_rates_that_an_exercise_prints():
+    """An exercise on the cam of a valve, with its answers; which textbook it is from was not seen in the book.
 
     Harmonic motion through 50 mm in a third of a turn, at rest for a twelfth, back in a sixth, 100 rev/min, a
     roller of 20 mm, a least radius of the cam of 25 mm: 0.39 and 0.78 m/s, 6.17 and 24.67 m/s² are printed.
