@@ -274,7 +274,11 @@ class PlainLines(Rows):
         wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
         if dialect.point_needed:
             length = (column >= X) & (column <= R)
+            if dialect.feeds_with_point:
+                length |= column == F
             wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
+        if "S" in dialect.whole_words:
+            wrong |= (column == S) & (marks[at + 1] == _POINT_MARK)
         self.words[column, line] = value
         struck = line[wrong]
         self.plain[struck] = False
