@@ -18,6 +18,9 @@ from mechwright_noncircular_gears.params import NoncircularParams
 _STEPS = 12
 """Halvings: to a four-thousandth of the change."""
 
+_STARTS = (0.0, 0.06, 0.25, 0.5)
+"""Shares of which one works: a stroke that is too short for its return has none at 0."""
+
 _DIGITS = 3
 """Of a value that is named."""
 
@@ -115,7 +118,8 @@ def nearest(
         except (ValidationError, MechwrightError):
             return None
 
-    good, best, bad = 0.0, tried(0.0), 1.0
+    starts = ((share, fields) for share in _STARTS if (fields := tried(share)) is not None)
+    good, best, bad = *next(starts, (0.0, None)), 1.0
     if best is None:
         return None
     for _ in range(steps):
