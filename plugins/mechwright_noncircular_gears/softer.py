@@ -118,10 +118,13 @@ def nearest(
         except (ValidationError, MechwrightError):
             return None
 
-    starts = ((share, fields) for share in _STARTS if (fields := tried(share)) is not None)
-    good, best, bad = *next(starts, (0.0, None)), 1.0
-    if best is None:
+    for good in _STARTS:
+        best = tried(good)
+        if best is not None:
+            break
+    else:
         return None
+    bad = 1.0
     for _ in range(steps):
         middle = (good + bad) / 2
         fields = tried(middle)
