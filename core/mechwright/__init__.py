@@ -1,14 +1,15 @@
 """Mechwright: from how a mechanism should move to a proven program for the mill.
 
-What a plugin or a script needs has its name here; each is imported when it is first asked for.
+What a plugin or a script needs has its name here; each is imported when it is first asked for. Nothing is
+before that: until the program listens, the keyboard stops it with a traceback.
 """
-
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
 
+TYPE_CHECKING = False  # as checkers know it by its name; importing it takes longer than everything here
 if TYPE_CHECKING:
+    from typing import Any
+
     from mechwright.arrays import Array
     from mechwright.build import Blank, Build, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
@@ -169,9 +170,11 @@ __all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances
 __all__ += ["AsMade", "MadeCurve", "MadeFigure", "MadeHole", "MadePart", "MadeRing", "MadeSection"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in _HOME:
         raise AttributeError(f"module 'mechwright' has no attribute {name!r}")
+    from importlib import import_module
+
     value = getattr(import_module(_HOME[name]), name)
     globals()[name] = value
     return value
