@@ -170,6 +170,12 @@ class Design:
         tables = table_values(self.readers, content, self.path, self.tables, touched)
         return settled(replace(self, params=params, tables=tables, content=content, chosen={}))
 
+    def choosing(self, change: Change) -> "Design":
+        """The design with keys that its file leaves out, beside those that are chosen already."""
+        chosen = {**self.chosen, **change}
+        params = own_params(self.family, changed(self.content, chosen), self.path)
+        return replace(self, params=params, chosen=chosen)
+
 
 @once()
 def load(path: Path, host: Host) -> Design:

@@ -6,18 +6,16 @@ what moves; so does a chain. Where the file says nothing of such a key it is the
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol, Self, TypeVar
 
+from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
-from mechwright.designs.change import changed, found_at
+from mechwright.designs.change import found_at
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain import Chain
-
-if TYPE_CHECKING:
-    from mechwright.designs.design import Design
 
 ROUNDS = 8
 """Changes that are chosen one after the other: each may bring the next one to light."""
@@ -26,7 +24,32 @@ CHOSEN = "design.chosen"
 """Code of the note that tells of them."""
 
 
-def settled(design: "Design") -> "Design":
+class _Open(Protocol):
+    """A design, as far as keys are chosen for it."""
+
+    @property
+    def family(self) -> Family[Any]: ...
+    @property
+    def params(self) -> Parameters: ...
+    @property
+    def readers(self) -> tuple[Table[Any], ...]: ...
+    @property
+    def tables(self) -> Mapping[str, Any]: ...
+    @property
+    def content(self) -> Mapping[str, Any]: ...
+    @property
+    def own_tables(self) -> Mapping[str, Any]: ...
+    @property
+    def surroundings(self) -> tuple[Surroundings, ...]: ...
+
+    def choosing(self, change: Change) -> Self:
+        """The design with keys that its file leaves out."""
+
+
+D = TypeVar("D", bound=_Open)
+
+
+def settled(design: D) -> D:
     """The design with the keys that its frame or its chain wants and its file leaves out.
 
     It is the design itself where nothing stands around the mechanism, nothing is wanted, or nothing helps.
@@ -42,7 +65,7 @@ def settled(design: "Design") -> "Design":
     return design
 
 
-def _stands(design: "Design", reader: Table[Any]) -> bool:
+def _stands(design: _Open, reader: Table[Any]) -> bool:
     """Whether a table may put something around the mechanism."""
     usual = reader.settings
     return (
@@ -52,19 +75,19 @@ def _stands(design: "Design", reader: Table[Any]) -> bool:
     )
 
 
-def _better(design: "Design") -> "Iterator[Design]":
+def _better(design: D) -> Iterator[D]:
     """The designs that an error is gone with and that differ in nothing that the file says."""
     for finding in _wishes(design):
         for change in finding.proposed:
             if not change or not all(_open(key, design) for key in change):
                 continue
             with suppress(MechwrightError):
-                other = _with(design, change)
+                other = design.choosing(change)
                 if all((one.code, one.message) != (finding.code, finding.message) for one in _wishes(other)):
                     yield other
 
 
-def _wishes(design: "Design") -> list[Finding]:
+def _wishes(design: _Open) -> list[Finding]:
     """The errors of what joins stages or stands around a mechanism, where it has none of its own."""
     found: Iterable[Finding] = design.family.judge(design.params)
     if isinstance(design.family, Chain):
@@ -76,7 +99,7 @@ def _wishes(design: "Design") -> list[Finding]:
     return [one for one in around if one.severity is Severity.ERROR]
 
 
-def _open(key: str, design: "Design") -> bool:
+def _open(key: str, design: _Open) -> bool:
     """Whether the file leaves a key out whose value follows from others."""
     table, _, name = key.rpartition(".")
     own = (path for path in design.own_tables if f"{key}.".startswith(f"{path}."))
@@ -93,14 +116,6 @@ def _open(key: str, design: "Design") -> bool:
     marks = field.json_schema_extra
     fitted = isinstance(marks, dict) and bool(marks.get("fitted"))
     return fitted or (not field.is_required() and field.get_default(call_default_factory=True) is None)
-
-
-def _with(design: "Design", change: Change) -> "Design":
-    from mechwright.designs.design import own_params
-
-    chosen = {**design.chosen, **change}
-    params = own_params(design.family, changed(design.content, chosen), design.path)
-    return replace(design, params=params, chosen=chosen)
 
 
 def told(chosen: Mapping[str, Any]) -> Finding:
