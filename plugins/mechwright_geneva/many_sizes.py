@@ -19,7 +19,7 @@ from mechwright_geneva.openings import around, reaches
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import PINS, SLACK
 from mechwright_geneva.slot_choice import wheels
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowels_of, walls_of
+from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowels_of, loads_of, walls_of
 
 _PINS = np.array(PINS)
 
@@ -81,6 +81,8 @@ def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
     if table.least_wall is None:
         columns["least_wall"] = walls_of(wheel)
     table = Table(common, varied | columns)
+    if table.load_inertia is None:
+        columns["load_inertia"] = loads_of(wheel)
     if table.pin_diameter is None:
         columns["pin_diameter"] = largest_of(PIN * np.asarray(table.roller_radius))
     frame = Frame(np.asarray(math.pi / common.slots), _half(common, half), np.radians(offset), wheel)

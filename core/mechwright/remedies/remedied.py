@@ -7,7 +7,7 @@ from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.advice import advised
-from mechwright.remedies.bench import Bench, Limits, of_family, same
+from mechwright.remedies.bench import Bench, Limits, identity, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import (
@@ -44,7 +44,8 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     findings = list(findings)
     if all(one.severity is Severity.NOTE for one in findings):
         return findings
-    if any(same(one, bench.found({})) is None for one in findings if one.severity is not Severity.NOTE):
+    judged = {identity(one) for one in bench.found({}) or ()}
+    if any(identity(one) not in judged for one in findings if one.severity is not Severity.NOTE):
         return _remedied(bench.sure, findings)
     told = _remedied(bench, findings)
     lost = any(one.fix is not None and not holds(bench.sure, one, one.fix) for one in told)
