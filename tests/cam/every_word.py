@@ -109,8 +109,8 @@ SAYS_NOTHING = re.compile(
     r"G(9|15|50|69)|M(19|31|33|48|49|88|89)"  # they change no path (docs/controls.md)
 )
 """Words that never show."""
-SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2"}
-"""Words that say in some blocks what is so without them: a place, one turn, a Q as large as P."""
+SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2", "K0", "K1", "L1"}
+"""Words that say in some blocks what is so without them: a place, one turn, a Q as large as P, a cycle run once."""
 
 
 def outcome(one: Try) -> str:

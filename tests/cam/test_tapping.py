@@ -1,5 +1,6 @@
 """Tapped threads: which tap, which hole, at what speed; and programs with a fault, each refused by its check."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -32,7 +33,7 @@ FAULTS = [
     ("linuxcnc", "tap", "K1\n", "K1.01\n", "tapping", "1.0100 mm in a turn, and its pitch is 1 mm"),
     ("fanuc", "tap", "F795.", "F790.", "tapping", "write F795.000"),
     ("haas", "tap-inch", "F37.55", "F37.5", "tapping", "its pitch is 1.27 mm"),
-    ("mach3", "tap-floating", "F795", "F780", "tapping", "its pitch is 1 mm"),
+    ("mach3", "tap-floating", "F795", "F740", "tapping", "its pitch is 1 mm"),
     (
         "fanuc",
         "tap",
@@ -286,3 +287,11 @@ def test_the_hole_of_a_tap_is_as_wide_as_its_core(diameter: float, check: str, s
     found = asked(check, one.text, job, BY_NAME["fanuc"])
     assert found.passed is (not says)
     assert says in found.message
+
+
+@pytest.mark.parametrize(("share", "taken"), [(0.97, True), (0.94, False), (1.02, False)])
+def test_a_floating_holder_may_be_fed_a_little_less_than_the_pitch(share: float, taken: bool) -> None:
+    (one,) = made("tap-floating", "mach3")
+    text = re.sub(r"(G84.*F)([\d.]+)", lambda found: f"{found[1]}{float(found[2]) * share:.1f}", one.text)
+    assert text != one.text
+    assert asked("tapping", text, one.job, BY_NAME["mach3"]).passed == taken

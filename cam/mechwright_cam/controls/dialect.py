@@ -140,6 +140,10 @@ class Dialect:
     usual: frozenset[str] = frozenset()
     """Words that hold at the start unless an earlier program has left others (G94, G91.1): that a program
     does without them is told, and not refused."""
+    cycles_apart: bool = False
+    """Whether cycles are no motions: behind G80 the motion before the cycle is in force again."""
+    repeats: str = "L"
+    """The letter by which a drilling cycle says how often it is run."""
     ends_cycles: bool = False
     """Whether a drilling cycle has to be ended by G80, or a move, before G28 and G30."""
     percent_ends: bool = True
@@ -156,6 +160,12 @@ class Dialect:
     """The same of a coordinate in inches."""
     point_needed: bool = False
     """Whether a length or feed without a decimal point would mean thousandths; it is refused then."""
+    feeds_with_point: Literal["", "inch", "always"] = ""
+    """Where a feed without a decimal point may be another: F15 is 0.15 inch/min, 0.015 mm/min on Haas."""
+    whole_words: str = ""
+    """Letters, of S, T, H, D, L and M, whose numbers have no decimal point, or the control gives an alarm."""
+    arc_idle: bool = False
+    """Whether an arc may name the centre's third distance, across its plane, as 0."""
     program_numbers: bool = False
     """Whether a line may be a program number, O1234."""
     tool_by_t: bool = False

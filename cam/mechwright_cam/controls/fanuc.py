@@ -47,6 +47,8 @@ class Fanuc(GcodeControl):
         decimals=3,
         decimals_inch=4,
         point_needed=True,
+        feeds_with_point="inch",
+        whole_words="STHDLM",
         ascii_comments=True,
         capitals=True,
         one_m=True,
@@ -60,6 +62,8 @@ class Fanuc(GcodeControl):
         one_unit=True,
         change_stops_coolant=True,
         ends_cycles=True,
+        cycles_apart=True,
+        repeats="K",
         feed_mode_stays=True,
         whole_dwells=True,
         # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and
@@ -82,6 +86,7 @@ class Fanuc(GcodeControl):
     )
     capitals = True
     retract_motion = ""
+    dwell_words = "P without a decimal point is in milliseconds"
     forbidden = '%;@&!?"<>{}|\\^`~$'
 
     def frame(self, out: Writer) -> None:

@@ -57,6 +57,7 @@ class Grbl(Measuring, GcodeControl):
         largest_n=10_000_000,
         one_use_of_axes=True,
         tables=frozenset({2, 20}),
+        arc_idle=True,
         percent=False,
         decimals=3,
         tool_by_t=True,
@@ -121,6 +122,7 @@ class Grbl(Measuring, GcodeControl):
         remedy = f"leave tool_change out for one file per tool, or give their lengths in {lengths}"
         return [*taps, Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
 
+    compensates = False
     counts = False  # its parameters are told to the sender alone
 
     def cannot_probe(self, tools: Sequence[Tool]) -> str:

@@ -37,6 +37,9 @@ class Haas(Fanuc):
         peck_clearance=1.27,
         bare_home=True,
         whole_dwells=False,
+        feeds_with_point="always",  # setting 77, as it comes
+        whole_words="",
+        repeats="L",
         feed_mode_stays=False,  # M30 and RESET bring G94 back
         # Corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further.
         corners=Corners(looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),)),

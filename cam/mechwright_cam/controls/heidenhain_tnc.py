@@ -143,6 +143,11 @@ class HeidenhainTnc(GcodeControl):
         for line in words:
             out.line(line)
 
+    dwell_words = "cycle 9 waits in seconds"
+    bound_words = "T of cycle 32"
+    rounding_words = f"CYCL DEF 32.1 T{TOLERANCES.arc_fit:g} (in mm)"
+    exact_words = f"T{EXACT:g}"
+
     def blending(self, exact: bool) -> list[str]:
         """Cycle 32 bounds how far the control leaves the path."""
         return self.rounding(EXACT if exact else TOLERANCES.arc_fit)

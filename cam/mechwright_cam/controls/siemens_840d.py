@@ -125,6 +125,9 @@ class Siemens840D(GcodeControl):
         for line in comment_lines(text, forbidden=self.forbidden):
             out.line(f'MSG("{line}")')
 
+    dwell_words = "F of G4 is in seconds"
+    exact_words = "G60"
+
     def blending(self, exact: bool) -> list[str]:
         """G60 stops at every corner; G64 keeps moving."""
         return ["G60" if exact else "G64"]

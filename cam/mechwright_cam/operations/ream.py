@@ -18,11 +18,8 @@ from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import REAMER_LEAD, Tool, ToolKind
 
-LEAD = 0.9
-"""How far a reamer goes below a through cut, mm: its lead does not cut to size. The proof lets tools go 1 mm
-below; the rest is for rounding."""
 ALLOWANCES = ((5.0, 0.1, 0.2), (10.0, 0.15, 0.3), (20.0, 0.2, 0.4), (100.0, 0.3, 0.5))
 """Up to a diameter, what is left for the reamer on the diameter, least and most, mm (workshop practice after
 DIN reamers): less rubs, more chatters."""
@@ -61,7 +58,7 @@ class Ream(Operation):
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """A reamer goes through with its lead."""
-        return task.bottom - LEAD if tool.kind is ToolKind.REAMER else task.bottom
+        return task.bottom - REAMER_LEAD if tool.kind is ToolKind.REAMER else task.bottom
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """To the reamer's allowance, and down and up at its feed with the spindle turning."""
@@ -74,7 +71,7 @@ class Ream(Operation):
                 f"{bore.name}: bore", mill, partial(rough_bore, job, small, drill, air, steps.step_down(mill))
             )
             steps.add(f"{bore.name}: bore for the reamer", mill, partial(finish_bore, job, small))
-        steps.add(f"{bore.name}: ream", reamer, partial(_ream, bore=bore, bottom=task.bottom - LEAD))
+        steps.add(f"{bore.name}: ream", reamer, partial(_ream, bore=bore, bottom=task.bottom - REAMER_LEAD))
         return Stock(gone=stock.gone)
 
 
@@ -110,7 +107,7 @@ def reaming(job: Job, bore: Bore) -> Reaming | None:
     if bore.top > 0 or not through(job, bore.top + bore.depth):
         return None
     fitting = (tool for tool in job.tools_of(ToolKind.REAMER) if sized(tool, bore))
-    reamer = next((tool for tool in fitting if tool.flute_length >= depth + LEAD), None)
+    reamer = next((tool for tool in fitting if tool.flute_length >= depth + REAMER_LEAD), None)
     if reamer is None:
         return None
     least, most = allowance(reamer.diameter)

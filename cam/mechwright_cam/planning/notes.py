@@ -4,11 +4,10 @@ from collections.abc import Sequence
 
 from mechwright.contracts.part import Bore
 from mechwright_cam.operations.drilling import point_length
-from mechwright_cam.operations.ream import LEAD
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
-from mechwright_cam.shop.tool import Tool
+from mechwright_cam.shop.tool import REAMER_LEAD, Tool
 
 
 def lengths_of(job: Job) -> Lengths:
@@ -73,7 +72,7 @@ def notes(
         below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
         lines.append(f"drills go {to.fixed(below)} {to.unit} below the stock: leave room under the holes")
     if reamers:
-        below = LEAD + job.settings.breakthrough
+        below = REAMER_LEAD + job.settings.breakthrough
         lines.append(f"reamers go {to.fixed(below)} {to.unit} below the stock: leave room under the holes")
     if tapped > 0:
         lines.append(f"taps go {to.fixed(tapped)} {to.unit} below the stock: leave room under the holes")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.machine_rules import retract
-from mechwright_cam.proof.off_path import deepest_off_path
+from mechwright_cam.proof.off_path import deepest_off_path, too_deep
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
@@ -47,7 +47,7 @@ def spindle(scene: Scene) -> Check:
                 f"stock; before it {retract(scene)}, at {place}"
             )
             message = f"{scene.spot(change.line, change.file)}: {message}"
-            return Check(False, message, change.line, None, UNEVEN, "mm", change.place)
+            return Check(False, message, change.line, None, UNEVEN, "mm", change.place, file=change.file)
     return Check(True, "the spindle turns the right way whenever the cutter is in the work")
 
 
@@ -120,13 +120,11 @@ def dwells(scene: Scene) -> Check:
     """No dwell is so long that its unit must be wrong."""
     if (step := first(scene.run.seconds > MAX_DWELL)) is not None:
         found = float(scene.run.seconds[step])
-        message = f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; P is in seconds"
+        message = f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; {scene.control.dwell_words}"
         return scene.bad(step, message, found, MAX_DWELL, "s")
     return Check(True, "dwells are short")
 
 
-ADVICE = f"write G64 P{TOLERANCES.arc_fit:g} Q0 (in mm) or G61"
-"""What to write: as our own programs have it."""
 LOOSEST = 0.05
 """A path that is off by more is another path, mm: nothing else in the proof would hold for it."""
 
@@ -134,24 +132,32 @@ LOOSEST = 0.05
 def path_tolerance(scene: Scene) -> Check:
     """The control has a bound on how far it leaves the path, and there, too, stays out of the part."""
     run, name, limit = scene.run, scene.control.title, TOLERANCES.gouge
-    off = scene.motion.off
+    off, exact = scene.motion.off, scene.control.exact_words
+    advice = f"write {scene.control.rounding_words} or {exact}"
     words = run.of_states(lambda state: state.off_path)
     if (step := first(run.moving & np.isinf(words))) is not None:
         message = (
             f"nothing bounds how far {name} leaves the path at corners, the limit is {limit:g} mm; before it "
-            f"{ADVICE}"
+            f"{advice}"
         )
         return scene.bad(step, message, None, limit, "mm")
     if (step := first(in_work(scene) & (words > LOOSEST))) is not None:
         found = float(words[step])
         message = (
-            f"{name} may leave the path by {found:g} mm at corners (P and Q of G64 together), {LOOSEST:g} mm "
-            f"at most; {ADVICE}"
+            f"{name} may leave the path by {found:g} mm at corners ({scene.control.bound_words}), "
+            f"{LOOSEST:g} mm at most; {advice}"
         )
         return scene.bad(step, message, found, LOOSEST, "mm")
     if not off.any():
         return Check(True, f"no word lets {name} leave the path further than its settings do")
     far = scene.off_path.too_deep(off, limit, any_one=True)
+    if far.any() and scene.gouge is not None and scene.gouge.depth > limit:
+        # What the path itself cuts is the gouge of that rule, and no finer tolerance mends it.
+        far = scene.off_path.too_deep(off, limit) & ~too_deep(
+            scene.paths, scene.job, np.zeros(len(run)), limit
+        )
+        if not far.any():
+            return Check(True, f"{name} cuts the part nowhere but where the path itself does")
     if far.any():
         some = copy(scene.paths)
         some.steps = some.steps[far[some.steps]]
@@ -160,7 +166,7 @@ def path_tolerance(scene: Scene) -> Check:
         away = float(off[cut.step])
         message = (
             f"{name} may be {away:.4f} mm off the path there, and cuts {cut.depth:.4f} mm into the finished "
-            f"part, the limit is {limit:g} mm; write G61 before it, or feed slower"
+            f"part, the limit is {limit:g} mm; write {exact} before it, or feed slower"
         )
         return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
     return Check(

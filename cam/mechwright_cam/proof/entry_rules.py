@@ -108,13 +108,19 @@ def rapid_height(scene: Scene) -> Check:
     paths, limit = scene.paths, scene.job.settings.clearance
     rapid = paths.rapids
     sideways = np.hypot(*(paths.end - paths.start)[rapid, :2].T) > NEAR
-    low = rapid[sideways & (paths.low[rapid] < limit - NEAR)]
+    low = rapid[sideways & (paths.low[rapid] < scene.clear)]
     if low.size:
         over = low[shapely.dwithin(paths.room(paths.whole(low)), stock_shape(scene.job), paths.radius[low])]
         if over.size:
             step = int(over[0])
             z = float(paths.low[step])
-            message = f"a sideways rapid over the stock at Z{z:g}, the clearance plane is Z{limit:g}"
+            where, other = (
+                ("over", "set cam.clearance if nothing stands higher") if z >= 0 else ("in", "feed")
+            )
+            message = (
+                f"a sideways rapid {where} the stock at Z{z:g}, the clearance plane is Z{limit:g}; "
+                f"go up first, or {other} there"
+            )
             return scene.bad(step, message, z, limit, "mm")
     return Check(True, "sideways rapids run at the clearance plane or above", limit=limit, unit="mm")
 

@@ -24,7 +24,7 @@ def positions(scene: Scene) -> Check:
     if (step := first((run.cutting & unknown) | (rapid & sideways & lost))) is not None:
         return scene.bad(step, f"moves from an unknown height or place; first {retract(scene)}")
     height = max(scene.job.settings.clearance, scene.job.highest + NEAR)
-    blind = _blind(scene, height)
+    blind = _blind(scene, max(scene.clear, scene.job.highest + NEAR))
     if (step := first(rapid & blind)) is not None:
         message = f"moves below Z{height:g} from a place in X and Y that the text does not say; "
         return scene.bad(step, message + f"first {retract(scene)}, then go to X and Y, then to Z")

@@ -3,7 +3,6 @@
 import numpy as np
 
 from mechwright_cam.controls.reading import Kind
-from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
@@ -33,7 +32,7 @@ def program_end(scene: Scene) -> Check:
         return Check(False, "the program cuts nothing", run.lines)
     last = int(moved[-1])
     height = float(run.end[last, 2])
-    if not height >= scene.job.settings.clearance - NEAR:
+    if not height >= scene.clear:
         return scene.bad(last, f"the program ends with the tool down; {retract(scene)}", height)
     return Check(True, "the program ends with the tool up")
 
@@ -53,6 +52,8 @@ def modes(scene: Scene) -> Check:
         return Check(False, message, line)
     if (step := first(scene.run.moving)) is not None:
         words = {"units": scene.control.unit_word, **SAFE_MODES}
+        if not scene.control.compensates:
+            del words["cutter compensation"]
         missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
@@ -75,14 +76,20 @@ def tools(scene: Scene) -> Check:
     for ready in run.selected:
         if ready.tool and ready.tool not in scene.tools:
             message = f"T{ready.tool} is made ready and is not a tool of this job; its tools are {known}"
-            return Check(False, f"{scene.spot(ready.line, ready.file)}: {message}", ready.line, ready.tool)
+            return Check(
+                False,
+                f"{scene.spot(ready.line, ready.file)}: {message}",
+                ready.line,
+                ready.tool,
+                file=ready.file,
+            )
     return Check(True, "all tools belong to the job")
 
 
 def tool_change(scene: Scene) -> Check:
     """Tools are changed at a safe height."""
-    run, clearance = scene.run, scene.job.settings.clearance
-    if (step := first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= clearance - NEAR))) is not None:
+    run = scene.run
+    if (step := first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= scene.clear))) is not None:
         return scene.bad(step, f"a tool is changed without a retract; before it {retract(scene)}")
     return Check(True, "tools are changed at the machine's upper end")
 
@@ -95,7 +102,7 @@ def stops(scene: Scene) -> Check:
     run, control = scene.run, scene.control
     stop = np.isin(run.kind, (Kind.STOP, Kind.MAYBE))
     turns = run.of_states(lambda state: state.spindle) != 0
-    down = ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR)
+    down = ~(run.start[:, 2] >= scene.clear)
     wet = run.of_states(lambda state: state.coolant != "off")
     for wrong, how in (
         (turns, f"while the spindle turns; write {control.m(5)} before it"),

@@ -6,6 +6,7 @@ from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
 
 PLACES = 400
 """Places along the walls that are asked."""
@@ -38,6 +39,8 @@ def misfit(sweeps: Sweeps, job: Job) -> str:
         if abs(usual - last.radius) < OTHER or np.mean(np.abs(away - usual) < ALIKE) < MOST:
             continue
         tool = sweeps.paths.tools[int(sweeps.paths.run.tool[last.pieces.step.max()])]
+        if tool.kind is ToolKind.TAP or last.radius < tool.radius - ALIKE:
+            continue  # the core of a tap is off the wall, and a point that went less deep than it should
         return (
             f"T{tool.number} ({tool.name}) of {tool.diameter:g} mm runs {usual:.3f} mm off the walls, as one "
             f"of {2 * usual:.2f} mm would: the path is made for a tool of another diameter"

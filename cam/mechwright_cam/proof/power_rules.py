@@ -17,6 +17,7 @@ ROUNDING = 0.02
 def power(scene: Scene) -> Check:
     """No cut asks for more power than the spindle has at its speed."""
     loads, machine = scene.simulation.loads, scene.job.settings.machine
+    loads = loads.only(np.flatnonzero(loads.rpm > 0))  # of a spindle that stands the rule on spindles tells
     given = available(machine, loads.rpm)
     share = loads.power / np.maximum(given, NEAR)
     worst = int(np.argmax(share)) if share.size else 0

@@ -28,6 +28,8 @@ class Check:
     """Whether a pass is worth a remark: what was found forbids nothing, and is not as usual."""
     name: str = ""
     """That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in."""
+    file: int = 0
+    """Of a program in several files, the place of the one that has the line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +97,12 @@ class Proof:
 
     @property
     def failures(self) -> tuple[Check, ...]:
-        """The checks that did not pass."""
-        return tuple(check for check in self.checks.values() if not check.passed)
+        """The checks that did not pass, in the order of the lines that they name.
+
+        A cause comes before its effects; those that blame no line come last.
+        """
+        failed = [check for check in self.checks.values() if not check.passed]
+        return tuple(sorted(failed, key=lambda check: (check.line is None, check.file, check.line or 0)))
 
     @property
     def ok(self) -> bool:
@@ -150,7 +156,7 @@ class Proof:
 
 def _says(key: str, value: Any) -> bool:
     """Whether a field of a check stands in ``proof.json``: its name is the key, and remarks are notes."""
-    return key not in ("name", "told") and value not in (None, "")
+    return key not in ("name", "told", "file") and value not in (None, "")
 
 
 def _plain(value: Any) -> Any:

@@ -180,6 +180,11 @@ class Scene:
         """Machine state in a step."""
         return self.run.states[int(self.run.state[step])]
 
+    @property
+    def clear(self) -> float:
+        """The height, mm, from which on the tool is at the clearance plane: a text may have rounded it."""
+        return self.job.settings.clearance - ROUNDED
+
     def spot(self, line: int, file: int) -> str:
         """How a line is named, of several files with the file."""
         names = self.run.files
@@ -198,10 +203,13 @@ class Scene:
         x, y, z = self.run.end[step].tolist() if at is None else at
         at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
-        line, files = int(self.run.line[step]), self.run.files
-        spot = self.spot(line, int(self.run.file[step]) if files else 0)
-        text = f"{spot}: {message}" + (f", at {place}" if place else "")
-        return Check(False, text, line, value, limit, unit, at)
+        line, file = int(self.run.line[step]), int(self.run.file[step]) if self.run.files else 0
+        text = f"{self.spot(line, file)}: {message}" + (f", at {place}" if place else "")
+        return Check(False, text, line, value, limit, unit, at, file=file)
+
+
+ROUNDED = 0.00254
+"""A height may be so much lower in the text than meant, mm: the last of four decimals of an inch."""
 
 
 def planned_offsets(job: Job) -> dict[int, float]:

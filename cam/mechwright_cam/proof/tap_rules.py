@@ -16,6 +16,9 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 RUN_UP = 2.0
 """So many pitches above the plate a tap starts at least: in less, no spindle and feed come together."""
 
+GIVES = 0.05
+"""A floating holder may be fed by this share less than the pitch: the tap draws it out, as makers advise."""
+
 
 def turns(scene: Scene) -> Ints:
     """(n,) how the spindle has to turn: 1, or of taps as their hand asks, and back on the way out."""
@@ -55,6 +58,8 @@ def _lead(scene: Scene, tool: Tool, step: int) -> Check | None:
     lead = feed / rpm if rpm > 0 else math.inf
     deep = -float(np.fmin(scene.run.start[step, 2], scene.run.end[step, 2]))
     if abs(lead - pitch) / pitch * deep <= TOLERANCES.gouge:
+        return None
+    if tool.floating and (1 - GIVES) * pitch <= lead < pitch:
         return None
     message = (
         f"F{feed:g} at S{rpm:g} feeds T{tool.number} ({tool.name}) {lead:.4f} mm in a turn, and its pitch is "

@@ -19,7 +19,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.shop.tool import TAP_POINT, Tool, ToolKind
+from mechwright_cam.shop.tool import REAMER_LEAD, TAP_POINT, Tool, ToolKind
 
 POINTED = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER})
 """Tools with a cone at the end."""
@@ -85,13 +85,15 @@ class Cutter:
 
 
 def cutter(tool: Tool) -> Cutter:
-    """The outline of a tool; thread mills count as cylinders, taps have their chamfer as a cone."""
+    """The outline of a tool; thread mills count as cylinders, taps and reamers have their lead as a cone."""
     if tool.pitch is not None:
         rise = TAP_POINT * tool.pitch
         return Cutter(tool.radius, tip=tool.radius - rise, slope=rise / tool.point_length)
     if tool.kind in POINTED:
         slope = math.tan(math.radians(min(tool.point_angle, BLUNT) / 2))
         return Cutter(tool.radius, tip=tool.tip_diameter / 2, slope=slope)
+    if tool.kind is ToolKind.REAMER:
+        return Cutter(tool.radius, tip=max(tool.radius - REAMER_LEAD, 0.0), slope=1.0)
     return Cutter(tool.radius, nose=tool.nose)
 
 

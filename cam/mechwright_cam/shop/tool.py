@@ -39,6 +39,8 @@ BLUNT_TIP = 0.05
 TAP_ROOT = 0.6134
 """How far in from its rim the teeth of a tap reach, in pitches: the height of an external thread (ASME B1.1;
 ISO 724 alike). With less room the tap's core meets the wall, and it breaks."""
+REAMER_LEAD = 0.9
+"""Length of a reamer's lead, mm, of 45 degrees: what it has passed alone is not to size yet."""
 TAP_POINT = 0.7
 """How far in from its rim a tap's point is, in pitches: its first tooth cuts nothing yet."""
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.groups import G_GROUP, M_GROUP, spell
+from mechwright_cam.controls.reading.groups import CYCLES, CYCLES_APART, G_GROUP, M_GROUP, spell
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)"
 LARGEST_NUMBER = 1e9
@@ -104,6 +104,8 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
     if code.startswith("/"):
         block.deleted = True
         code = code[1:]
+        if code[:1].isdigit():
+            raise fail(line, f"/{code[0]} is a level of its own; write / for lines that may be skipped")
     position = 0
     while position < len(code):
         match = _WORD.match(code, position)
@@ -132,13 +134,23 @@ def check_comments(line: int, text: str) -> None:
         raise fail(line, "a comment stands inside of a word; put it at the end of the line")
 
 
-def check_points(block: Block, dialect: Dialect) -> None:
+def check_points(block: Block, dialect: Dialect, *, inches: bool = False) -> None:
     """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case.
 
-    Words that are no lengths have been taken out of the block.
+    So is a feed, on some controls or in inches alone. Words that are no lengths have been taken out before.
     """
+    if "F" in block.bare and dialect.feeds_with_point in ({"inch", "always"} if inches else {"always"}):
+        value = block.words["F"]
+        if value:
+            raise fail(
+                block.line,
+                f"F{value:g} has no decimal point, and {dialect.name} may read hundredths or less; "
+                f"write F{value:g}.",
+            )
     for letter in sorted(block.bare & _LENGTHS & block.words.keys()):
         value = block.words[letter]
+        if letter == dialect.repeats and not CYCLES.isdisjoint(block.g):
+            continue
         if value and not (letter in "RXYZ" and 100 in block.g) and not (letter == "X" and 40 in block.g):
             raise fail(
                 block.line,
@@ -205,8 +217,11 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     if not abs(value) <= LARGEST_NUMBER:
         raise fail(block.line, f"{letter}{value:.3g} is a number that no control reads")
     if letter == "G":
-        _add_code(block, "G", block.g, round(value * 10), value * 10, G_GROUP)
+        groups = CYCLES_APART if dialect.cycles_apart else G_GROUP
+        _add_code(block, "G", block.g, round(value * 10), value * 10, groups)
     elif letter == "M":
+        if "." in number and letter in dialect.whole_words:
+            raise fail(block.line, _pointed(letter, number, dialect))
         usual = dialect.usual_m(round(value))
         if usual is None:
             raise fail(block.line, no_code(f"M{number}", dialect))
@@ -225,10 +240,16 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in block.words:
         raise fail(block.line, f"two {letter} words")
+    elif "." in number and letter in dialect.whole_words:
+        raise fail(block.line, _pointed(letter, number, dialect))
     else:
         block.words[letter] = value
         if "." not in number:
             block.bare.add(letter)
+
+
+def _pointed(letter: str, number: str, dialect: Dialect) -> str:
+    return f"{letter}{number} has a decimal point, and {dialect.name} takes {letter} whole"
 
 
 def _add_code(

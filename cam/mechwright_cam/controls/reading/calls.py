@@ -127,9 +127,12 @@ def _code(line: str) -> str:
 
 
 def uses_calls(lines: Sequence[str]) -> bool:
-    """Whether some line calls a subprogram.
+    """Whether some line calls a subprogram, or ends one.
 
-    >>> uses_calls(["G0 X1", "N20 M98 P101 (mill)"]), uses_calls(["G0 X1 (M98 P101)"])
-    (True, False)
+    >>> uses_calls(["G0 X1", "N20 M98 P101 (mill)"]), uses_calls(["G0 X1 (M98 P101)"]), uses_calls(["M99"])
+    (True, False, True)
     """
-    return any(_CALL.fullmatch(_code(line)) for line in lines if "M" in line and "P" in line)
+    return any(
+        _CALL.fullmatch(code) or _END.fullmatch(code)
+        for code in (_code(line) for line in lines if "M" in line and ("P" in line or "99" in line))
+    )

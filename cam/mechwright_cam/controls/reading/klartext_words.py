@@ -22,12 +22,12 @@ AT_THE_START = frozenset({3, 4, 7, 8, 13, 14})
 NO_CYCLE = "cycles are not read; post the moves"
 _SHIFT = "shifts or turns the work; set a preset with CYCL DEF 247"
 NO_JUMP = "parameters, jumps and calls are not read; post the program without them"
-_ROUNDED = "is not read; write L, C with CC, CR or CP"
-_M = "is no M function that is read; post the program without it"
+_ROUNDED = "write L, C with CC, CR or CP"
+_M = "post the program without it"
 CYCLES = {
     **dict.fromkeys((7, 8, 10, 11, 19, 26), _SHIFT),
     12: NO_JUMP,
-    13: "turns the spindle; post the program without it",
+    13: "it turns the spindle; post the program without it",
 }
 """Cycles that are refused with other words than the rest."""
 REFUSED = {
@@ -46,8 +46,10 @@ REFUSED = {
     "M6": "write TOOL CALL, which changes the tool",
     **dict.fromkeys(("M89", "M99"), NO_CYCLE),
     "M92": "its datum is the machine builder's own; write M91",
-    "M140": "goes as far as the machine can; write L Z R0 FMAX M91",
-    **dict.fromkeys(("M90", "M103", "M112", "M124", "M136"), "changes path or feed as it likes; take it out"),
+    "M140": "it goes as far as the machine can; write L Z R0 FMAX M91",
+    **dict.fromkeys(
+        ("M90", "M103", "M112", "M124", "M136"), "it changes path or feed as it likes; take it out"
+    ),
 }
 """Words that the control knows and that are not read, each with what to do instead."""
 NUMBER = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)"
@@ -121,6 +123,8 @@ def functions_of(number: int, code: str, *, moving: bool) -> str:
 
 def refused(number: int, word: str) -> ProgramError:
     """The error of a word that is not read, with what to do instead."""
+    if (worked := re.match(r"([A-Z]+)[+-]?Q[LRS]?\d", word)) is not None:
+        return fail(number, f"{word} is a Q parameter; write {worked[1]} with a plain number")
     found = _NAMED.match(word)
     name = word if word in REFUSED or found is None else found[0]
     what = REFUSED.get(name, _M if name == "M" else "post the program without it")

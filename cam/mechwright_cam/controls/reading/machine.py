@@ -71,10 +71,10 @@ class Machine(Moving):
             self._check_codes(block)
             if not self.dialect.inert_g & set(block.g):  # their letters are taken out each time
                 self.usual.add(codes)
-        if self.dialect.point_needed and block.bare:
-            check_points(block, self.dialect)
         words, before = block.words, self.state
         self._units(block)  # first, so that every length of this line is read in the units it states
+        if self.dialect.point_needed and block.bare:
+            check_points(block, self.dialect, inches=self.scale != 1.0)
         if "F" in words and (331 in block.g or (self.motion == 331 and "K" in words)):
             raise fail(block.line, "G33.1 with F, which the spindle gives there; leave it out")
         self._speeds(block, words)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Collection
 
+from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
 from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, TAPPING, spell
@@ -26,18 +27,24 @@ class Moving(Tapping):
     upper_end: float
     initial = math.nan
     """Height at which a cycle began, mm."""
+    before_cycle: int | None = None
+    """The motion that was in force there."""
 
     def _move(self, block: Block, words: dict[str, float]) -> None:
-        named = next((code for code in block.g if code in GROUPS["motion"]), None)
+        codes = [code for code in block.g if code in GROUPS["motion"]]
+        if 800 in codes:  # where cycles are no motions, another one may stand beside it
+            self.end_rigid()
+            self.motion = self._without_cycle()
+        named = next((code for code in codes if code != 800), None)
+        if named in CYCLES and 800 in codes:
+            raise fail(block.line, f"G80 and {spell(named)} exclude each other (cycle)")
         if named is not None:
             if named not in TAPPING:
                 self.end_rigid()
-            if named == 800:
-                self.motion = None
-            elif named in CYCLES and named != self.motion:
+            if named in CYCLES and named != self.motion:
                 self.sticky = {}
                 if self.motion not in CYCLES:  # the next cycle goes back to where the first began
-                    self.initial = self.z
+                    self.initial, self.before_cycle = self.z, self.motion
                 self.motion = named
             else:
                 self.motion = named
@@ -69,6 +76,12 @@ class Moving(Tapping):
                     self._feed_to(block.line, x, y, z)
         elif named in CYCLES | {20, 30, 331}:
             raise fail(block.line, f"{spell(named or 0)} without an axis")
+
+    def _without_cycle(self) -> int | None:
+        """The motion that G80 leaves in force."""
+        if not self.dialect.cycles_apart:
+            return None
+        return self.before_cycle if self.motion in CYCLES else self.motion
 
     def _home(self, block: Block, words: dict[str, float]) -> None:
         """G28 and G30: by way of a point in work coordinates to the machine's home; without axes all go."""
@@ -185,6 +198,9 @@ class Moving(Tapping):
             self.by_centre(block.line)
             i, j = words.pop(first, 0.0) * self.scale, words.pop(second, 0.0) * self.scale
             centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
+            idle = CENTRES[axes[2]]
+            if self.dialect.arc_idle and words.get(idle) == 0:
+                del words[idle]
         else:
             raise fail(block.line, f"an arc without a centre; write {first} and {second}, or R")
         if self.side:
@@ -210,7 +226,12 @@ class Moving(Tapping):
         start, end = (here[a], here[b]), (target[a], target[b])
         if not all(map(math.isfinite, (*here.values(), *target.values()))):
             raise self.astray(line, "an arc")
-        radius, _ = self._check_arc(line, start, end, centre)
+        try:
+            radius, _ = self._check_arc(line, start, end, centre)
+        except ProgramError as error:
+            raise ProgramError(
+                f"{error}; it lies in the plane of {a} and {b} ({spell(self.plane)})"
+            ) from None
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
@@ -240,6 +261,11 @@ class Moving(Tapping):
                 self.sticky[letter] = time
         if self.sticky.get("P", 0.0) < 0:
             raise fail(line, f"{name} waits for {self.sticky['P']:g} s; write P 0 or more")
+        if (often := words.pop(self.dialect.repeats, 1.0)) != 1:
+            often_word = f"{self.dialect.repeats}{often:g}"
+            raise fail(
+                line, f"{name} is run as often as {often_word} says, which is not read; write each hole"
+            )
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
         if not words.keys().isdisjoint(POLAR):
             here["X"], here["Y"] = self._polar(block, words, self.x, self.y)

@@ -33,6 +33,8 @@ Bools = NDArray[np.bool_]
 LETTERS = "NGXYZIJRFS"
 """Letters of a plain line; words stand in columns of this order."""
 N, G, X, Y, Z, I, J, R, F, S = range(len(LETTERS))
+AT_ONCE = 1024
+"""So many plain lines at once become numbers of Python, where lines are run one by one."""
 DECIMALS = 10
 """So many decimals of a value that a program works out count."""
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
@@ -46,6 +48,7 @@ _MAY_FOLLOW = {
     _END: (_END, _BLANK, _LETTER),
 }
 _SIGNED_N = re.compile(rb"[Nn][-+]")
+_INCHES = re.compile(r"[Gg]\s*0*20(?![0-9.])")
 _TWO_POINTS = re.compile(rb"\.\d*\.")
 
 
@@ -224,7 +227,7 @@ class PlainLines(Rows):
         clean = np.where(kept, np.frombuffer(data, dtype=np.uint8), ord(" ")).tobytes()
         self.words = np.full((len(LETTERS), length.size), np.nan)
         self.number = np.arange(1, length.size + 1)
-        self._fill(clean, dialect)
+        self._fill(clean, dialect, inches=_INCHES.search(text) is not None)
         self.kind, self.states = np.where(self.plain, beside.kind, 0), beside.states
         skipped = set(optional) if block_delete else ()
         self.comments = [
@@ -233,6 +236,22 @@ class PlainLines(Rows):
         if skipped:
             self.words[:, optional] = np.nan
             self.kind[optional] = 0
+        self._remarked = beside.comments
+        self._taken, self._some = -1, list[list[float]]()
+
+    def block(self, index: int) -> Block | None:
+        """A plain line as a block, which saves reading it again; None if anything stands beside its words."""
+        if self.kind[index] or index in self._remarked:
+            return None
+        first = index - index % AT_ONCE
+        if self._taken != first:
+            self._taken, self._some = first, self.words[:, first : first + AT_ONCE].T.tolist()
+        _, g, *values = self._some[index - first]
+        block = Block(index + 1, [round(10 * g)] if g == g else [])
+        block.words = {
+            letter: value for letter, value in zip(LETTERS[X:], values, strict=True) if value == value
+        }
+        return block
 
     def strike(self, index: int) -> None:
         """Have a line read word by word, though it looks plain; one behind the last may be named."""
@@ -241,7 +260,7 @@ class PlainLines(Rows):
         self.kind[index : index + 1] = 0
         self.comments = [told for told in self.comments if told[0] != index]
 
-    def _fill(self, clean: bytes, dialect: Dialect) -> None:
+    def _fill(self, clean: bytes, dialect: Dialect, *, inches: bool) -> None:
         """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
         marks = np.frombuffer(clean.translate(_COLUMN, _DROPPED), dtype=np.uint8)
         at = np.flatnonzero(marks < _POINT_MARK)
@@ -256,7 +275,11 @@ class PlainLines(Rows):
         wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
         if dialect.point_needed:
             length = (column >= X) & (column <= R)
+            if dialect.feeds_with_point in ({"inch", "always"} if inches else {"always"}):
+                length |= column == F
             wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
+        if "S" in dialect.whole_words:
+            wrong |= (column == S) & (marks[at + 1] == _POINT_MARK)
         self.words[column, line] = value
         struck = line[wrong]
         self.plain[struck] = False

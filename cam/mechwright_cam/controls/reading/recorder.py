@@ -91,7 +91,8 @@ class Recorder:
         since = ""
         if unknown and self.lost.keys() >= set(unknown):
             number, word = max(self.lost[axis] for axis in unknown)
-            since = f", unknown since {word} in line {number}"
+            # The words of a program in another language are none of these.
+            since = f", unknown since {f'{word} in ' if self.dialect.translate is None else ''}line {number}"
         places = " and ".join(filter(None, (", ".join(axes[:-1]), axes[-1])))
         return fail(line, f"{what} from an unknown position{since}; move to {places} first")
 

@@ -35,11 +35,11 @@ WORK_OFFSETS = frozenset({"G54", "G55", "G56", "G57"})
 INERT = frozenset({"COMPOF"})
 """Words that take back what an earlier program has set, and change nothing else."""
 M_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
-_UNITS = "leaves feeds and offsets in other units; write G710, or G700 in inches"
-_SUPA = "leaves some frames in force; write SUPA"
+_UNITS = "it leaves feeds and offsets in other units; write G710, or G700 in inches"
+_SUPA = "it leaves some frames in force; write SUPA"
 _NO_SIDE = "cutter compensation is not read; post the path of the tool's centre"
-_ROUNDING = "rounds corners as far as its settings let it; write G64, or G60 for exact stops"
-_FRAME = "shifts or turns the work; write G54 to G57"
+_ROUNDING = "it rounds corners as far as its settings let it; write G64, or G60 for exact stops"
+_FRAME = "it shifts or turns the work; write G54 to G57"
 _CYCLE = "cycles are not read; post the moves of the holes"
 _JUMP = "parameters, jumps and calls are not read; post the program without them"
 REFUSED = {
@@ -47,7 +47,9 @@ REFUSED = {
     **dict.fromkeys(("G53", "G153"), _SUPA),
     **dict.fromkeys(("G41", "G42"), _NO_SIDE),
     **dict.fromkeys(("G641", "G642", "G643", "G644", "G645", "CYCLE832", "CTOL", "OTOL", "ADIS"), _ROUNDING),
-    **dict.fromkeys(("COMPON", "COMPCURV", "COMPCAD", "COMPSURF"), "puts curves through lines; write COMPOF"),
+    **dict.fromkeys(
+        ("COMPON", "COMPCURV", "COMPCAD", "COMPSURF"), "it puts curves through lines; write COMPOF"
+    ),
     **dict.fromkeys(("G58", "G59", "TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE"), _FRAME),
     **dict.fromkeys(("MIRROR", "AMIRROR", "G500", "CYCLE800"), _FRAME),
     **dict.fromkeys(("MCALL", "CYCLE"), _CYCLE),
@@ -67,6 +69,8 @@ _FRAME_SET = re.compile(
     re.IGNORECASE,
 )
 _WORD = re.compile(rf"\s*(?:([A-Z]{{2,}})(?:=({NUMBER}))?(?![\w=.+-])|([A-Z])=?({NUMBER})(?![0-9.]*[=(]))")
+_WORKED_OUT = re.compile(r"\s*((CR|[FIJSXYZ])=[^\s;]+)")
+"""A value that is an expression, or relative."""
 _UNKNOWN = re.compile(r"\s*([A-Z_$]+[0-9]*|.)")
 _ODD = re.compile(r"[^\t -~]")
 _AXES = frozenset("XYZ")
@@ -178,6 +182,8 @@ class _Reading:
             if match is None:
                 found = _UNKNOWN.match(code, at)
                 word = found[1] if found else code[at:]
+                if (worked := _WORKED_OUT.match(code, at)) is not None:
+                    raise fail(number, f"{worked[1]} is worked out; write {worked[2]} with a plain number")
                 raise self._refused(number, word)
             name, value = match[1] or match[3], match[2] or match[4] or ""
             if name in {"G", "M", "T", "D", "N"}:

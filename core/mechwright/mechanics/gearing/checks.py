@@ -9,11 +9,12 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.contracts.keyed import Keyed
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing.proof import MeshProof
 from mechwright.mechanics.gearing.rack import Rack
 from mechwright.mechanics.gearing.teeth import Teeth
-from mechwright.mechanics.openings import Keyed, opening_of
+from mechwright.mechanics.openings import opening_of
 from mechwright.tolerances import exceeds, falls_short
 
 LEAST_TIP = 0.2
