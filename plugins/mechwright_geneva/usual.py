@@ -43,8 +43,13 @@ least that is taken where a given wheel leaves no more."""
 LOAD = 0.01
 """Moment of inertia that turns with the wheel, kg m²: about that of a usual wheel of steel."""
 
+CRANK = 8.0
+"""Thickness of the crank plate."""
+
 _WALL, _WALL_SHARE = 2.0, 1 / 35
-_DOWEL, _DOWEL_SHARE = 4.0, 0.06
+_DOWELS, _DOWEL_SHARE = (2.0, 4.0), 0.06
+_FINE, _DEEP = 2.0, 3.5
+"""Diameter of pins below which drills are hard to get; how deep end mills cut their holes, in diameters."""
 
 
 def walls_of(entry_radius: Array) -> Array:
@@ -59,13 +64,23 @@ def wall_of(entry_radius: float) -> float:
 
 
 def dowels_of(entry_radius: Array) -> Array:
-    """Largest dowels (...): 4 mm, or 0.06 l."""
-    return np.asarray(np.minimum(_DOWEL, _DOWEL_SHARE * entry_radius))
+    """Largest dowels (...): 0.06 l, 2 to 4 mm."""
+    return np.asarray(np.clip(_DOWEL_SHARE * entry_radius, *_DOWELS))
 
 
 def dowel_of(entry_radius: float) -> float:
     """Of one wheel."""
     return float(dowels_of(np.asarray(entry_radius)))
+
+
+def cranks_of(pin: Array) -> Array:
+    """Thicknesses (...) of crank plates for pins, which are mostly drilled."""
+    return np.asarray(np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK))
+
+
+def crank_of(pin: float) -> float:
+    """Of one."""
+    return float(cranks_of(np.asarray(pin)))
 
 
 def loads_of(entry_radius: Array) -> Array:
