@@ -151,9 +151,10 @@ def test_an_empty_program_is_refused(program: Program) -> None:
         POST.write(program)
 
 
-def test_a_section_starts_with_a_place() -> None:
+@pytest.mark.parametrize("first", [Feed(1, 1, 1, 100), Rapid(z=5.0), Rapid(1, None), Rapid(y=1.0)])
+def test_a_section_starts_with_a_place(first: Feed | Rapid) -> None:
     with pytest.raises(ProgramError, match="T3 does not start with a rapid"):
-        POST.write(one(Feed(1, 1, 1, 100)))
+        POST.write(one(first, Rapid(1, 1)))
 
 
 def test_rapids_go_down_last_and_up_first() -> None:
