@@ -31,6 +31,16 @@ def test_what_the_machine_keeps_is_named_from_the_first_to_the_last(first: int, 
             parameters.check_writable(float(number))
 
 
+@pytest.mark.parametrize(
+    ("plane", "arc", "said"), [(18, "X5 Z9 I9 K1", "Z and X (G18)"), (19, "Y5 Z9 J9 K1", "Y and Z (G19)")]
+)
+def test_a_wrong_arc_of_another_plane_says_which(plane: int, arc: str, said: str) -> None:
+    with pytest.raises(ProgramError) as caught:
+        interpret(f"{HEAD}G{plane}\nG2 {arc} F100\nM2")
+    assert str(caught.value).startswith("line 4: the arc ends 3.3985 mm nearer")
+    assert str(caught.value).endswith(f"; it lies in the plane of {said}")
+
+
 @pytest.mark.parametrize("head", [HEAD, "G21 G90\nG0 X0 Y0 Z5\n"])
 def test_a_feed_is_said_before_the_first_cut(head: str) -> None:
     with pytest.raises(ProgramError, match="line 3: G1 without a feed; write F above 0"):
