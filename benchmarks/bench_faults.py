@@ -29,6 +29,7 @@ from writing_faults import built, counted  # noqa: E402
 
 SIGNALS = {"keyboard": signal.SIGINT, "ended": signal.SIGTERM, "killed": signal.SIGKILL}
 CODES = {"keyboard": {0, 130}, "ended": {0, 143}, "killed": {0, -9}}
+NOT_BEGUN = "ended by the interpreter, which had not begun the program"
 EXAMPLE = ROOT / "examples" / "slider-crank-quick-return.toml"
 
 
@@ -61,6 +62,12 @@ def members(session: int) -> list[str]:
     return [row[2] for row in rows if row[0] == str(session) and not row[1].startswith("Z")]
 
 
+def begun(code: int, err: str, number: int) -> bool:
+    """Whether a stopped run had come to the first line of the program: before, the interpreter speaks."""
+    in_words = "KeyboardInterrupt" in err and ("Python error" in err or "__main__.py" not in err)
+    return not (in_words or (code == -number and not err))
+
+
 def interrupted(folder: Path, how: str, rng: random.Random, length: float, states: dict[str, str]) -> str:
     """What comes of one run that is stopped at a random moment."""
     out = folder / "out"
@@ -75,9 +82,9 @@ def interrupted(folder: Path, how: str, rng: random.Random, length: float, state
     left = [path.name for path in folder.iterdir() if path.name not in {"out", "designs"}]
     if alive:
         return "processes left"
-    if process.returncode == -SIGNALS[how] and not err and how != "killed":
-        how = ""  # before the first line of the program, or behind its last
-    elif process.returncode not in CODES[how]:
+    if how != "killed" and not begun(process.returncode, err, SIGNALS[how]):
+        return f"{stands} files, {NOT_BEGUN}"
+    if process.returncode not in CODES[how]:
         return f"exit code {process.returncode}: {err.strip()[-200:]}"
     if "Traceback" in err or (process.returncode in {130, 143} and len(err.splitlines()) != 1):
         return f"words: {err.strip()[-200:]}"
@@ -138,7 +145,7 @@ def main() -> None:
         one.partition(": ")[2] for one in stopped
     ]
     sound = {"written", "refused", "old files", "new files", "old files, a folder left for the next run"}
-    sound.add("new files, a folder left for the next run")
+    sound |= {"new files, a folder left for the next run", f"old files, {NOT_BEGUN}"}
     sys.exit(1 if left or set(words) - sound or os.name == "nt" else 0)
 
 

@@ -4,8 +4,10 @@
     python benchmarks/bench_mutation.py run --area geometry --sample 200 --seconds 600     plant a draw
     python benchmarks/bench_mutation.py again                                              survivors once more
     python benchmarks/bench_mutation.py told                                               scores, survivors
+    python benchmarks/bench_mutation.py line --only core/mechwright/geometry/fit.py:131 tests/core/test_fit.py
 
-All of them go on where they stopped: what is known stands in ``--place`` (``build/mutation``), one line each.
+The last plants each fault of a line and gives it to tests, in a new interpreter; nothing of it is kept.
+The others go on where they stopped: what is known stands in ``--place`` (``build/mutation``), one line each.
 The draw is seeded, over the mutants of functions that a test that was watched reaches (``--whole``: over all
 of an area). A mutant is killed if one of its tests fails, or takes far longer than it should; its tests are
 those that reach its lines, the quickest first, for ``--budget`` seconds. It is planted in a fork of a process
@@ -54,6 +56,8 @@ MANY = 150
 """Tests of one mutant at most."""
 KILLED, SURVIVED, UNTESTED, BROKEN, OUTSIDE = "killed", "survived", "no test", "broken", "outside"
 NOT_PLANTED = 3
+SECONDS = 60.0
+"""Of tests that nobody has watched."""
 
 
 @dataclass(frozen=True)
@@ -108,27 +112,28 @@ def digest(name: str) -> str:
 
 
 def reach(place: Path, names: list[str], files: list[str], end: float) -> None:
-    """Watch the tests of files that are not known as they stand, each file in a fork."""
+    """Watch the tests of files that are not known as they stand, each file in a fork of one that has all."""
     known = {(row["file"], row["digest"], row["area"]) for row in lines(place / "reach.jsonl")}
-    for name in names:
-        for file in files:
-            if (file, digest(file), name) in known or time.monotonic() > end:
-                continue
-            watch, said = Reaching(AREAS[name]), place / "reached.json"
+    asked = [(file, name) for name in names for file in files if (file, digest(file), name) not in known]
+    suite = Suite(sorted({file for file, _ in asked}), place / "temporary")
+    for file, name in asked:
+        if time.monotonic() > end:
+            break
+        watch, said = Reaching(AREAS[name]), place / "reached.json"
 
-            def work(file: str = file, watch: Reaching = watch, said: Path = said) -> int:
-                suite = Suite([file], place / "temporary")
-                suite.config.pluginmanager.register(watch)
-                suite.run(suite.items)
-                said.write_text(json.dumps(watch.found), encoding="utf-8")
-                return 0
+        def work(file: str = file, watch: Reaching = watch, said: Path = said) -> int:
+            suite.config.pluginmanager.register(watch)
+            suite.run(test for test in suite.items if test.partition("::")[0] == file)
+            said.write_text(json.dumps(watch.found), encoding="utf-8")
+            return 0
 
-            said.unlink(missing_ok=True)
-            forked(work, LONG)
-            found = json.loads(said.read_text(encoding="utf-8")) if said.exists() else {}
-            row = {"file": file, "digest": digest(file), "area": name, "tests": found}
-            added(place / "reach.jsonl", row)
-            print(f"{file}: {len(found)} tests of {name}", flush=True)
+        said.unlink(missing_ok=True)
+        begun = time.monotonic()
+        forked(work, LONG)
+        found = json.loads(said.read_text(encoding="utf-8")) if said.exists() else {}
+        row = {"file": file, "digest": digest(file), "area": name, "tests": found}
+        added(place / "reach.jsonl", row)
+        print(f"{file}: {len(found)} tests of {name}, {time.monotonic() - begun:.0f} s", flush=True)
 
 
 def known_tests(place: Path) -> Known:
@@ -212,26 +217,39 @@ def told(place: Path) -> None:
             print(f"{row['outcome']} [{row['function']}, {row['tests']} tests] {row['key']}")
 
 
+def of_line(only: str, tests: list[str]) -> None:
+    """Print what tests, or files of them, say of each fault of a place that begins so."""
+    path = only.partition(":")[0]
+    with tempfile.TemporaryDirectory() as folder:
+        copy = tree(Path(folder).resolve() / "tree")
+        for one in mutants(path, (ROOT / path).read_text(encoding="utf-8")):
+            if one.key.startswith(only):
+                passed = afresh(copy, one, dict.fromkeys(tests, SECONDS))
+                print(f"{SURVIVED if passed else KILLED}: {one.key}", flush=True)
+
+
 def main() -> None:
     """Watch, try, or tell."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", choices=("reach", "run", "again", "told"))
+    parser.add_argument("what", choices=("reach", "run", "again", "told", "line"))
     parser.add_argument("files", nargs="*")
     parser.add_argument("--place", type=Path, default=ROOT / "build" / "mutation")
     parser.add_argument("--area", choices=tuple(AREAS), action="append")
     parser.add_argument("--sample", type=int, default=500, help="mutants of each area")
     parser.add_argument("--seed", type=int, default=25)
     parser.add_argument("--whole", action="store_true", help="also what no watched test reaches")
-    parser.add_argument("--only", default="", help="mutants whose line of outcome holds this text")
+    parser.add_argument("--only", default="", help="mutants whose line of outcome holds this")
     parser.add_argument("--budget", type=float, default=10.0, help="seconds of tests for one mutant")
     parser.add_argument("--seconds", type=float, default=3600.0)
     asked = parser.parse_intermixed_args()
     asked.place.mkdir(parents=True, exist_ok=True)
     place, end = asked.place.resolve(), time.monotonic() + asked.seconds
     names = asked.area or list(AREAS)
-    if asked.what == "reach":
+    if asked.what == "line":
+        of_line(asked.only, asked.files)
+    elif asked.what == "reach":
         reach(place, names, asked.files, end)
     elif asked.what == "told":
         told(place)

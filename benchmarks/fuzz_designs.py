@@ -76,12 +76,14 @@ def _outcome(design: Design) -> str:
 def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
     """Counts of a family, as many designs of these numbers as there is time for."""
     counts, longest, grown, said, done = Counter[str](), (0.0, 0), 0, [], numbers.start
+    drawn = [
+        designs(family, host(), SEED, range((numbers.start + 1 - odd) // 2, numbers.stop), way, AGAIN)
+        for odd, way in enumerate(WAYS)
+    ]
     for number in numbers:
         if time.monotonic() > until:
             break
-        (design,) = designs(
-            family, host(), SEED, range(number // 2, number // 2 + 1), WAYS[number % 2], AGAIN
-        )
+        design = next(drawn[number % 2])
         begun, had = time.process_time(), memory()
         found = outcome(design)
         longest = max(longest, (round(time.process_time() - begun, 2), number))

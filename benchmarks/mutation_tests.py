@@ -30,6 +30,9 @@ COMPILED = frozenset({"core/mechwright/mechanics/compiled.py"})
 """Files whose functions become machine code, which is kept by the name of the file."""
 QUIET = ("-x", "-q", "-s", "--no-header", "--tb=no", "-p", "no:cacheprovider")
 
+ENOUGH = 200
+"""Lines without a new one, after which a call is watched no longer: a loop goes on as it began."""
+
 Reached = dict[str, tuple[float, dict[str, list[int]]]]
 """Test to the seconds that it takes and the lines that it reaches, by file."""
 
@@ -124,10 +127,16 @@ class Reaching:
         code = frame.f_code
         if not code.co_filename.startswith(self.starts):
             return None
-        lines = self.seen.setdefault(code, set())
+        lines, again = self.seen.setdefault(code, set()), 0
 
         def line(frame: FrameType, *_: object) -> Any:
-            lines.add(frame.f_lineno)
+            nonlocal again
+            if frame.f_lineno in lines:
+                again += 1
+                frame.f_trace_lines = again < ENOUGH
+            else:
+                again = 0
+                lines.add(frame.f_lineno)
             return line
 
         lines.add(frame.f_lineno)

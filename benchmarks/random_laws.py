@@ -4,7 +4,9 @@ Designs are drawn of every kind of law, in and out of rings. One that is not ref
 that mesh, in no more segments than their curves ask for. One that is refused has to say why in a finding;
 the changes that it proposes, and those of the findings that come after them, have to end in a law that works.
 
-Run:  python benchmarks/random_laws.py [LAWS [SEED]]
+Each law is drawn by the seed and its own number, so that portions, each from its first law on, add up.
+
+Run:  python benchmarks/random_laws.py [LAWS [SEED [FIRST]]]
 """
 
 import sys
@@ -143,12 +145,15 @@ def _past(
             yield mended, bad
 
 
-def main(count: int, seed: int) -> None:
+TOLD = 20
+"""Laws after which the counts so far are said."""
+
+
+def main(count: int, seed: int, first: int) -> None:
     """Draw, judge, count; designs of faults are printed."""
-    rng = np.random.default_rng(seed)
     said: Counter[str] = Counter()
-    for _ in range(count):
-        table = drawn(rng)
+    for number in range(first, first + count):
+        table = drawn(np.random.default_rng([seed, number]))
         try:
             result = judged(NoncircularParams.model_validate(table))
         except ValidationError as error:
@@ -156,11 +161,14 @@ def main(count: int, seed: int) -> None:
         except Exception as error:
             result = f"FAULT {type(error).__name__}: {error}"
         if result.startswith("FAULT") or "words" in result or "still" in result:
-            print(result, table, flush=True)
+            print(number, result, table, flush=True)
         said[result] += 1
-    for result, number in said.most_common():
-        print(f"{number:5d}  {result}")
+        done = number + 1 - first
+        if done == count or done % TOLD == 0:
+            print(f"{done} laws of seed {seed} from number {first}")
+            for what, times in said.most_common():
+                print(f"{times:5d}  {what}", flush=True)
 
 
 if __name__ == "__main__":
-    main(*(int(one) for one in (*sys.argv[1:], *("100", "1")[len(sys.argv) - 1 :])))
+    main(*(int(one) for one in (*sys.argv[1:], *("100", "1", "0")[len(sys.argv) - 1 :])))

@@ -1,5 +1,6 @@
 """Chains of mechanisms: rates through the stages, where they stand, and what is refused."""
 
+import contextlib
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from core.disc_family import Disc
 
 from mechwright import DesignError, MechwrightError, Turning, host
+from mechwright.contracts.finding import errors
 from mechwright.designs.change import changed
 from mechwright.designs.design import Design, design_of
 from mechwright.mechanics.chain import Chain, ChainParams, StageTable
@@ -29,6 +31,9 @@ CIRCLES = {"law": "ellipse", "eccentricity": 0.0, "teeth": 24, "module": 2}
 
 RING = {"law": "ellipse", "internal": True, "mate_lobes": 3, "eccentricity": 0.15, "teeth": 24}
 """A ring, which has no shaft."""
+
+SWING = {"law": "spiral", "sector": 120, "teeth": 20}
+"""Sectors, which swing."""
 
 
 def chain(*stages: tuple[str, Table] | tuple[str, Table, Table], **tables: Any) -> Design:
@@ -218,6 +223,13 @@ def test_a_head_with_a_family_is_refused() -> None:
         chain(("elliptic-gears", {}), ("geneva", {}), family="geneva")
 
 
+def test_a_stage_gets_the_screws_that_its_place_wants() -> None:
+    """Where the file leaves them out."""
+    found = chain(("noncircular-gears", {**D1, "bore": 8}), ("five-bar", {}))
+    assert found.chosen == {"stage.2.parameters.screw_hole": 6}
+    assert not errors(found.check())
+
+
 @pytest.mark.parametrize(
     ("stages", "code", "parameter"),
     [
@@ -229,11 +241,7 @@ def test_a_head_with_a_family_is_refused() -> None:
             "stage.2.parameters.crank",
         ),
         ([("noncircular-gears", RING), ("geneva", {})], "chain.stage", "stage.1.parameters.internal"),
-        (
-            [("noncircular-gears", {**D1, "bore": 8}), ("five-bar", {})],
-            "chain.assembly",
-            "stage.2.parameters.screw_hole",
-        ),
+        ([("noncircular-gears", SWING), ("geneva", {})], "chain.stage", "stage.1.parameters.sector"),
         ([("elliptic-gears", {}), ("spherical", {})], "chain.stage", "stage.2.family"),
         ([("elliptic-gears", {}), ("cam-follower", {"bore": 0})], "chain.stage", "stage.2.parameters.bore"),
         ([("cam-follower", {}), ("geneva", {})], "chain.output", "stage.1.family"),
@@ -286,6 +294,18 @@ def test_speed_of_a_driven_stage_can_be_left_out_by_the_change_that_is_proposed(
     design = chain(("elliptic-gears", EVEN), ("geneva", {"law": "straight", "speed": 30}))
     found = next(one for one in design.check() if one.code == "chain.driven")
     assert not [one for one in design.changed(found.proposed[0]).check() if one.code == "chain.driven"]
+
+
+@pytest.mark.parametrize("table", [SWING, {"law": "ratio", "ratio": "1 + 0.2*cos(phi)", "sector": 120}])
+def test_sectors_become_a_pair_by_a_change_that_is_proposed(table: dict[str, Any]) -> None:
+    """A spiral closes by no change of its own: another law does."""
+    design = chain(("noncircular-gears", table), ("slider-crank", {}))
+    (found,) = (one for one in design.check() if one.code == "chain.stage")
+    left = []
+    for change in found.proposed:
+        with contextlib.suppress(DesignError):
+            left.append([one.code for one in design.changed(change).check()])
+    assert any("chain.stage" not in codes for codes in left)
 
 
 def test_centres_that_fall_together_are_named_and_mended() -> None:

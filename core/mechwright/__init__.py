@@ -1,14 +1,15 @@
 """Mechwright: from how a mechanism should move to a proven program for the mill.
 
-What a plugin or a script needs has its name here; each is imported when it is first asked for.
+What a plugin or a script needs has its name here; each is imported when it is first asked for. Nothing is
+before that: until the program listens, the keyboard stops it with a traceback.
 """
-
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
 
+TYPE_CHECKING = False  # as checkers know it by its name; importing it takes longer than everything here
 if TYPE_CHECKING:
+    from typing import Any
+
     from mechwright.arrays import Array
     from mechwright.build import Blank, Build, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
-    from mechwright.contracts.parameters import FIRST, GIVEN, Parameters, kept
+    from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.refused import RefusedError
@@ -93,7 +94,7 @@ _HOMES = {
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
-    "mechwright.contracts.parameters": "FIRST GIVEN Parameters kept",
+    "mechwright.contracts.parameters": "FIRST FITTED GIVEN Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.refused": "RefusedError",
@@ -129,7 +130,7 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Standing", "Table"]
-__all__ += ["FIRST", "GIVEN", "InputFile", "MaterialName", "Parameters", "material"]
+__all__ += ["FIRST", "FITTED", "GIVEN", "InputFile", "MaterialName", "Parameters", "material"]
 __all__ += [
     "GROUND",
     "Array",
@@ -169,9 +170,11 @@ __all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances
 __all__ += ["AsMade", "MadeCurve", "MadeFigure", "MadeHole", "MadePart", "MadeRing", "MadeSection"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in _HOME:
         raise AttributeError(f"module 'mechwright' has no attribute {name!r}")
+    from importlib import import_module
+
     value = getattr(import_module(_HOME[name]), name)
     globals()[name] = value
     return value

@@ -1,7 +1,8 @@
 """Work on several cores: planar geometry and large arrays let go of the interpreter's lock."""
 
+import contextlib
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
@@ -15,6 +16,17 @@ _allowed: list[int] = []
 def keep_to(count: int) -> None:
     """Let this process use no more than so many cores: others of the same work use the rest."""
     _allowed[:] = [count]
+
+
+@contextlib.contextmanager
+def keeping(count: int) -> Iterator[None]:
+    """Let this process use no more than so many cores meanwhile."""
+    before = _allowed[:]
+    keep_to(count)
+    try:
+        yield
+    finally:
+        _allowed[:] = before
 
 
 def cores() -> int:

@@ -1,7 +1,7 @@
 """Many cams at once: what forbids them, and their figures.
 
-The formulas are those of one cam, asked for arrays. Segments, laws and kinds are what all have in common;
-conjugate pairs and keyways are left to the check of each.
+The formulas are those of one cam, asked for arrays. Segments, laws, kinds and a shaft with its key are what
+all have in common.
 """
 
 import math
@@ -15,13 +15,15 @@ from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import LEAST_WIDTH
-from mechwright.tolerances import falls_short
+from mechwright.mechanics.openings import keyed_findings
+from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright_cam_follower.closure import FLATTEST, REACH, law_findings
 from mechwright_cam_follower.columns import give_extremes, give_figures
 from mechwright_cam_follower.extremes import regular_limit, regularity_of
 from mechwright_cam_follower.geometry import Contact, prime_radius, start_of
 from mechwright_cam_follower.many import Cams, Course, Measure, Seen
 from mechwright_cam_follower.sizes import FREE
+from mechwright_cam_follower.walls import farthest_of
 
 CHUNK = 2048
 """Designs that are sampled at once: enough that calls of numpy cost little."""
@@ -29,14 +31,15 @@ CHUNK = 2048
 SURE = 0.9
 """Share of the bound up to which samples of it are trusted; it changes by far less between two of them."""
 
-_OPENINGS = ("bore", "screw_diameter", "guide_screw", "pin_diameter")
+_OPENINGS = ("bore", "keyway_width", "keyway_relief", "screw_diameter", "guide_screw", "pin_diameter")
+_KEYED = {"bore", "keyway_width", "keyway_depth", "keyway_relief"}
 
 
 def covered(designs: Designs) -> bool:
-    """Whether numbers alone are varied, and the cams are single ones without a keyway."""
-    one = designs.common
+    """Whether numbers alone are varied, and none of the opening for the shaft where that has a keyway."""
     numbers = all(values.dtype.kind in "if" for values in designs.varied.values())
-    return numbers and not one.conjugate and one.keyway_width == 0 and "keyway_width" not in designs.varied
+    keyed = designs.common.keyway_width > 0 or "keyway_width" in designs.varied
+    return numbers and not (keyed and _KEYED & set(designs.varied))
 
 
 def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer | None:
@@ -90,7 +93,16 @@ def _all(values: Any, cams: Cams) -> NDArray[Any]:
 
 def _crowded(seen: Seen) -> Array:
     """Least of the regularity, with its sign turned."""
-    return -regularity_of(seen.cams, seen.contacts[0])
+    return np.asarray(-np.minimum.reduce([regularity_of(seen.cams, one) for one in seen.contacts]))
+
+
+def _innermost(seen: Seen) -> Array:
+    """Least radius of the cams, with its sign turned."""
+    return np.asarray(-np.minimum.reduce([np.abs(one.point) for one in seen.contacts]))
+
+
+def _outermost(seen: Seen) -> Array:
+    return np.asarray(np.maximum.reduce([np.abs(one.point) for one in seen.contacts]))
 
 
 def _least_regular(cams: Cams) -> Array:
@@ -101,22 +113,28 @@ def _openings(found: Answer, cams: Cams) -> None:
     for name in _OPENINGS:
         size = _all(getattr(cams, name), cams)
         found.forbid("bore.size", (size > 0) & (size < LEAST_WIDTH))
+    if cams.common.keyway_width > 0:
+        for fault in errors(tuple(keyed_findings(cams.common))):
+            found.forbid(fault.code, np.ones(len(cams), dtype=bool))
+    if cams.conjugate:
+        found.forbid("follower.shaft", _all(cams.bore, cams) == 0)
 
 
 def _walls(found: Answer, course: Course, left: NDArray[np.intp]) -> None:
     """What :func:`~mechwright_cam_follower.walls.wall_findings` says, in its order."""
     cams = course.cams
     wall, bore = _all(cams.least_wall, cams), _all(cams.bore, cams)
-    inner = _sought(found, course, left, lambda seen: -np.abs(seen.contacts[0].point), -1.0)
+    out = bore / 2 if cams.common.keyway_width == 0 or not found.left.size else farthest_of(cams.common)
+    inner = _sought(found, course, left, _innermost, -1.0)
 
     def thin(width: Any, asked: Any = True) -> None:
         found.forbid("follower.wall", _all(_short(width, wall) & asked, cams), left)
 
-    thin(inner - bore / 2, bore > 0)
+    thin(inner - out, bore > 0)
     hole, ring, screws = (
         _all(getattr(cams, name), cams) for name in ("screw_diameter", "screw_circle", "screws")
     )
-    thin(ring / 2 - hole / 2 - bore / 2, hole > 0)
+    thin(ring / 2 - hole / 2 - out, hole > 0)
     thin(inner - ring / 2 - hole / 2, hole > 0)
     thin(ring * np.sin(math.pi / screws) - hole, hole > 0)
     width, pin = _all(cams.follower_width, cams), _all(cams.pin_diameter, cams)
@@ -132,11 +150,29 @@ def _walls(found: Answer, course: Course, left: NDArray[np.intp]) -> None:
         thin((width - pivot) / 2)
         if cams.contact == "flat":
             found.forbid("follower.face-offset", _all(cams.face, cams) < width / 2, left)
-        reach = _sought(found, course, left, lambda seen: np.abs(seen.contacts[0].point))
+        reach = _sought(found, course, left, _outermost)
         need = reach + (width if cams.contact == "flat" else pivot) / 2 + FREE
         found.forbid("follower.room", _all(cams.value("centre_distance"), cams) < need, left)
+    if cams.conjugate:
+        slot = _all(_beside_slot(cams), cams)
+        found.doubt(np.abs(slot - wall) < 2 * TOLERANCES.flatten, left)  # the check has a polygon
+        thin(slot)
     if cams.contact == "roller":
         found.doubt(~_clear(course), left)
+
+
+def _beside_slot(cams: Cams) -> Array:
+    """Least wall (n, 1) between the slot for the shaft of a pair and the holes of studs and pivot, mm.
+
+    Each end of the shaft's way is as far from the stud beside it as it is where the follower is lowest.
+    """
+    start, room, stud = start_of(cams), cams.bore / 2 + FREE, cams.pin_diameter / 2
+    if cams.translating:
+        return np.asarray(np.maximum(np.hypot(cams.value("offset"), start) - room, 0.0) - stud)
+    axis = cams.value("centre_distance")
+    away = np.abs(axis * np.exp(1j * start) - cams.value("arm_length"))
+    beside = np.maximum(away - room, 0.0) - stud
+    return np.asarray(np.minimum(beside, np.maximum(axis - room, 0.0) - cams.pivot_bore / 2))
 
 
 def _short(value: Any, limit: Any) -> NDArray[np.bool_]:
@@ -159,9 +195,12 @@ def _clear(course: Course) -> NDArray[np.bool_]:
     With all places at least r off the axis, and all normals within δ of the way from the axis, such a chord
     has a length of 2 r cos δ or more.
     """
-    away = np.min([np.abs(seen.contacts[0].centre).min(axis=1) for seen in course.seen], axis=0)
-    upright = np.min([_upright(seen.contacts[0]).min(axis=1) for seen in course.seen], axis=0)
-    clear: NDArray[np.bool_] = _all(course.cams.value("roller_radius"), course.cams) < SURE * away * upright
+    clear = np.ones(len(course.cams), dtype=bool)
+    radius = _all(course.cams.value("roller_radius"), course.cams)
+    for contacts in zip(*(seen.contacts for seen in course.seen), strict=True):
+        away = np.min([np.abs(one.centre).min(axis=1) for one in contacts], axis=0)
+        upright = np.min([_upright(one).min(axis=1) for one in contacts], axis=0)
+        clear &= radius < SURE * away * upright
     return clear
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, GIVEN, MaterialName, Parameters
+from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.units import Millimetres, RevPerMin, Unit
 
 MOST_SEGMENTS = 24
@@ -243,9 +244,7 @@ class CamParams(Parameters):
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the cam's keyway, along +x at the start; 0 for none."
     )
-    keyway_depth: Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None = Field(
-        None, description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width."
-    )
+    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
     keyway_relief: Millimetres = Field(
         0.0, ge=0, le=20, description="Diameter of the reliefs in the keyway's corners; 0 for none."
     )
@@ -303,10 +302,7 @@ class CamParams(Parameters):
         for name in SPRINGS:
             if self.conjugate and getattr(self, name) is not None:
                 raise ValueError(f"{name}: conjugate cams need no spring; leave it out")
-        if self.keyway_width > 0 and self.bore == 0:
-            raise ValueError("keyway_width needs a bore; set bore, or keyway_width = 0")
-        if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
-            raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
+        keyed_together(self)
 
     def value(self, name: str) -> float:
         """A field that belongs to one kind of follower, or what it is where it is left out."""

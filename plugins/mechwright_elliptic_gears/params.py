@@ -2,12 +2,14 @@
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
+from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
@@ -159,15 +161,17 @@ class EllipticGearParams(Parameters):
     thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
-        10.0, ge=0, le=300, description="Diameter of the shaft bore; 0 for none.", json_schema_extra=FIRST
+        10.0,
+        ge=0,
+        le=300,
+        description="Diameter of the shaft bore, 0 for none; left out, 10, or the largest standard one below "
+        "that leaves the rim of a small gear.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the hub keyway, towards the far vertex; 0 for none."
     )
-    keyway_depth: Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None = Field(
-        None,
-        description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width.",
-    )
+    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
     keyway_relief: Millimetres = Field(
         0.0,
         ge=0,
@@ -249,6 +253,12 @@ class EllipticGearParams(Parameters):
         None, description="Number of the clamp's screws; left out, 4."
     )
 
+    def fitted(self) -> Mapping[str, Any]:
+        """The bore, smaller than usual in small gears."""
+        from mechwright_elliptic_gears.usual import bores
+
+        return {} if "bore" in self.model_fields_set else {"bore": float(bores(partial(getattr, self)))}
+
     @field_validator("band", mode="before")
     @classmethod
     def _band_has_a_width(cls, value: Any) -> Any:
@@ -269,10 +279,7 @@ class EllipticGearParams(Parameters):
     def _together(self) -> Self:
         if (self.module is None) == (self.semi_major is None):
             raise ValueError("give exactly one of module and semi_major")
-        if self.keyway_width > 0 and self.bore == 0:
-            raise ValueError("keyway_width needs a bore; set bore, or keyway_width = 0")
-        if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
-            raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
+        keyed_together(self)
         if self.stages == 1:
             for name in TRAIN_ONLY:
                 if getattr(self, name) is not None:

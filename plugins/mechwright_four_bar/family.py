@@ -9,7 +9,12 @@ from mechwright.contracts.finding import errors
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
+from mechwright_four_bar.requirements import (
+    AdjustablePathRequirement,
+    PathRequirement,
+    PolesRequirement,
+    SwingRequirement,
+)
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -42,6 +47,7 @@ class FourBars(Family[FourBarParams]):
         "poles": PolesRequirement,
         "poses": PosesRequirement,
         "function": FunctionRequirement,
+        "swing": SwingRequirement,
     }
 
     def check(self, params: FourBarParams) -> Sequence[Finding]:
@@ -145,6 +151,10 @@ class FourBars(Family[FourBarParams]):
             from mechwright_four_bar.burmester.answering import through_angles
 
             return through_angles(FunctionRequirement.model_validate(requirement), progress)
+        if kind == "swing":
+            from mechwright_four_bar.swing import swinging
+
+            return swinging(SwingRequirement.model_validate(requirement), progress)
         from mechwright_four_bar.pole_synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)

@@ -1,16 +1,22 @@
 """What the four-bar's synthesis can be asked for."""
 
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
-from mechwright.mechanics.adjustable.requirement import Coordinate, PhasedPath
+from mechwright.mechanics.adjustable.requirement import Coordinate, PhasedPath, check_lengths
 from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.mechanics.tracing.requirement import MOST_STARTS, PlanePath, Turn
-from mechwright.units import Degrees, Millimetres, Unit
+from mechwright.units import Degrees, Millimetres, Ratio, Unit
 
 AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit("")]
+
+Link = Annotated[float, Field(ge=1, le=2000), Unit("mm")]
+
+LINKS = ("crank", "coupler", "follower", "ground")
+ONE_OF = f"{', '.join(LINKS[:-1])} and {LINKS[-1]}"
 
 NEAREST_POLE = 0.01
 """mm. A pole nearer to A0 asks for a coupler that hardly turns; nothing of that kind can be built."""
@@ -140,3 +146,52 @@ class PolesRequirement(Parameters):
         count = len(self.poles)
         angles = 1 if self.crank_turns else count
         return 3 + angles + (self.ground_angle is None) + (self.ground is None) - 2 * count
+
+
+class SwingRequirement(Parameters):
+    """The table ``[requirement]`` of the kind ``swing``: a turning crank whose follower swings so far.
+
+    Examples
+    --------
+    >>> SwingRequirement().swing
+    90.0
+    """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "angle": "it is called swing",
+        "quick_return": "it is called time_ratio",
+    }
+
+    swing: Degrees = Field(90.0, ge=1, le=170, description="Angle between the follower's limit positions.")
+    time_ratio: Ratio = Field(
+        1.0, ge=1, le=5, description="Time of the follower's slow stroke over that of its quick one."
+    )
+    quick: Literal["ccw", "cw"] = Field("ccw", description="Sense of the follower's quick stroke.")
+    crank: Link | None = Field(None, description="Crank; one length is given, the others follow.")
+    coupler: Link | None = Field(None, description="Coupler.")
+    follower: Link | None = Field(60.0, description="Follower; 60 where no length is given.")
+    ground: Link | None = Field(None, description="Distance of the fixed pivots.")
+    middle_angle: Degrees = Field(
+        90.0, ge=-360, le=360, description="Direction of the follower in the middle of its swing, from X."
+    )
+    least_transmission_angle: Degrees = Field(
+        30.0, ge=1, le=80, description="Least transmission angle of the turn."
+    )
+    longest_link: Millimetres = Field(400.0, ge=1, le=2000, description="Longest link, ground included.")
+    shortest_link: Millimetres = Field(10.0, ge=1, le=1000, description="Shortest link, ground included.")
+    designs: int = Field(6, ge=1, le=12, description="Most designs to give.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_length(cls, given: Any) -> Any:
+        names = [name for name in LINKS if isinstance(given, Mapping) and given.get(name) is not None]
+        if len(names) > 1:
+            raise ValueError(f"{' and '.join(names)}: give one of {ONE_OF}; the others follow from it")
+        return {**given, "follower": None} if names and names != ["follower"] else given
+
+    @model_validator(mode="after")
+    def _lengths(self) -> Self:
+        check_lengths(self.shortest_link, self.longest_link)
+        if all(getattr(self, name) is None for name in LINKS):
+            raise ValueError(f"no length is given; give one of {ONE_OF}")
+        return self

@@ -212,9 +212,12 @@ class GenevaParams(Parameters):
         "forwards",
         description="Sense of the driver: clockwise, the wheel counter-clockwise, or backwards.",
     )
-    load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
-        0.01,
-        description="Moment of inertia that turns with the wheel, the wheel's own included.",
+    load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] | None = Field(
+        None,
+        description=(
+            "Moment of inertia that turns with the wheel, its own included; left out, 0.01, and of wheels "
+            "below 100 less, with the fourth power of entry_radius."
+        ),
         json_schema_extra=FIRST,
     )
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
@@ -278,5 +281,6 @@ class Sizes(GenevaParams):
     driver_bore: float
     pin_diameter: float
     fixing: float
+    load_inertia: float
     left_out: tuple[str, ...] = ()
     """The keys of the above that the design file leaves out."""

@@ -7,6 +7,7 @@ In this order, each from those before it (docs/geneva.md, "What is left out"):
     pin                 the largest standard one up to 1.2 r
     dowels              4 mm, or 0.06 l; down to half of it where the driver has less room, or none
     bores               the largest standard shaft up to 0.12 l that leaves the walls
+    load                0.01 kg m², of a wheel below 100 mm as that of a disc, with the fourth power of l
 """
 
 import math
@@ -16,7 +17,7 @@ from mechwright_geneva.openings import driver_opening, driver_radius, hub_radius
 from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.series import PINS, largest, up_to
 from mechwright_geneva.slot_choice import Slot, slot_of
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowel_of, wall_of
+from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowel_of, load_of, wall_of
 
 LEFT_OPEN = tuple(name for name, field in Sizes.model_fields.items() if field.is_required())
 """The keys that a design file may leave out and that have a value here."""
@@ -33,6 +34,7 @@ def sized(params: GenevaParams) -> Sizes:
         **slot.sizes(),
         "least_wall": wall,
         "pin_diameter": largest(PINS, PIN * slot.roller_radius),
+        "load_inertia": load_of(slot.entry_radius),
         # Placeholders: what follows is found with a complete table.
         "fixing": dowel_of(slot.entry_radius),
         "bore": 0.0,

@@ -40,6 +40,9 @@ SHAFT, FAIR_SHAFT, LEAST_SHAFT = 0.12, 0.08, 0.04
 """Diameter of the shafts over l; what a wheel that is left out is sized for, and dowels give way to; and the
 least that is taken where a given wheel leaves no more."""
 
+LOAD = 0.01
+"""Moment of inertia that turns with the wheel, kg m²: about that of a usual wheel of steel."""
+
 _WALL, _WALL_SHARE = 2.0, 1 / 35
 _DOWEL, _DOWEL_SHARE = 4.0, 0.06
 
@@ -63,6 +66,16 @@ def dowels_of(entry_radius: Array) -> Array:
 def dowel_of(entry_radius: float) -> float:
     """Of one wheel."""
     return float(dowels_of(np.asarray(entry_radius)))
+
+
+def loads_of(entry_radius: Array) -> Array:
+    """Moments of inertia (...), kg m²: of smaller wheels as that of a disc, with l to the fourth."""
+    return np.asarray(LOAD * np.minimum(1.0, entry_radius / WHEEL) ** 4)
+
+
+def load_of(entry_radius: float) -> float:
+    """Of one wheel."""
+    return float(loads_of(np.asarray(entry_radius)))
 
 
 def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:

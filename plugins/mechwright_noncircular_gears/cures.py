@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from mechwright import Finding
-from mechwright_noncircular_gears.law import law_of
+from mechwright_noncircular_gears.law import fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.softer import nearest, said
@@ -24,6 +24,9 @@ HARMONICS = 8
 
 SOFTER = ("law.turns-back", "law.ring", "gear.convexity", "gear.undercut")
 """Findings that a softer law of the same kind does not have."""
+
+FAINT = 0.1
+"""Share of the change of a formula's ratio below which its harmonics tell more of it than what is left."""
 
 PLACES = 512
 """Of a lobe, in the middle between which lie both ends of it."""
@@ -38,6 +41,11 @@ def cured(params: NoncircularParams, finding: Finding, works: Works) -> Finding:
     """A finding that is the law's with the nearest law of which gears can be made as its last proposal."""
     if finding.code in SOFTER:
         fields = nearest(params, works, STEPS)
+        if params.law in {"ratio", "angle"} and params.sector is None and _faint(params, fields):
+            rounder = _smooth(params, works)
+            if rounder is not None:
+                words, changes = said(rounder, "")
+                return replace(finding, remedy=words, proposed=(*changes, *finding.proposed))
     elif finding.code in {"law.corner", "law.formula"} and params.sector is None:
         fields = _smooth(params, works)
     else:
@@ -46,6 +54,19 @@ def cured(params: NoncircularParams, finding: Finding, works: Works) -> Finding:
         return finding
     _, changes = said(fields, "")
     return replace(finding, proposed=(*finding.proposed, *changes))
+
+
+def _faint(params: NoncircularParams, fields: dict[str, Any] | None) -> bool:
+    """Whether a softer law has next to nothing left of the change of the ratio."""
+    if fields is None:
+        return True
+    softer = NoncircularParams.model_validate({**params.model_dump(), **fields})
+    return _swing(softer) < FAINT * _swing(params)
+
+
+def _swing(params: NoncircularParams) -> float:
+    law = law_of(params)
+    return fastest_of(law).value - slowest_of(law).value
 
 
 def _smooth(params: NoncircularParams, works: Works) -> dict[str, Any] | None:

@@ -63,3 +63,19 @@ MOST_SECTOR = 330.0
 
 RING_FIELDS = ("ring_addendum", "ring_outside", "ring_holes", "ring_hole")
 """Fields of a driven gear that is a ring."""
+
+ALSO = {
+    "number_of_teeth": "it is called teeth, of the driver",
+    "z": "it is called teeth, of the driver",
+    "z1": "it is called teeth",
+    "z2": "it follows from teeth and the lobes of both gears",
+    "e": "it is called eccentricity",
+    "a": "it is called centre_distance",
+    "distance": "it is called centre_distance",
+    "mean_ratio": "it is lobes over mate_lobes",
+    "transmission_ratio": "its mean is lobes over mate_lobes; ratio is a formula of what it is at phi",
+    "formula": 'ratio and angle are formulas of phi, with law = "ratio" or "angle"',
+    "backlash_per_flank": "backlash is that of all four flanks together",
+    "travel": "sector is the travel of gears that swing",
+}
+"""What people look for under another name, and what to say of it."""

@@ -1,14 +1,17 @@
 """The design table of a pair of gears by a law."""
 
 import math
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
+from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_noncircular_gears.fields import (
+    ALSO,
     LAW_FIELDS,
     LEAST_MODULE,
     LEAST_TEETH,
@@ -39,6 +42,8 @@ class NoncircularParams(Parameters):
     >>> NoncircularParams(law="ellipse", mate_lobes=2, eccentricity=0.3, teeth=30).mate_teeth
     60
     """
+
+    also: ClassVar[Mapping[str, str]] = ALSO
 
     law: Literal[
         "fourier",
@@ -238,10 +243,7 @@ class NoncircularParams(Parameters):
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."
     )
-    keyway_depth: Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None = Field(
-        None,
-        description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width.",
-    )
+    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
     keyway_relief: Millimetres = Field(
         0.0,
         ge=0,
@@ -257,6 +259,16 @@ class NoncircularParams(Parameters):
         json_schema_extra=FIRST,
     )
 
+    @field_validator("sector", mode="before")
+    @classmethod
+    def _no_several_turns(cls, value: Any) -> Any:
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and value > MOST_SECTOR:
+            raise ValueError(
+                "is no travel of plane gears: from a turn on, the body under one turn stands in the way of "
+                f"the mate at the next; make it {MOST_SECTOR:g} at most, or leave it out to go right round"
+            )
+        return value
+
     @model_validator(mode="before")
     @classmethod
     def _distance_replaces_module(cls, table: Any) -> Any:
@@ -268,10 +280,7 @@ class NoncircularParams(Parameters):
     def _together(self) -> Self:
         if (self.module is None) == (self.centre_distance is None):
             raise ValueError("give exactly one of module and centre_distance")
-        if self.keyway_width > 0 and self.bore == 0:
-            raise ValueError("keyway_width needs a bore; set bore, or keyway_width = 0")
-        if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
-            raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
+        keyed_together(self)
         self._of_the_law()
         self._of_the_ring()
         self._of_the_sector()

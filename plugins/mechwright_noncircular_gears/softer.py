@@ -18,6 +18,9 @@ from mechwright_noncircular_gears.params import NoncircularParams
 _STEPS = 12
 """Halvings: to a four-thousandth of the change."""
 
+_STARTS = (0.0, 0.06, 0.25, 0.5)
+"""Shares of which one works: a stroke that is too short for its return has none at 0."""
+
 _DIGITS = 3
 """Of a value that is named."""
 
@@ -115,9 +118,13 @@ def nearest(
         except (ValidationError, MechwrightError):
             return None
 
-    good, best, bad = 0.0, tried(0.0), 1.0
-    if best is None:
+    for good in _STARTS:
+        best = tried(good)
+        if best is not None:
+            break
+    else:
         return None
+    bad = 1.0
     for _ in range(steps):
         middle = (good + bad) / 2
         fields = tried(middle)

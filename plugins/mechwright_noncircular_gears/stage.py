@@ -4,7 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from mechwright import Array, DesignError, Motion, Port, Transmission, Turning
+from mechwright import Array, DesignError, Motion, MountingError, Port, Transmission, Turning
+from mechwright.contracts.finding import Change
+from mechwright_noncircular_gears.fields import LAW_FIELDS
 from mechwright_noncircular_gears.gear import NAMES, pair_of
 from mechwright_noncircular_gears.motion import driven, driven_by, turns_of
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -23,8 +25,10 @@ class PairStage(Transmission):
                 "internal = false"
             )
         if params.sector is not None:
-            raise DesignError(
-                "sector: sectors swing there and back, and the next stage turns on; leave sector out"
+            raise MountingError(
+                "sector: sectors swing there and back, and the next stage turns on; leave sector out, with a "
+                "law that goes all the way round",
+                _closed(params),
             )
         self.params = params
         driver, mate = NAMES
@@ -45,3 +49,14 @@ class PairStage(Transmission):
     def power(self, drive: Turning, motion: Motion) -> Array:  # noqa: ARG002 - the law has it
         """Of the torque against the driven gear."""
         return self.params.load_torque * np.abs(self.move(drive).omega)
+
+
+def _closed(params: NoncircularParams) -> tuple[Change, ...]:
+    """The law of sectors all the way round, where it closes, and the usual law."""
+    given = [
+        name for name in (*LAW_FIELDS[params.law], "sector_hub") if getattr(params, name, None) is not None
+    ]
+    whole: Change = {"parameters.sector": None}
+    if "sector_hub" in given:
+        whole = {**whole, "parameters.sector_hub": None}
+    return whole, {**whole, **{f"parameters.{name}": None for name in given}, "parameters.law": None}

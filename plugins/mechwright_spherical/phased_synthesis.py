@@ -78,11 +78,14 @@ def from_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthe
     rejected, refused = Rejected(), []
     candidates: list[Candidate[SphericalParams]] = []
     machines = 0
+    good = []
     for k in _ranked(task, found):
         broken = _broken(task, wanted, found.x[k], found.theta[k])
-        if broken is not None:
+        if broken is None:
+            good.append(k)
+        else:
             rejected.because(*broken)
-            continue
+    for looked, k in enumerate(good, start=1):
         pins = task.unknowns.pins(found.x[k])
         theta = [
             np.concatenate([[0.0], found.theta[k][task.phase == n]]) for n in range(task.unknowns.phases)
@@ -105,6 +108,7 @@ def from_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthe
             notes += _settings(wanted, settings)
         machines += 1
         if machines == wanted.designs:
+            rejected.beyond(wanted.designs, len(good) - looked)
             break
     progress(1.0, "done")
     if not candidates:

@@ -39,3 +39,20 @@ def test_a_broken_block_is_refused_or_cuts_nothing_of_the_part(control: str) -> 
             assert low[1] >= low[0] - 1.0, made.change  # the limit of ``underside``
     assert all(re.match(r"line \d+: ", text) for text in said)
     assert refused + len(said) >= EACH // 3
+
+
+def test_a_circle_split_elsewhere_is_the_same_trace_and_another_circle_is_not() -> None:
+    start = "G21 G17 G90 G40 G54 G64 P0.001\nT1 M6\nG43 H1\nS900 M3\nG0 X10 Y0 Z0\nG1 F100 X10\n"
+    control = BY_NAME["linuxcnc"]
+    halves, thirds, turned, other = (
+        trace(control.read(f"{start}{arcs}\nM2\n"))
+        for arcs in (
+            "G3 X-10 Y0 I-10 J0\nX10 Y0 I10 J0",
+            "G3 X0 Y10 I-10 J0\nX10 Y0 I0 J-10",
+            "G2 X0 Y-10 I-10 J0\nX10 Y0 I0 J10",
+            "G3 X0 Y10 I-10 J0\nX10 Y0 I5 J-5",
+        )
+    )
+    assert not differences(halves, thirds)
+    assert differences(halves, turned)
+    assert differences(halves, other)

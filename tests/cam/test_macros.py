@@ -90,6 +90,23 @@ def test_linuxcnc_runs_them_alike(name: str, tmp_path) -> None:
     np.testing.assert_allclose(distinct(moved), distinct(canon.ends), atol=1.1e-4)
 
 
+@pytest.mark.parametrize(
+    ("line", "told", "place"),
+    [
+        ("G0 X[1 + 1] (here)", ["here"], 2.0),
+        ("G0 X[1 + 1] ; here", ["here"], 2.0),
+        ("G0 X#1 (one)Z[#1 + 1](two)", ["one", "two"], 5.0),
+        ("#1 = 4 (set alone)", ["set alone"], 0.0),
+        ("G0 X[#1 - 1] M8", [], 4.0),
+        ("N7 X-[#1] (only words of places)", ["only words of places"], -5.0),
+    ],
+)
+def test_comments_beside_values_are_remarks_of_their_line(line: str, told: list[str], place: float) -> None:
+    run = interpret(f"G21 G90\n#1 = 5\nG0 X0\n{line}\nG0 Y1\nM2")
+    assert [(one.line, one.text.strip()) for one in run.remarks] == [(4, text) for text in told]
+    assert run.end[run.line == 5][-1][0] == place
+
+
 @given(st.lists(st.floats(-40, 40), min_size=1, max_size=6), st.integers(0, 5))
 @settings(max_examples=40)
 def test_a_loop_over_parameters(values: list[float], times: int) -> None:

@@ -34,7 +34,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 FILES = sorted(
     one
     for one in (*EXAMPLES.glob("noncircular-*.toml"), *EXAMPLES.glob("chains/*.toml"))
-    if "requirement" not in one.stem
+    if not one.stem.endswith(("-requirement", "-study"))
 )
 
 

@@ -1,4 +1,4 @@
-"""Stretches of plain lines are run at once; line by line the same has to come out."""
+"""Stretches of plain lines are run at once; line by line and word by word the same has to come out."""
 
 import math
 import re
@@ -34,8 +34,12 @@ def stretches_from(lines: int) -> Iterator[None]:
         stretch.FEWEST_LINES = before
 
 
-def outcome(text: str, dialect: Dialect, lines: int, *, skipping: bool = False) -> Run | str:
-    with stretches_from(lines):
+def outcome(
+    text: str, dialect: Dialect, lines: int, *, skipping: bool = False, by_words: bool = False
+) -> Run | str:
+    with stretches_from(lines), pytest.MonkeyPatch.context() as patch:
+        if by_words:
+            patch.setattr(PlainLines, "block", lambda plain, index: None)
         try:
             return interpret(text, dialect, block_delete=skipping, diameters={1: 0.2})
         except ProgramError as error:
@@ -43,7 +47,12 @@ def outcome(text: str, dialect: Dialect, lines: int, *, skipping: bool = False) 
 
 
 def assert_alike(text: str, dialect: Dialect, *, skipping: bool = False) -> None:
-    at_once, singly = (outcome(text, dialect, lines, skipping=skipping) for lines in (1, 10**9))
+    by_words = outcome(text, dialect, 10**9, skipping=skipping, by_words=True)
+    for lines in (1, 10**9):
+        assert_same(outcome(text, dialect, lines, skipping=skipping), by_words, text)
+
+
+def assert_same(at_once: Run | str, singly: Run | str, text: str) -> None:
     if isinstance(at_once, str) or isinstance(singly, str):
         assert at_once == singly
         return
@@ -296,7 +305,16 @@ def test_most_lines_of_a_program_are_run_in_stretches(monkeypatch: pytest.Monkey
         read.append(line)
         return read_block(line, text, dialect)
 
+    plainly = PlainLines.block
+
+    def taken(plain: PlainLines, index: int) -> Block | None:
+        block = plainly(plain, index)
+        if block is not None:
+            read.append(index + 1)
+        return block
+
     monkeypatch.setattr("mechwright_cam.controls.reading.read.read_block", counted)
+    monkeypatch.setattr(PlainLines, "block", taken)
     interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}(again)\n{STRAIGHT}M2\n")
     assert read == [1, 2, 3, 83]
 

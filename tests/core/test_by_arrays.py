@@ -218,6 +218,52 @@ def test_what_has_no_way_goes_one_by_one():
         assert_same(found, one_by_one(Wedge().judge, Wedge().solve, batch, columns, Stage.PARTS))
 
 
+class KindParams(WedgeParams):
+    """A wedge of some kind."""
+
+    kind: Literal["steep", "any"] = Field("any", description="A name.")
+    count: int = Field(1, ge=1, le=99, description="A whole number.")
+
+
+class KindWedge(Wedge):
+    name, Params = "kind-wedge", KindParams
+
+    def evaluate(self, batch, columns, stage=Stage.PARTS):
+        def answer(designs, columns, stage):
+            if {"kind", "count"} & designs.varied.keys():
+                return None
+            found = wedges(designs, columns, stage)
+            if designs.common.kind == "steep":
+                found.doubt(np.ones(len(designs), dtype=bool))
+            found.give("count", np.full(len(designs), 1.0 * designs.common.count))
+            return found
+
+        return by_arrays(self, batch, columns, stage, answer, chunk=64)
+
+    def solve(self, params, samples):
+        found = super().solve(params, samples)
+        found.scalars["count"] = Scalar(params.count, "")
+        return found
+
+
+@pytest.mark.parametrize(
+    ("kinds", "counts", "fast"), [(["steep", "any"], 4, 0.5), (["any"], 4, 1.0), (["any"], 99, 0.0)]
+)
+def test_texts_and_whole_numbers_are_answered_kind_by_kind(kinds, counts, fast):
+    varied = {
+        "rise": some(1.01, 3.99, 300),
+        "kind": np.array(kinds)[np.arange(300) % len(kinds)],
+        "count": np.arange(300) // 2 % counts + 1,
+    }
+    batch = Batch(KindParams, {"run": 5}, varied)
+    Wedge.slow.clear()
+    found = KindWedge().evaluate(batch, ["slope", "count"], Stage.PARTS)
+    assert len(Wedge.slow) == 300 * (1 - fast)
+    assert_same(
+        found, one_by_one(KindWedge().judge, KindWedge().solve, batch, ["slope", "count"], Stage.PARTS)
+    )
+
+
 class WrongWedge(Wedge):
     def evaluate(self, batch, columns, stage=Stage.PARTS):
         found = super().evaluate(batch, columns, stage)

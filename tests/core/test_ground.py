@@ -6,15 +6,14 @@ import locale
 import os
 import random
 import signal
-import subprocess
 import sys
-import textwrap
 import threading
 import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import foreign_plugin
 import numpy as np
 import pytest
 from test_guard import Bad, Size
@@ -161,53 +160,25 @@ def test_a_thread_that_goes_on_is_told(family: Bad) -> None:
     assert not ground.threads_left()
 
 
-PLUGIN = """
+HEAD = """
 import os, subprocess, sys, threading, time
-from mechwright import Family, Parameters, hookimpl
 print("while it is loaded")
 os.umask(0)
-class P(Parameters):
-    pass
-class Rude(Family[P]):
-    name = "rude"
-    title = "Rude"
-    summary = "Rude."
-    Params = P
-    def check(self, params):
-        subprocess.run(["echo", "a process"])
-        os.write(1, b"a library\\n")
-        sys.stdout.close()
-        sys.__stdout__.close()
-        os.close(1)
-        os.chdir("/")
-        threading.Thread(target=time.sleep, args=(1e6,), name="endless").start()
-        return []
-    def solve(self, params, samples):
-        raise SystemExit(0)
-    def parts(self, params):
-        return []
-@hookimpl
-def mechwright_register():
-    return [Rude]
+"""
+CHECK = """
+subprocess.run(["echo", "a process"])
+os.write(1, b"a library\\n")
+sys.stdout.close()
+sys.__stdout__.close()
+os.close(1)
+os.chdir("/")
+threading.Thread(target=time.sleep, args=(1e6,), name="endless").start()
 """
 
 
 def test_the_command_line_says_all_of_it_and_ends(tmp_path: Path) -> None:
-    (tmp_path / "rude.py").write_text(textwrap.dedent(PLUGIN))
-    info = tmp_path / "rude_mechanisms-1.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: rude-mechanisms\nVersion: 1\n")
-    (info / "entry_points.txt").write_text("[mechwright]\nrude = rude\n")
-    (tmp_path / "d.toml").write_text('family = "rude"\n')
-    done = subprocess.run(
-        [sys.executable, "-m", "mechwright", "check", "d.toml", "--json"],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
-        cwd=tmp_path,
-        check=False,
-        timeout=120,
-    )
+    design = foreign_plugin.installed(tmp_path, CHECK, HEAD)
+    done = foreign_plugin.run(tmp_path, "check", design.name, "--json")
     assert json.loads(done.stdout)["ok"] is True
     assert done.returncode == 0
     said = done.stderr.splitlines()

@@ -1,16 +1,14 @@
 """Plugins that do what their contract does not allow: one line says who, where, and what was wrong."""
 
 import json
-import os
-import subprocess
 import sys
-import textwrap
 import threading
 import time
 import warnings
 from pathlib import Path
 from typing import Any
 
+import foreign_plugin
 import numpy as np
 import pytest
 
@@ -275,53 +273,16 @@ def test_a_study_is_stopped_by_a_fault_and_not_by_a_refusal() -> None:
         family.evaluate(batch, ["x.least"], Stage.MOTION)
 
 
-PLUGIN = """
-from mechwright import Family, Parameters, hookimpl
-class P(Parameters):
-    pass
-class Rude(Family[P]):
-    name = "rude"
-    title = "Rude"
-    summary = "Rude."
-    Params = P
-    def check(self, params):
-        print("loud")
-        import warnings
-        warnings.warn("odd", RuntimeWarning)
-        return []
-    def solve(self, params, samples):
-        raise SystemExit(0)
-    def parts(self, params):
-        return []
-@hookimpl
-def mechwright_register():
-    return [Rude]
-"""
-
-
 def test_the_command_line_with_a_rude_plugin(tmp_path: Path) -> None:
-    (tmp_path / "rude.py").write_text(textwrap.dedent(PLUGIN))
-    info = tmp_path / "rude_mechanisms-1.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: rude-mechanisms\nVersion: 1\n")
-    (info / "entry_points.txt").write_text("[mechwright]\nrude = rude\n")
-    design = tmp_path / "d.toml"
-    design.write_text('family = "rude"\n')
-
-    def run(*words: object) -> "subprocess.CompletedProcess[str]":
-        call = [sys.executable, "-m", "mechwright", *map(str, words)]
-        environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
-        return subprocess.run(call, capture_output=True, text=True, env=environment, check=False, timeout=120)
-
-    checked = run("check", design, "--json")
+    loud = 'print("loud")\nimport warnings\nwarnings.warn("odd", RuntimeWarning)'
+    design = foreign_plugin.installed(tmp_path, loud)
+    checked = foreign_plugin.run(tmp_path, "check", design, "--json")
     assert json.loads(checked.stdout)["ok"] is True
     assert checked.stderr.splitlines()[0] == "loud"
-    assert (
-        "warning: plugin rude of rude-mechanisms: family rude: check(): RuntimeWarning: odd" in checked.stderr
-    )
-    solved = run("solve", design, "-o", tmp_path / "out")
+    assert f"warning: {foreign_plugin.WHO}: family rude: check(): RuntimeWarning: odd" in checked.stderr
+    solved = foreign_plugin.run(tmp_path, "solve", design, "-o", tmp_path / "out")
     assert solved.returncode == 2
     assert solved.stderr.splitlines()[-1].startswith(
-        f"mechwright: {design}: plugin rude of rude-mechanisms: family rude: solve(): ends the program by sys.exit(0)"
+        f"mechwright: {design}: {foreign_plugin.WHO}: family rude: solve(): ends the program by sys.exit(0)"
     )
     assert not (tmp_path / "out").exists()

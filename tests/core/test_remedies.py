@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from mechwright.cli.telling import block
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.designs.design import Design
 from mechwright.plugins.host import host
 from mechwright.remedies import MOST_CHANGES, Bench, nearest, remedied
@@ -121,6 +121,21 @@ def test_where_nothing_helps_it_says_what_was_tried():
     assert never.remedy == "no remedy found by changing width, holes, pins.first"
     (never,) = told(design(Hopeless), tries=5)
     assert never.remedy.endswith("in 5 tries")
+
+
+def test_what_gets_past_an_error_of_the_motion_says_where_it_leads():
+    class Standing(Beam):
+        """Stands at every width but one, with which it is seen to be hopeless."""
+
+        def check(self, params):
+            if params.width == 45:
+                return [error("beam.never", "length", "try holes")]
+            moving = error("beam.stands", "width", "x", proposed=({"parameters.width": 45},))
+            return [replace(moving, stage=Stage.MOTION)]
+
+    (stands,) = told(design(Standing))
+    assert stands.fix is None
+    assert stands.remedy == "set width = 45 (now 20.0, by default), which leads to beam.never: it is wrong"
 
 
 def test_a_remedy_that_spoils_something_else_is_none():

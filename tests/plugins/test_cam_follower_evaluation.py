@@ -44,6 +44,30 @@ STUDIES = {
         arm_length=(40, 120),
         pivot_bore=(4, 18),
     ),
+    "keyed slides": batch(
+        {"bore": 14, "keyway_width": 5, "keyway_relief": 1, "screw_diameter": 3},
+        8,
+        base_radius=(14, 40),
+        roller_radius=(4, 10),
+        screw_circle=(18, 40),
+    ),
+    "pairs of slides": batch(
+        {"conjugate": True, "laws": ["modified-sine", "3-4-5"]},
+        10,
+        base_radius=(6, 45),
+        roller_radius=(4, 20),
+        offset=(-20, 20),
+        bore=(0, 30),
+        mass=(0.1, 3),
+    ),
+    "pairs of levers": batch(
+        {"conjugate": True, "follower": "oscillating", "swings": [16, 16, 0, 0], "inertia": 0.002},
+        10,
+        base_radius=(14, 60),
+        centre_distance=(60, 110),
+        arm_length=(50, 90),
+        pivot_bore=(4, 18),
+    ),
     "flat faces": batch(
         {"contact": "flat", "laws": ["4-5-6-7"]},
         8,
@@ -93,10 +117,34 @@ def test_what_moves_is_not_judged_for_its_parts():
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, asked, Stage.MOTION))
 
 
-def test_pairs_and_keyways_are_left_to_each():
-    varied = {"base_radius": np.array([40.0])}
-    for content in ({"conjugate": True}, {"keyway_width": 5}):
-        assert not covered(Designs(CamParams.model_validate(content), varied))
+@pytest.mark.parametrize("keyway", [{"keyway_width": 4.5}, {"keyway_width": 5, "keyway_relief": 9}])
+def test_keyways_that_are_none_forbid_all(keyway):
+    few = Batch(CamParams, {"bore": 14, **keyway}, {"base_radius": np.array([40.0, 50.0])})
+    found = FAMILY.evaluate(few, ())
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, (), Stage.PARTS))
+    assert found.forbidden.all()
+
+
+def test_shafts_with_keys_that_are_varied_are_left_to_each():
+    keyed = CamParams.model_validate({"keyway_width": 5})
+    assert covered(Designs(keyed, {"base_radius": np.array([40.0])}))
+    assert not covered(Designs(keyed, {"bore": np.array([15.0])}))
+    assert not covered(Designs(CamParams(), {"keyway_width": np.array([5.0])}))
+
+
+def test_kinds_that_are_varied_are_evaluated_kind_by_kind(monkeypatch):
+    """Slides and levers, single and in pairs, either way round: nothing is asked by itself."""
+    size = 64
+    varied = {
+        "base_radius": np.linspace(38, 60, size),
+        "follower": np.array(["translating", "oscillating"])[np.arange(size) % 2],
+        "conjugate": np.arange(size) // 2 % 2 == 1,
+        "turning": np.array(["ccw", "cw"])[np.arange(size) // 4 % 2],
+    }
+    one, asked = Batch(CamParams, {"bore": 10}, varied), ("cam_radius_max", "torque.greatest")
+    single = one_by_one(FAMILY.judge, FAMILY.solve, one, asked, Stage.PARTS)
+    monkeypatch.setattr(CamFollower, "judge", None)
+    assert_same(FAMILY.evaluate(one, asked), single)
 
 
 def test_a_top_beyond_the_first_parabolas_is_followed():

@@ -162,7 +162,7 @@ def test_a_swing_there_and_back() -> None:
         ({"sector_hub": 20}, "sector_hub is for sectors"),
         ({**TABLE, "sector": 160}, "set sector = 150"),
         ({**TABLE, "sector": 60, "nodes": NODES[:3]}, "too few"),
-        ({**SPIRAL, "sector": 400}, "less than or equal to 330"),
+        ({**SPIRAL, "sector": 400}, "in the way of the mate at the next; make it 330 at most"),
     ],
 )
 def test_tables_that_are_no_sectors(changes: dict[str, object], said: str) -> None:

@@ -11,7 +11,7 @@ from mechwright.contracts.finding import Stage, errors
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Primitive
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.law import extremes_of, fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 FAMILY = NoncircularGears()
@@ -82,6 +82,10 @@ def test_tips_of_both_gears_are_made_lower_at_once(table: dict[str, object]) -> 
     [
         ({"law": "fourier", "sines": [70]}, "law.turns-back"),
         ({"law": "ratio", "ratio": "1 + 1.3*cos(phi)"}, "law.turns-back"),
+        (
+            {"law": "slider", "teeth": 48, "rod_ratio": 1.5, "stroke_start": 20, "stroke_end": 160},
+            "law.turns-back",
+        ),
         ({"law": "window", "window_ratio": 3.5, "window": 120, "blend": 60}, "law.turns-back"),
         ({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)"}, "law.formula"),
         ({"law": "ratio", "ratio": "1 + 0.1*phi"}, "law.corner"),
@@ -118,3 +122,16 @@ def test_the_fit_of_a_formula_with_a_corner_is_near_it() -> None:
 def test_a_table_in_rad_is_told(nodes: list[list[float]]) -> None:
     with pytest.raises(ValueError, match="as angles in rad would; write them in degrees"):
         NoncircularParams.model_validate({"law": "table", "nodes": nodes})
+
+
+def test_a_steep_formula_keeps_its_ratios_and_not_its_steepness() -> None:
+    """Softened until gears could be made it would be next to constant: its harmonics keep half of the change."""
+    table = {"law": "ratio", "ratio": "1 + 0.3*tanh(80*sin(phi))", "bore": 4}
+    params = NoncircularParams.model_validate(table)
+    wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
+    assert wrong.code == "gear.convexity"
+    own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
+    mended = NoncircularParams.model_validate({**params.model_dump(), **own})
+    assert not errors(FAMILY.judge(mended), Stage.PARTS)
+    law = law_of(mended)
+    assert fastest_of(law).value - slowest_of(law).value > 0.3

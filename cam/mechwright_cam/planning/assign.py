@@ -1,7 +1,8 @@
 """Who cuts what: decided once for each feature and detail of a job."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.controls.contract import Control
@@ -103,3 +104,13 @@ class Assignments:
         """The changed job, of which all that was decided about the first one holds as well."""
         self._known[id(changed)] = changed, self.of(job)
         return changed
+
+    def only(self, jobs: Iterable[Job]) -> "Assignments":
+        """What is decided about some jobs, for another process."""
+        found = Assignments(self.more, self.control)
+        found._known = {id(job): (job, self.of(job)) for job in jobs}
+        return found
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Jobs are other objects in another process."""
+        self.__dict__.update(state, _known={id(job): (job, one) for job, one in state["_known"].values()})

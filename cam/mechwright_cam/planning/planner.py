@@ -45,7 +45,7 @@ class _Planner:
         self.clearance = clearance_height(job)
         self.assigned = assignments.of(job)
         self.tasks = self.assigned.every()
-        self.operations = assignments.operations(job.settings)
+        self.turns = [one.name for one in assignments.operations(job.settings)]
         self.cuts = Steps(job, self.clearance, self.assigned.depths())
 
     def program(self) -> Program:
@@ -114,7 +114,7 @@ class _Planner:
 
     def _inner(self) -> frozenset[int]:
         inside = sorted(
-            self.assigned.inside, key=lambda task: (-task.top, self.operations.index(task.operation))
+            self.assigned.inside, key=lambda task: (-task.top, self.turns.index(task.operation.name))
         )
         after = self._drilled([task.hole for task in inside if task.hole is not None])
         # What starts on the floor of a recess waits until all recesses above are cut.

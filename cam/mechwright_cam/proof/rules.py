@@ -95,7 +95,15 @@ def _rule(module: str, function: str) -> type[Rule]:
             found: Check = judge(scene)
             return found
 
+        def __reduce__(self) -> tuple[object, ...]:
+            """Another process has the same rule under the same name."""
+            return _built_in, (self.name,)
+
     return Built
+
+
+def _built_in(name: str) -> Rule:
+    return next(rule for rule in BUILT_IN if rule.name == name)()
 
 
 BUILT_IN = tuple(_rule(module, function) for module, names in _HOMES for function in names.split())

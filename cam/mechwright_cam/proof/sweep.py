@@ -96,6 +96,13 @@ class Sweeps:
         self._known: dict[tuple[float, float], list[Sweep]] = {}
         self._one_by_one = Lock()
 
+    def __getstate__(self) -> dict[str, object]:
+        """What goes to another process, where nobody is at it."""
+        return {key: value for key, value in self.__dict__.items() if key != "_one_by_one"}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        self.__dict__.update(state, _one_by_one=Lock())
+
     def at(self, height: float, level: float) -> list[Sweep]:
         """What is cut at ``level`` by feed moves that go down to ``height``, smallest radius first."""
         with self._one_by_one:  # rules that are asked side by side want the same ones

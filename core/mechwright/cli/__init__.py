@@ -24,17 +24,13 @@ def main() -> None:
 
 
 def _stoppable() -> None:
-    from mechwright.cli.stopping import NOTHING, StoppedError, exit_code, heard
+    from mechwright.cli.stopping import StoppedError, ended, heard
 
-    try:
-        with heard():
+    with heard():
+        try:
             _run()
-    except (KeyboardInterrupt, StoppedError) as stop:
-        print(f"mechwright: stopped; {str(stop) or NOTHING}", file=sys.stderr)  # noqa: T201 - as below
-        # Python would end by the signal, whatever the code, if the keyboard came while a text was executed,
-        # as dataclasses do; it forgets that with the next text.
-        exec("")  # noqa: S102
-        sys.exit(exit_code())
+        except (KeyboardInterrupt, StoppedError) as stop:
+            ended(str(stop))
 
 
 def _run() -> None:

@@ -1,16 +1,20 @@
 """How a command is stopped: by the keyboard, or by a system that ends or hangs up; all of them tidy up."""
 
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import NoReturn
 
 NOTHING = "nothing was written"
 """What stands when work that writes nothing, or only at its end, is stopped."""
 
 _FIRST = 128
 """What shells add to the number of a signal to make an exit code of it."""
+
+_STOPS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 _heard: list[int] = []
 
@@ -25,11 +29,9 @@ def heard() -> Iterator[None]:
     _heard.clear()
     before = {}
     if threading.current_thread() is threading.main_thread():
-        known = (getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP"))
         # Whoever ignores the end of a terminal, as nohup does, goes on doing so.
         usual = (signal.SIG_DFL, signal.default_int_handler)
-        before = {one: signal.getsignal(one) for one in known if one is not None}
-        before = {one: handler for one, handler in before.items() if handler in usual}
+        before = {one: handler for one in _STOPS if (handler := signal.getsignal(one)) in usual}
     for number in before:
         signal.signal(number, _stop)
     try:
@@ -49,6 +51,18 @@ def _stop(number: int, _: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def exit_code() -> int:
-    """Of a command that was stopped: 130 by the keyboard."""
-    return _FIRST + (_heard.pop() if _heard else signal.SIGINT)
+def deaf() -> None:
+    """Let nothing stop the process any more; its last words are being said."""
+    if threading.current_thread() is threading.main_thread():
+        for number in _STOPS:
+            signal.signal(number, signal.SIG_IGN)
+
+
+def ended(stands: str = "") -> NoReturn:
+    """End what has been stopped: a line that says what stands, and exit code 130 by the keyboard."""
+    deaf()
+    print(f"mechwright: stopped; {stands or NOTHING}", file=sys.stderr)  # noqa: T201 - the program's own words
+    # Python would end by the signal, whatever the code, if the keyboard came while a text was executed,
+    # as dataclasses do; it forgets that with the next text.
+    exec("")  # noqa: S102
+    sys.exit(_FIRST + (_heard.pop() if _heard else signal.SIGINT))

@@ -10,9 +10,10 @@ A family writes one function of :class:`Designs`, and calls :func:`by_arrays` fr
 ``answer(designs, columns, stage)`` gets designs whose tables are allowed, some thousand at once, so that
 arrays stay in the cache. ``designs["crank"]`` is an array (n,) where the crank is varied and a plain number
 where it is not; :meth:`Designs.full` is an array in any case. It gives an :class:`Answer`, or None where it
-has no way for what is varied. It may leave any design undecided, and any column out: what it does not decide
-is checked and solved one by one, and columns that it leaves out are taken from the motion of each design that
-is allowed.
+has no way for what is varied: it is then asked once for each set of texts and switches among the designs, as
+if these were not varied, and then for each set of whole numbers, if they are few. It may leave any design
+undecided, and any column out: what it does not decide is checked and solved one by one, and columns that it
+leaves out are taken from the motion of each design that is allowed.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -33,6 +34,10 @@ if TYPE_CHECKING:
 
 CHUNK = 4096
 """Designs that are answered at once: some dozens of arrays of them stay in the cache."""
+
+OF_A_KIND = 8
+"""Designs of a kind, on average, from which on each kind is asked for by itself: so many of them one by one
+take longer than calls of numpy."""
 
 
 @dataclass(frozen=True)
@@ -141,23 +146,50 @@ def by_arrays(
     found = _Found(batch, columns, told.codes, told.forbidden.copy())
     slow = ~told.known
     left = np.flatnonzero(told.known & (told.forbidden == 0))
-    for start in range(0, left.size, chunk):
-        places = left[start : start + chunk]
-        designs = Designs(told.common, {name: values[places] for name, values in told.values.items()})
-        with np.errstate(all="ignore"):
-            said = answer(designs, columns, stage)
-        if said is None:
-            slow[left[start:]] = True
-            break
-        slow[places[said.undecided]] = True
-        found.take(places, said)
-        if missing := [name for name in columns if name not in said.values]:
-            solved = places[said.open]
-            found.merge(solved, one_by_one(_allowed, family.solve, _some(batch, solved), missing, stage))
+    kinds = [(left, Designs(told.common, told.values))]
+    while kinds:
+        places, designs = kinds.pop()
+        for start in range(0, places.size, chunk):
+            some = places[start : start + chunk]
+            with np.errstate(all="ignore"):
+                said = answer(designs.some(some), columns, stage)
+            if said is None:
+                more = _alike(batch, designs, places[start:])
+                kinds += more
+                slow[places[start:]] = not more
+                break
+            slow[some[said.undecided]] = True
+            found.take(some, said)
+            if missing := [name for name in columns if name not in said.values]:
+                solved = some[said.open]
+                found.merge(solved, one_by_one(_allowed, family.solve, _some(batch, solved), missing, stage))
     if slow.any():
-        some = np.flatnonzero(slow)
-        found.merge(some, one_by_one(family.judge, family.solve, _some(batch, some), columns, stage))
+        rest = np.flatnonzero(slow)
+        found.merge(rest, one_by_one(family.judge, family.solve, _some(batch, rest), columns, stage))
     return Columns(found.values, found.forbidden, tuple(found.codes))
+
+
+def _alike(
+    batch: Batch[Any], designs: Designs, places: NDArray[np.intp]
+) -> list[tuple[NDArray[np.intp], Designs]]:
+    """Places of designs with the same texts and switches, or with none of these the same whole numbers.
+
+    What is the same is not varied among them. Nothing where there are too many such sets, or no such values.
+    """
+    texts = [name for name, values in designs.varied.items() if values.dtype.kind not in "fi"]
+    names = texts or [name for name, values in designs.varied.items() if values.dtype.kind == "i"]
+    if not 0 < len(names) < len(designs.varied):
+        return []
+    kind = np.zeros(places.size, np.int64)
+    for name in names:
+        _, which = np.unique(designs.varied[name][places], return_inverse=True)
+        _, kind = np.unique(kind * (which.max() + 1) + which.reshape(-1), return_inverse=True)
+    if (kind.max() + 1) * OF_A_KIND > places.size:
+        return []
+    rest = {name: values for name, values in designs.varied.items() if name not in names}
+    order = np.argsort(kind, kind="stable")
+    groups = np.split(places[order], np.flatnonzero(np.diff(kind[order])) + 1)
+    return [(group, Designs(batch.one(int(group[0])), rest)) for group in groups]
 
 
 def _some(batch: Batch[Any], places: NDArray[np.intp]) -> Batch[Any]:

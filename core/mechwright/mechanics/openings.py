@@ -5,9 +5,9 @@ Sizes that no mill cuts, and keys that do not fit.
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Protocol
 
 from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.keyed import Keyed
 from mechwright.errors import GeometryError
 from mechwright.geometry.keyway import (
     KEYS,
@@ -17,26 +17,6 @@ from mechwright.geometry.keyway import (
     key_for_bore,
     key_of_width,
 )
-
-
-class Keyed(Protocol):
-    """What a design table says of a bore with a keyway, mm; 0 for none, None for the standard depth."""
-
-    @property
-    def bore(self) -> float:
-        """Diameter."""
-
-    @property
-    def keyway_width(self) -> float:
-        """Width of the hub keyway."""
-
-    @property
-    def keyway_depth(self) -> float | None:
-        """Hub depth t2 over the bore (DIN 6885)."""
-
-    @property
-    def keyway_relief(self) -> float:
-        """Diameter of the reliefs in its corners."""
 
 
 def opening_of(table: Keyed) -> Opening | None:

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from mechwright.build import Build, Inspection
-from mechwright.contracts.finding import Change, Finding, Severity, errors
+from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.advice import advised
-from mechwright.remedies.bench import Bench, Limits, of_family, same
+from mechwright.remedies.bench import Bench, Limits, identity, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import (
@@ -44,7 +44,8 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     findings = list(findings)
     if all(one.severity is Severity.NOTE for one in findings):
         return findings
-    if any(same(one, bench.found({})) is None for one in findings if one.severity is not Severity.NOTE):
+    judged = {identity(one) for one in bench.found({}) or ()}
+    if any(identity(one) not in judged for one in findings if one.severity is not Severity.NOTE):
         return _remedied(bench.sure, findings)
     told = _remedied(bench, findings)
     lost = any(one.fix is not None and not holds(bench.sure, one, one.fix) for one in told)
@@ -153,6 +154,21 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
     return refined(bench, judged, before, best.change)
 
 
+def _first_step(bench: Bench, finding: Finding) -> str | None:
+    """What a finding of the motion proposes that leads past it, and to what: it had hidden other checks.
+
+    None of other findings: nothing is hidden by those.
+    """
+    if finding.stage is not Stage.MOTION:
+        return None
+    before = bench.errors({}) or []
+    step = proposed_step(bench, same(finding, bench.found({})) or finding, {}, before)
+    left = bench.errors(step.change) if step is not None and step.worth is Worth.REVEALS else None
+    if step is None or not left:
+        return None
+    return f"{said(bench, step.change)}, which leads to {left[0].code}: {left[0].message}"
+
+
 def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
     if finding.severity is Severity.NOTE:
         return finding
@@ -160,6 +176,8 @@ def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
         return replace(finding, fix=change, remedy=said(bench, change))
     if finding.remedy and finding.parameter and path_of(bench, finding.parameter) not in bench.keys:
         return finding  # about what no change sets, such as the family of a stage
+    if (first := _first_step(bench, finding)) is not None:
+        return replace(finding, remedy=first)
     tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
     ended = f" in {bench.tries} tries" if bench.spent else ""
     return replace(finding, remedy=f"no remedy found by changing {tried}{ended}")

@@ -9,13 +9,12 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.part import check_name
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.shown import html_table
-from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis, unheard
+from mechwright.contracts.synthesis import Progress, Synthesis, unheard
 from mechwright.designs.change import changed
 from mechwright.designs.files import digest_of, read_bytes
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
@@ -24,9 +23,10 @@ from mechwright.designs.text import design_text
 from mechwright.output.folder import Output, write_folder
 from mechwright.plugins.host import Host, host
 from mechwright.reading import once
+from mechwright.scripting.buildable import found_buildable
 from mechwright.scripting.changes import change_of
 from mechwright.scripting.gallery import gallery, shown
-from mechwright.scripting.mechanism import Mechanism, inspections
+from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.opening import opened
 from mechwright.scripting.provenance import run_facts
 
@@ -209,35 +209,4 @@ def synthesize(
 
 def sought(asked: Requirement, installed: Host, progress: Progress = unheard) -> Found:
     """What the family finds, without the designs that cannot be built as the requirement's tables say."""
-    result = asked.family.synthesise(asked.kind, asked.table, progress)
-    rejected, unbuilt = Rejected(result.rejected), Rejected()
-    kept: list[Candidate[Any]] = []
-    for number, candidate in enumerate(result.candidates):
-        progress(number / len(result.candidates), "checking the designs")
-        with Build(asked.design(asked.name, candidate.params), installed, Wanted("check")) as build:
-            if not unbuilt.by((*build.findings, *inspections(build))):
-                kept.append(candidate)
-    for reason in unbuilt.reasons:
-        rejected.because(reason.code, reason.message, reason.count)
-    said = result.findings
-    if result.candidates and not kept:
-        said = (*said, _unbuildable(unbuilt.reasons[0]))
-    spare = sum(reason.count for reason in result.rejected if reason.code == BEYOND)
-    if spare and len(kept) < len(result.candidates):
-        said = (*said, _more(len(result.candidates), len(kept), spare))
-    return Found(asked, Synthesis(tuple(kept), said, rejected.reasons), installed)
-
-
-def _more(looked: int, kept: int, spare: int) -> Finding:
-    """Where to find designs in the place of those that cannot be built."""
-    return Finding.note(
-        "synthesis.more",
-        f"{looked - kept} of {looked} designs cannot be built as their tables say, and {spare} more were "
-        f"found and not looked at; with designs = {looked + spare} in the requirement they are",
-        float(spare),
-    )
-
-
-def _unbuildable(reason: Reason) -> Finding:
-    said = f"no design that meets it can be built as its tables say: {reason.message}"
-    return Finding.error("synthesis.unbuildable", "", said, remedy="change the tables, or what is asked for")
+    return Found(asked, found_buildable(asked, installed, progress), installed)

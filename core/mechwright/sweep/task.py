@@ -9,15 +9,16 @@ from functools import cache, lru_cache
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from numpy.typing import NDArray
 
 from mechwright.contracts.evaluation import Batch
+from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
+from mechwright.scripting.heard import Heard, listen, taken
 from mechwright.sweep.draw import drawn
-from mechwright.sweep.heard import Heard, listen, taken
 from mechwright.sweep.shard import shard_of
 from mechwright.sweep.study import Study, study_of
 
@@ -63,7 +64,7 @@ class Source:
     family: str
 
     @classmethod
-    def of(cls, study: Study) -> "Source":
+    def of(cls, study: Study) -> Self:
         """That of a study, without the tables that go into designs, which workers do not need."""
         kept = ("format", "family", "name", "parameters", "study")
         said = {key: study.file[key] for key in kept if key in study.file}
@@ -81,6 +82,8 @@ class Source:
     def alike(self, own: str, task: Task) -> tuple[bytes, list[Heard]]:
         """The same by a worker that may have come after the others were asked what they have.
 
+        It takes one core: a worker has as many threads for tasks as cores are meant for it.
+
         Raises
         ------
         PluginError
@@ -88,6 +91,7 @@ class Source:
         """
         if (said := fingerprint(self.family)) != own:
             raise PluginError(unlike(said, own))
+        keep_to(1)
         return self.told(task)
 
 

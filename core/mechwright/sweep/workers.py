@@ -13,7 +13,7 @@ from mechwright.beside import end_with_parent
 from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.extras import optional
-from mechwright.sweep.heard import Heard, Teller
+from mechwright.scripting.heard import Heard, Teller
 from mechwright.sweep.task import Source, Task, fingerprint, unlike
 
 AHEAD = 3

@@ -154,8 +154,13 @@ class Compensation(Recorder):
 
     def _aside(self, point: Point, heading: float) -> Point:
         """The place of the tool beside a point of the contour."""
+        dx, dy = self._away(heading)
+        return point[0] + dx, point[1] + dy
+
+    def _away(self, heading: float) -> Point:
+        """From the contour to the tool, where the contour goes in this direction."""
         out = heading + self.side * math.pi / 2
-        return point[0] + self.offset * math.cos(out), point[1] + self.offset * math.sin(out)
+        return self.offset * math.cos(out), self.offset * math.sin(out)
 
     def _beside(self, line: int, start: Point, end: Point, centre: Point | None, ccw: bool) -> Cut:
         move = Cut(start, end, centre, ccw)
@@ -172,7 +177,11 @@ class Compensation(Recorder):
                     f"the tool of radius {self.offset:g} mm does not fit into an arc of radius "
                     f"{math.dist(start, centre):.3f} mm",
                 )
-        first, last = (self._aside(point, move.heading(point)) for point in (start, end))
+        if move.along is None:
+            first, last = (self._aside(point, move.heading(point)) for point in (start, end))
+        else:
+            dx, dy = self._away(move.along)
+            first, last = (start[0] + dx, start[1] + dy), (end[0] + dx, end[1] + dy)
         return Cut(first, last, centre, ccw, move.along, sweep, self.offset)
 
     def _join(self, line: int, kind: Kind, corner: Point, cut: Cut) -> None:

@@ -33,6 +33,8 @@ Bools = NDArray[np.bool_]
 LETTERS = "NGXYZIJRFS"
 """Letters of a plain line; words stand in columns of this order."""
 N, G, X, Y, Z, I, J, R, F, S = range(len(LETTERS))
+AT_ONCE = 1024
+"""So many plain lines at once become numbers of Python, where lines are run one by one."""
 DECIMALS = 10
 """So many decimals of a value that a program works out count."""
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
@@ -234,6 +236,22 @@ class PlainLines(Rows):
         if skipped:
             self.words[:, optional] = np.nan
             self.kind[optional] = 0
+        self._remarked = beside.comments
+        self._taken, self._some = -1, list[list[float]]()
+
+    def block(self, index: int) -> Block | None:
+        """A plain line as a block, which saves reading it again; None if anything stands beside its words."""
+        if self.kind[index] or index in self._remarked:
+            return None
+        first = index - index % AT_ONCE
+        if self._taken != first:
+            self._taken, self._some = first, self.words[:, first : first + AT_ONCE].T.tolist()
+        _, g, *values = self._some[index - first]
+        block = Block(index + 1, [round(10 * g)] if g == g else [])
+        block.words = {
+            letter: value for letter, value in zip(LETTERS[X:], values, strict=True) if value == value
+        }
+        return block
 
     def strike(self, index: int) -> None:
         """Have a line read word by word, though it looks plain; one behind the last may be named."""

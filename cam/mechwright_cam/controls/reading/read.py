@@ -84,7 +84,7 @@ def interpret(
                 machine.ended = machine.ended or dialect.percent_ends
                 return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect, called))
             continue
-        block = blocks.read(index + 1, raw)
+        block = (plain.plain[index] and plain.block(index)) or blocks.read(index + 1, raw)
         if block.title and any(map(CODE.match, lines[:index])):
             raise fail(index + 1, "a program number begins another program; keep one program in a file")
         if block.deleted and block_delete:

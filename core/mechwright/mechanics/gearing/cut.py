@@ -7,8 +7,9 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Change, Finding
+from mechwright.contracts.keyed import Keyed
 from mechwright.mechanics.gearing.proof import MeshProof
-from mechwright.mechanics.openings import Keyed, opening_of
+from mechwright.mechanics.openings import opening_of
 
 if TYPE_CHECKING:
     import shapely
