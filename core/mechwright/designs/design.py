@@ -162,6 +162,12 @@ class Design:
         others = self.family.settings(self.params)
         return {name: replace(self, params=params) for name, params in others.items()}
 
+    def choosing(self, change: Change) -> "Design":
+        """The design with keys that its file leaves out; raises as :func:`load` does."""
+        chosen = {**self.chosen, **change}
+        params = own_params(self.family, changed(self.content, chosen), self.path)
+        return replace(self, params=params, chosen=chosen)
+
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)

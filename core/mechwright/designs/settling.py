@@ -4,20 +4,20 @@ A frame needs holes for its screws in a ground plate, a shaft for which a coupli
 what moves; so does a chain. Where the file says nothing of such a key it is the program's to choose.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
+from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.change import changed, found_at
+from mechwright.designs.change import found_at
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain import Chain
 
 if TYPE_CHECKING:
-    from mechwright.designs.design import Design
+    from mechwright.contracts.surroundings import Surroundings
 
 ROUNDS = 8
 """Changes that are chosen one after the other: each may bring the next one to light."""
@@ -26,7 +26,45 @@ CHOSEN = "design.chosen"
 """Code of the note that tells of them."""
 
 
-def settled(design: "Design") -> "Design":
+class Settled(Protocol):
+    """A design, as far as it is looked at here."""
+
+    @property
+    def family(self) -> Family[Any]:
+        """Its family, or its chain."""
+
+    @property
+    def params(self) -> Parameters:
+        """Of it."""
+
+    @property
+    def tables(self) -> Mapping[str, Any]:
+        """Values of the tables by their names."""
+
+    @property
+    def readers(self) -> Sequence[Table[Any]]:
+        """Those tables."""
+
+    @property
+    def content(self) -> Mapping[str, Any]:
+        """What the file says."""
+
+    @property
+    def own_tables(self) -> Mapping[str, Parameters]:
+        """The tables of its family by the keys that lead to them."""
+
+    @property
+    def surroundings(self) -> "Sequence[Surroundings]":
+        """What stands around the mechanism."""
+
+    def choosing(self, change: Change) -> Self:
+        """The design with keys that its file leaves out."""
+
+
+D = TypeVar("D", bound=Settled)
+
+
+def settled(design: D) -> D:
     """The design with the keys that its frame or its chain wants and its file leaves out.
 
     It is the design itself where nothing stands around the mechanism, nothing is wanted, or nothing helps.
@@ -42,7 +80,7 @@ def settled(design: "Design") -> "Design":
     return design
 
 
-def _stands(design: "Design", reader: Table[Any]) -> bool:
+def _stands(design: Settled, reader: Table[Any]) -> bool:
     """Whether a table may put something around the mechanism."""
     usual = reader.settings
     return (
@@ -52,19 +90,19 @@ def _stands(design: "Design", reader: Table[Any]) -> bool:
     )
 
 
-def _better(design: "Design") -> "Iterator[Design]":
+def _better(design: D) -> Iterator[D]:
     """The designs that an error is gone with and that differ in nothing that the file says."""
     for finding in _wishes(design):
         for change in finding.proposed:
             if not change or not all(_open(key, design) for key in change):
                 continue
             with suppress(MechwrightError):
-                other = _with(design, change)
+                other = design.choosing(change)
                 if all((one.code, one.message) != (finding.code, finding.message) for one in _wishes(other)):
                     yield other
 
 
-def _wishes(design: "Design") -> list[Finding]:
+def _wishes(design: Settled) -> list[Finding]:
     """The errors of what joins stages or stands around a mechanism, where it has none of its own."""
     found: Iterable[Finding] = design.family.judge(design.params)
     if isinstance(design.family, Chain):
@@ -76,7 +114,7 @@ def _wishes(design: "Design") -> list[Finding]:
     return [one for one in around if one.severity is Severity.ERROR]
 
 
-def _open(key: str, design: "Design") -> bool:
+def _open(key: str, design: Settled) -> bool:
     """Whether the file leaves a key out whose value follows from others."""
     table, _, name = key.rpartition(".")
     own = (path for path in design.own_tables if f"{key}.".startswith(f"{path}."))
@@ -93,14 +131,6 @@ def _open(key: str, design: "Design") -> bool:
     marks = field.json_schema_extra
     fitted = isinstance(marks, dict) and bool(marks.get("fitted"))
     return fitted or (not field.is_required() and field.get_default(call_default_factory=True) is None)
-
-
-def _with(design: "Design", change: Change) -> "Design":
-    from mechwright.designs.design import own_params
-
-    chosen = {**design.chosen, **change}
-    params = own_params(design.family, changed(design.content, chosen), design.path)
-    return replace(design, params=params, chosen=chosen)
 
 
 def told(chosen: Mapping[str, Any]) -> Finding:
