@@ -19,7 +19,16 @@ from mechwright_geneva.openings import around
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import PINS, SLACK
 from mechwright_geneva.slot_choice import wheels
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowels_of, walls_of
+from mechwright_geneva.usual import (
+    FAIR_SHAFT,
+    LEAST_SHAFT,
+    PIN,
+    SHAFT,
+    cranks_of,
+    dowels_of,
+    least_dowel_of,
+    walls_of,
+)
 
 _PINS = np.array(PINS)
 
@@ -81,6 +90,8 @@ def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
     if table.least_wall is None:
         columns["least_wall"] = walls_of(wheel)
     table = Table(common, varied | columns)
+    if table.crank_thickness is None:
+        columns["crank_thickness"] = cranks_of(wheel)
     if table.pin_diameter is None:
         columns["pin_diameter"] = largest_of(PIN * np.asarray(table.roller_radius))
     frame = Frame(np.asarray(math.pi / common.slots), _half(common, half), np.radians(offset), wheel)
@@ -146,7 +157,7 @@ def _driver(table: Table, frame: Frame) -> dict[str, Array]:
     dowel = table.fixing
     if dowel is None:
         thick = dowels_of(wheel)
-        able = (thick * (1 + SLACK) >= _PINS) & (thick / 2 <= _PINS)
+        able = (thick * (1 + SLACK) >= _PINS) & (least_dowel_of(wheel) <= _PINS)
         dowel = np.maximum(_largest(able & (around(fair / 2, wall, _PINS) <= room)), 0.0)
     bore = _first(shafts, around(_PINS / 2, wall, dowel) <= room) if given is None else given
     return {"fixing": dowel, "driver_bore": bore}

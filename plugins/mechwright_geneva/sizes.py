@@ -11,12 +11,23 @@ In this order, each from those before it (docs/geneva.md, "What is left out"):
 
 import math
 
+import numpy as np
+
 from mechwright import kept
 from mechwright_geneva.openings import driver_opening, driver_radius, hub_radius, reach
 from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.series import PINS, largest, up_to
 from mechwright_geneva.slot_choice import Slot, slot_of
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowel_of, wall_of
+from mechwright_geneva.usual import (
+    FAIR_SHAFT,
+    LEAST_SHAFT,
+    PIN,
+    SHAFT,
+    cranks_of,
+    dowel_of,
+    least_dowel_of,
+    wall_of,
+)
 
 LEFT_OPEN = tuple(name for name, field in Sizes.model_fields.items() if field.is_required())
 """The keys that a design file may leave out and that have a value here."""
@@ -34,6 +45,7 @@ def sized(params: GenevaParams) -> Sizes:
         "least_wall": wall,
         "pin_diameter": largest(PINS, PIN * slot.roller_radius),
         # Placeholders: what follows is found with a complete table.
+        "crank_thickness": float(cranks_of(np.asarray(slot.entry_radius))),
         "fixing": dowel_of(slot.entry_radius),
         "bore": 0.0,
         "driver_bore": 0.0,
@@ -58,7 +70,8 @@ def _driver(params: GenevaParams, table: Sizes, slot: Slot) -> dict[str, float]:
     dowels: tuple[float, ...] = (params.fixing or 0.0,)
     if params.fixing is None:
         thick = dowel_of(radius)
-        dowels = (*(one for one in up_to(PINS, thick) if one >= thick / 2), 0.0)
+        least = float(least_dowel_of(np.asarray(radius)))
+        dowels = (*(one for one in up_to(PINS, thick) if one >= least), 0.0)
     dowel = next((one for one in dowels if fits(fair, one)), dowels[-1])
     return {"fixing": dowel, "driver_bore": next((one for one in shafts if fits(one, dowel)), shafts[-1])}
 

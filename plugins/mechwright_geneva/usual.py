@@ -30,6 +30,16 @@ STEP = 5.0
 ROLLER = 0.1
 """Diameter of the roller over l."""
 
+SMALL_ROLLER, MOST_ROLLER = 3.0, 0.2
+"""Of small wheels the roller may be as large as this, mm, and over l: thinner pins bend, and hardly a tool
+makes their holes."""
+
+WORTH_ROLLER, WORTH_SHARE = 2.0, 0.15
+"""Diameter of a roller, mm, and over l, down to which other angles are looked for on small wheels: its pin is
+of 1.2 mm."""
+
+_CRANK, _CRANK_SHARE = 8.0, 0.16
+
 LEAST_ROLLER = 0.036
 """The same where the slots are narrow: below it, other angles are looked for."""
 
@@ -41,7 +51,7 @@ SHAFT, FAIR_SHAFT, LEAST_SHAFT = 0.12, 0.08, 0.04
 least that is taken where a given wheel leaves no more."""
 
 _WALL, _WALL_SHARE = 2.0, 1 / 35
-_DOWEL, _DOWEL_SHARE = 4.0, 0.06
+_DOWEL, _DOWEL_SHARE, _LEAST_DOWEL = 4.0, 0.06, 1.0
 
 
 def walls_of(entry_radius: Array) -> Array:
@@ -55,9 +65,32 @@ def wall_of(entry_radius: float) -> float:
     return float(walls_of(np.asarray(entry_radius)))
 
 
+def roller_of(entry_radius: float) -> float:
+    """Largest roller that is tried on a wheel: its diameter."""
+    return max(ROLLER * entry_radius, min(SMALL_ROLLER, MOST_ROLLER * entry_radius))
+
+
+def least_rollers_of(entry_radius: float) -> tuple[float, ...]:
+    """Smallest roller for which other angles are looked for, then the smallest at all: diameters."""
+    least = LEAST_ROLLER * entry_radius
+    worth = max(least, min(WORTH_ROLLER, WORTH_SHARE * entry_radius))
+    return (worth, least) if worth > least else (least,)
+
+
+def cranks_of(entry_radius: Array) -> Array:
+    """Thickness of the crank (...): 8 mm, below l = 50 mm 0.16 l in halves; not below 2 mm."""
+    share = np.floor(2 * np.minimum(_CRANK, _CRANK_SHARE * entry_radius) + 1e-9) / 2
+    return np.asarray(np.maximum(2.0, share))
+
+
 def dowels_of(entry_radius: Array) -> Array:
-    """Largest dowels (...): 4 mm, or 0.06 l."""
-    return np.asarray(np.minimum(_DOWEL, _DOWEL_SHARE * entry_radius))
+    """Largest dowels (...): 4 mm, or 0.06 l; not below 1 mm, whose holes can be drilled."""
+    return np.asarray(np.clip(_DOWEL_SHARE * entry_radius, _LEAST_DOWEL, _DOWEL))
+
+
+def least_dowel_of(entry_radius: Array) -> Array:
+    """Smallest dowels (...) that are worth having: half of the largest, 1 mm at least."""
+    return np.asarray(np.maximum(_LEAST_DOWEL, dowels_of(entry_radius) / 2))
 
 
 def dowel_of(entry_radius: float) -> float:
