@@ -30,6 +30,14 @@ STEP = 5.0
 ROLLER = 0.1
 """Diameter of the roller over l."""
 
+SMALL_ROLLER, MOST_ROLLER = 3.0, 0.2
+"""Of small wheels the roller may be as large as this, mm, and over l: thinner pins bend, and hardly a tool
+makes their holes."""
+
+WORTH_ROLLER, WORTH_SHARE = 2.0, 0.15
+"""Diameter of a roller, mm, and over l, down to which other angles are looked for on small wheels: its pin is
+of 1.2 mm."""
+
 LEAST_ROLLER = 0.036
 """The same where the slots are narrow: below it, other angles are looked for."""
 
@@ -61,6 +69,18 @@ def walls_of(entry_radius: Array) -> Array:
 def wall_of(entry_radius: float) -> float:
     """Of one wheel."""
     return float(walls_of(np.asarray(entry_radius)))
+
+
+def roller_of(entry_radius: float) -> float:
+    """Largest roller that is tried on a wheel: its diameter."""
+    return max(ROLLER * entry_radius, min(SMALL_ROLLER, MOST_ROLLER * entry_radius))
+
+
+def least_rollers_of(entry_radius: float) -> tuple[float, ...]:
+    """Smallest roller for which other angles are looked for, then the smallest at all: diameters."""
+    least = LEAST_ROLLER * entry_radius
+    worth = max(least, min(WORTH_ROLLER, WORTH_SHARE * entry_radius))
+    return (worth, least) if worth > least else (least,)
 
 
 def dowels_of(entry_radius: Array) -> Array:
