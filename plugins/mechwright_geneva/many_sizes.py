@@ -19,7 +19,16 @@ from mechwright_geneva.openings import around, reaches
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import PINS, SLACK
 from mechwright_geneva.slot_choice import wheels
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowels_of, loads_of, walls_of
+from mechwright_geneva.usual import (
+    FAIR_SHAFT,
+    LEAST_SHAFT,
+    PIN,
+    SHAFT,
+    cranks_of,
+    dowels_of,
+    loads_of,
+    walls_of,
+)
 
 _PINS = np.array(PINS)
 
@@ -85,6 +94,9 @@ def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
         columns["load_inertia"] = loads_of(wheel)
     if table.pin_diameter is None:
         columns["pin_diameter"] = largest_of(PIN * np.asarray(table.roller_radius))
+    if table.crank_thickness is None:
+        pin = columns.get("pin_diameter", table.pin_diameter)
+        columns["crank_thickness"] = cranks_of(np.asarray(pin))
     frame = Frame(np.asarray(math.pi / common.slots), _half(common, half), np.radians(offset), wheel)
     table = Table(common, varied | columns)
     columns |= _driver(table, frame) | _wheel(table, frame)

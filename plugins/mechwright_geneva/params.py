@@ -161,7 +161,10 @@ class GenevaParams(Parameters):
     keyway_relief: Millimetres = Field(
         0.0, ge=0, le=20, description="Diameter of the reliefs in the keyways' corners; 0 for none."
     )
-    crank_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the crank plate.")
+    crank_thickness: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
+        None,
+        description="Thickness of the crank plate; left out, 8, with pins below 2 three and a half of them.",
+    )
     pin_diameter: Annotated[float, Field(ge=0.5, le=150), Unit("mm")] | None = Field(
         None,
         description=(
@@ -280,6 +283,7 @@ class Sizes(GenevaParams):
     bore: float
     driver_bore: float
     pin_diameter: float
+    crank_thickness: float
     fixing: float
     load_inertia: float
     left_out: tuple[str, ...] = ()

@@ -64,6 +64,11 @@ def test_an_arc_is_no_faster_than_its_radius_allows() -> None:
     assert one[-2] < 2 * math.pi * 5 / fastest + 2 * fastest / 250
 
 
+def test_the_pieces_of_an_arc_in_another_plane_are_no_cycle_with_a_stop_at_each() -> None:
+    along = math.pi * 5.0 / (2000 / 60)
+    assert along < seconds(P + "G18 G3 X10 Z0 I5 K0 F2000") < 1.5 * along
+
+
 def test_a_kink_is_passed_at_speed_up_to_a_tenth_of_the_acceleration() -> None:
     speed, highest = 30.0, 1000.0
     limit = KINK * highest / (speed / SERVO_S + highest)

@@ -151,9 +151,21 @@ def test_an_empty_program_is_refused(program: Program) -> None:
         POST.write(program)
 
 
-def test_a_section_starts_with_a_place() -> None:
+@pytest.mark.parametrize("first", [Feed(1, 1, 1, 100), Rapid(z=5.0), Rapid(1, None), Rapid(y=1.0)])
+def test_a_section_starts_with_a_place(first: Feed | Rapid) -> None:
     with pytest.raises(ProgramError, match="T3 does not start with a rapid"):
-        POST.write(one(Feed(1, 1, 1, 100)))
+        POST.write(one(first, Rapid(1, 1)))
+
+
+def test_an_operation_that_may_round_corners_says_so_and_the_next_takes_it_back() -> None:
+    moves = (Rapid(0, 0), Feed(1, 1, 1, 100))
+    loose = (Operation("exact", moves), Operation("loose", moves, 0.1), Operation("none", moves, 0.0))
+    text = POST.write(Program("one", "G54", 5.0, (ToolSection(MILL, 1000, "off", (*loose, loose[0])),)))
+    words = [line for line in text.splitlines() if line.startswith(("(operation", "G64", "G61"))]
+    assert words == [
+        *("G64 P0.002 Q0", "(operation: exact)", "(operation: loose)", "G64 P0.1 Q0"),
+        *("(operation: none)", "G61", "(operation: exact)", "G64 P0.002 Q0"),
+    ]
 
 
 def test_rapids_go_down_last_and_up_first() -> None:

@@ -36,7 +36,7 @@ def test_a_part_too_small_for_tabs_and_clamp_is_taped_down():
     found = refusal(error, part="wheel")
     assert found.message.startswith("wheel: outside has room")
     assert found.proposed == (BORE, TAPE)
-    sizes = {"law": "straight", "entry_radius": 15, "thickness": 4, "speed": 960, "load_inertia": 2e-7}
+    sizes = {"law": "straight", "entry_radius": 15, "thickness": 4, "speed": 960, "load_inertia": 1e-6}
     for hold, codes in (({}, ["cam.cannot-cut"]), ({"method": "none", "bed": "tape"}, [])):
         film = mw.design("geneva", cam={"hold": hold}, **sizes)
         assert [one.code for one in errors(Machinable().findings(film))] == codes

@@ -315,3 +315,17 @@ def test_a_crank_that_could_turn_swings_where_its_turn_would_be_too_weak():
     assert driven(way, PosesRequirement(least_transmission_angle=50, drive="crank")).full
     assert not driven(way, PosesRequirement(least_transmission_angle=30, drive="lever")).full
     assert driven(way, PosesRequirement(least_transmission_angle=80)).full
+
+
+def test_pairs_that_no_linkage_meets_within_the_limits_are_answered_nearly():
+    """Five pairs, whose one exact linkage falls below the transmission angle."""
+    pairs = {"crank_angles": [0, 15, 35, 55, 70], "follower_angles": [0, 28, 54, 75, 90]}
+    weak = asked("function", **pairs, least_transmission_angle=1, longest_link=2000)
+    most = max(math.degrees(one.figures["least_transmission_angle"].value) for one in weak.candidates)
+    assert all(one.residual.value < 1e-9 for one in weak.candidates)
+    result = asked("function", **pairs, least_transmission_angle=most + 5)
+    assert [one.code for one in result.findings] == ["function.nearest", "function.found"]
+    assert "exactly" in result.findings[0].message
+    assert 1e-6 < result.candidates[0].residual.value < math.radians(5)
+    for one in result.candidates:
+        assert math.degrees(one.figures["least_transmission_angle"].value) >= most + 5

@@ -155,14 +155,14 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
 
 
 def _first_step(bench: Bench, finding: Finding) -> str | None:
-    """What a finding of the motion proposes that leads past it, and to what: it had hidden other checks.
+    """The change that leads past a finding of the motion, and to what: it had hidden other checks.
 
     None of other findings: nothing is hidden by those.
     """
     if finding.stage is not Stage.MOTION:
         return None
     before = bench.errors({}) or []
-    step = proposed_step(bench, same(finding, bench.found({})) or finding, {}, before)
+    step = best_step(bench, same(finding, bench.found({})) or finding, {}, before)
     left = bench.errors(step.change) if step is not None and step.worth is Worth.REVEALS else None
     if step is None or not left:
         return None

@@ -2,10 +2,11 @@
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright import Array, Finding, Progress, Scalar, Synthesis
+from mechwright import Array, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright_four_bar.burmester import freudenstein
 from mechwright_four_bar.burmester.fitting import nearest
 from mechwright_four_bar.burmester.freudenstein import Answering
@@ -20,14 +21,38 @@ def through_angles(wanted: FunctionRequirement, progress: Progress) -> Synthesis
     """Linkages whose follower stands at its angles when the crank stands at its own, on one branch, in order.
 
     As many pairs as there are unknowns are met exactly: 3, with the follower counted from anywhere 4, with
-    both links 5; the best transmission angle leads. More are met as nearly as can be, by least squares of
-    the follower's error.
+    both links 5; the best transmission angle leads. More, and those that no linkage within the limits meets,
+    are met as nearly as can be, by least squares of the follower's error.
     """
     phi, psi = np.radians(wanted.crank_angles), np.radians(wanted.follower_angles)
     exact = {"none": 3, "follower": 4, "both": 5}[wanted.offsets]
+    if phi.size > exact:
+        progress(0.0, "linkages that answer")
+        return _told(_designs(nearest(phi, psi, wanted), phi, psi, wanted, False, progress), wanted)
     solve = {3: freudenstein.of_three, 4: freudenstein.of_four, 5: freudenstein.of_five}[exact]
-    met = phi.size == exact
-    found = solve(phi, psi) if met else nearest(phi, psi, wanted)
+    first = _designs(solve(phi, psi), phi, psi, wanted, True, progress)
+    if first.candidates:
+        return first
+    result = _designs(nearest(phi, psi, wanted), phi, psi, wanted, False, progress)
+    if not result.candidates:
+        return first
+    why = first.findings[0]
+    note = Finding.warning("function.nearest", why.parameter, f"{why.message}; these are the nearest")
+    rejected = Rejected(first.rejected)
+    for reason in result.rejected:
+        rejected.because(reason.code, reason.message, reason.count)
+    return _told(Synthesis(result.candidates, (note, *result.findings), rejected.reasons), wanted)
+
+
+def _designs(
+    found: Sequence[Answering],
+    phi: Array,
+    psi: Array,
+    wanted: FunctionRequirement,
+    exactly: bool,
+    progress: Progress,
+) -> Synthesis[FourBarParams]:
+    """Designs of linkages that answer, exactly or nearly."""
     progress(0.5, "linkages that answer")
     defects: Counter[str] = Counter()
     options: list[Option] = []
@@ -37,15 +62,22 @@ def through_angles(wanted: FunctionRequirement, progress: Progress) -> Synthesis
             defects[way] += 1
         else:
             options.append(_option(way, psi))
-    options.sort(key=lambda one: -driven(one.way, wanted).least_angle if met else one.error.value)
-    result = designs(
+    options.sort(key=lambda one: -driven(one.way, wanted).least_angle if exactly else one.error.value)
+    how = "exactly" if exactly else "nearly"
+    return designs(
         "function",
         options,
         dict(defects),
         wanted,
-        lambda: f"{len(found)} linkages answer {phi.size} pairs, {len(options)} of them without a defect",
+        lambda: (
+            f"{len(found)} linkages answer {phi.size} pairs {how}, {len(options)} of them without a defect"
+        ),
         lambda part: progress(0.5 + part / 2, "designs"),
     )
+
+
+def _told(result: Synthesis[FourBarParams], wanted: FunctionRequirement) -> Synthesis[FourBarParams]:
+    """The same, with a warning where all err by more than the tolerance."""
     if not result.candidates or not wanted.tolerance:
         return result
     best = math.degrees(min(one.residual.value for one in result.candidates))
