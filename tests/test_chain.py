@@ -11,6 +11,7 @@ import pytest
 from core.disc_family import Disc
 
 from mechwright import DesignError, MechwrightError, Turning, host
+from mechwright.contracts.finding import errors
 from mechwright.designs.change import changed
 from mechwright.designs.design import Design, design_of
 from mechwright.mechanics.chain import Chain, ChainParams, StageTable
@@ -222,6 +223,13 @@ def test_a_head_with_a_family_is_refused() -> None:
         chain(("elliptic-gears", {}), ("geneva", {}), family="geneva")
 
 
+def test_a_stage_gets_the_screws_that_its_place_wants() -> None:
+    """Where the file leaves them out."""
+    found = chain(("noncircular-gears", {**D1, "bore": 8}), ("five-bar", {}))
+    assert found.chosen == {"stage.2.parameters.screw_hole": 6}
+    assert not errors(found.check())
+
+
 @pytest.mark.parametrize(
     ("stages", "code", "parameter"),
     [
@@ -234,11 +242,6 @@ def test_a_head_with_a_family_is_refused() -> None:
         ),
         ([("noncircular-gears", RING), ("geneva", {})], "chain.stage", "stage.1.parameters.internal"),
         ([("noncircular-gears", SWING), ("geneva", {})], "chain.stage", "stage.1.parameters.sector"),
-        (
-            [("noncircular-gears", {**D1, "bore": 8}), ("five-bar", {})],
-            "chain.assembly",
-            "stage.2.parameters.screw_hole",
-        ),
         ([("elliptic-gears", {}), ("spherical", {})], "chain.stage", "stage.2.family"),
         ([("elliptic-gears", {}), ("cam-follower", {"bore": 0})], "chain.stage", "stage.2.parameters.bore"),
         ([("cam-follower", {}), ("geneva", {})], "chain.output", "stage.1.family"),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from by_night import by_night
 
+import mechwright
 from mechwright import host
 from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
@@ -77,3 +78,12 @@ def test_examples_of_chains_have_no_fault(path: Path) -> None:
     found = load(path, host()).check()
     assert [one for one in found if one.severity is not Severity.NOTE] == []
     assert path.read_text(encoding="utf-8").startswith("# ")
+
+
+@by_night
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_plate_of_a_chain_has_a_proven_program(path: Path) -> None:
+    """A program is there only when its proof holds."""
+    chain = mechwright.load(path)
+    made = {program.job.part.name for program in chain.programs}
+    assert made == {part.name for part in chain.parts if part.outline is not None and part.bought is None}

@@ -26,6 +26,7 @@ from mechwright_cam.program.moves import Program
 from mechwright_cam.proof.carried import cut_away
 from mechwright_cam.proof.judge import RULES, judge
 from mechwright_cam.proof.measuring import prove_lengths
+from mechwright_cam.proof.probing import prove_probe
 from mechwright_cam.proof.report import Proof
 from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
@@ -257,13 +258,18 @@ class Machining:
 
     @cached_property
     def probing(self) -> dict[str, tuple[str, str]]:
-        """Name of a part's program to stem and text of the one that probes its zero."""
+        """Name of a part's program to stem and text of the one that probes its zero; proven.
+
+        Raises ProofError where it does what it may not.
+        """
         found = {}
         for item in self.made:
             job = item.job
             if job.settings.probe.tool is not None and job.side == "top":
                 touches = touches_of(job)
-                found[item.program.name] = touches.name, self.control.probe(touches, job.settings.machine)
+                text = self.control.probe(touches, job.settings.machine)
+                prove_probe(touches.name, text, job, self.control)
+                found[item.program.name] = touches.name, text
         return found
 
     @cached_property

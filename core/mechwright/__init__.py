@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
-    from mechwright.contracts.parameters import FIRST, GIVEN, Parameters, kept
+    from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.refused import RefusedError
@@ -94,7 +94,7 @@ _HOMES = {
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
-    "mechwright.contracts.parameters": "FIRST GIVEN Parameters kept",
+    "mechwright.contracts.parameters": "FIRST FITTED GIVEN Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.refused": "RefusedError",
@@ -130,7 +130,7 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Standing", "Table"]
-__all__ += ["FIRST", "GIVEN", "InputFile", "MaterialName", "Parameters", "material"]
+__all__ += ["FIRST", "FITTED", "GIVEN", "InputFile", "MaterialName", "Parameters", "material"]
 __all__ += [
     "GROUND",
     "Array",

@@ -1,7 +1,7 @@
 """Many cams at once: what forbids them, and their figures.
 
-The formulas are those of one cam, asked for arrays. Segments, laws and kinds are what all have in common;
-keyways are left to the check of each.
+The formulas are those of one cam, asked for arrays. Segments, laws, kinds and a shaft with its key are what
+all have in common.
 """
 
 import math
@@ -15,6 +15,7 @@ from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import LEAST_WIDTH
+from mechwright.mechanics.openings import keyed_findings
 from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright_cam_follower.closure import FLATTEST, REACH, law_findings
 from mechwright_cam_follower.columns import give_extremes, give_figures
@@ -22,6 +23,7 @@ from mechwright_cam_follower.extremes import regular_limit, regularity_of
 from mechwright_cam_follower.geometry import Contact, prime_radius, start_of
 from mechwright_cam_follower.many import Cams, Course, Measure, Seen
 from mechwright_cam_follower.sizes import FREE
+from mechwright_cam_follower.walls import farthest_of
 
 CHUNK = 2048
 """Designs that are sampled at once: enough that calls of numpy cost little."""
@@ -29,13 +31,15 @@ CHUNK = 2048
 SURE = 0.9
 """Share of the bound up to which samples of it are trusted; it changes by far less between two of them."""
 
-_OPENINGS = ("bore", "screw_diameter", "guide_screw", "pin_diameter")
+_OPENINGS = ("bore", "keyway_width", "keyway_relief", "screw_diameter", "guide_screw", "pin_diameter")
+_KEYED = {"bore", "keyway_width", "keyway_depth", "keyway_relief"}
 
 
 def covered(designs: Designs) -> bool:
-    """Whether numbers alone are varied, and the cams have no keyway."""
+    """Whether numbers alone are varied, and none of the opening for the shaft where that has a keyway."""
     numbers = all(values.dtype.kind in "if" for values in designs.varied.values())
-    return numbers and designs.common.keyway_width == 0 and "keyway_width" not in designs.varied
+    keyed = designs.common.keyway_width > 0 or "keyway_width" in designs.varied
+    return numbers and not (keyed and _KEYED & set(designs.varied))
 
 
 def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer | None:
@@ -109,6 +113,9 @@ def _openings(found: Answer, cams: Cams) -> None:
     for name in _OPENINGS:
         size = _all(getattr(cams, name), cams)
         found.forbid("bore.size", (size > 0) & (size < LEAST_WIDTH))
+    if cams.common.keyway_width > 0:
+        for fault in errors(tuple(keyed_findings(cams.common))):
+            found.forbid(fault.code, np.ones(len(cams), dtype=bool))
     if cams.conjugate:
         found.forbid("follower.shaft", _all(cams.bore, cams) == 0)
 
@@ -117,16 +124,17 @@ def _walls(found: Answer, course: Course, left: NDArray[np.intp]) -> None:
     """What :func:`~mechwright_cam_follower.walls.wall_findings` says, in its order."""
     cams = course.cams
     wall, bore = _all(cams.least_wall, cams), _all(cams.bore, cams)
+    out = bore / 2 if cams.common.keyway_width == 0 or not found.left.size else farthest_of(cams.common)
     inner = _sought(found, course, left, _innermost, -1.0)
 
     def thin(width: Any, asked: Any = True) -> None:
         found.forbid("follower.wall", _all(_short(width, wall) & asked, cams), left)
 
-    thin(inner - bore / 2, bore > 0)
+    thin(inner - out, bore > 0)
     hole, ring, screws = (
         _all(getattr(cams, name), cams) for name in ("screw_diameter", "screw_circle", "screws")
     )
-    thin(ring / 2 - hole / 2 - bore / 2, hole > 0)
+    thin(ring / 2 - hole / 2 - out, hole > 0)
     thin(inner - ring / 2 - hole / 2, hole > 0)
     thin(ring * np.sin(math.pi / screws) - hole, hole > 0)
     width, pin = _all(cams.follower_width, cams), _all(cams.pin_diameter, cams)

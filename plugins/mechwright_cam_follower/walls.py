@@ -54,11 +54,16 @@ def _thin(
         )
 
 
-def _cam_walls(params: CamParams) -> Iterator[Finding]:
+def farthest_of(params: CamParams) -> float:
+    """How far the opening for the shaft reaches from the axis, mm."""
     opening = opening_of(params)
-    out = 0.0 if opening is None else float(np.hypot(*opening.loop().flatten().T).max())
+    return 0.0 if opening is None else float(np.hypot(*opening.loop().flatten().T).max())
+
+
+def _cam_walls(params: CamParams) -> Iterator[Finding]:
+    out = farthest_of(params)
     inner = min(extremes_of(params, second).innermost.value for second in cams_of(params))
-    if opening is not None:
+    if params.bore > 0:
         bore = math.floor(2 * (inner - params.least_wall - (out - params.bore / 2)) * 10) / 10
         yield from _thin(
             "bore", "the opening for the shaft", inner - out, params,

@@ -17,10 +17,10 @@ from mechwright import (
     of_stage,
     until_error,
 )
-from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing.checks import (
     SHAFT_PRESSURE_ANGLE,
     backlash_findings,
+    collision,
     land_findings,
     least_tip,
     mesh_findings,
@@ -46,7 +46,7 @@ from mechwright_elliptic_gears.gear import (
 )
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
-from mechwright_elliptic_gears.proof import prove
+from mechwright_elliptic_gears.proof import first_collision, prove
 from mechwright_elliptic_gears.strength_checks import strength_findings
 from mechwright_elliptic_gears.tip_reach import may_collide, that_clear
 from mechwright_elliptic_gears.train_checks import train_findings
@@ -84,7 +84,9 @@ def _of_the_mesh(params: EllipticGearParams) -> tuple[Finding, ...]:
 @of_stage(Stage.PARTS)
 def _of_the_doubtful_mesh(params: EllipticGearParams) -> Iterator[Finding]:
     if may_collide(params):
-        yield from errors(_mesh(params))
+        depth, allowance = first_collision(params)
+        if depth:
+            yield collision(depth, allowance, f"at least {depth:.4f} mm deep", lambda: that_clear(params))
 
 
 @of_stage(Stage.PARTS)

@@ -27,6 +27,7 @@ from mechwright_elliptic_gears.many_columns import columns_of
 from mechwright_elliptic_gears.params import LEAST_MODULE
 from mechwright_elliptic_gears.tip_reach import DOUBT
 from mechwright_elliptic_gears.undercut import LEAST_REGULARITY
+from mechwright_elliptic_gears.usual import DECIDES, bores
 
 BLOCK = 256
 """Gears whose teeth are followed at once: arrays of a tenth of a megabyte."""
@@ -59,6 +60,9 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
         return None
     if common.tooth_offset is not None or (stage is Stage.MACHINING and common.backlash is not None):
         return None
+    if "bore" not in {*designs.varied, *common.model_fields_set} and DECIDES & set(designs.varied):
+        # Each has the bore that it would have by itself.
+        designs = Designs(common, {**designs.varied, "bore": bores(designs.__getitem__)})
     said = Answer(len(designs))
     if stage is not Stage.MOTION:
         _judge(designs, said)

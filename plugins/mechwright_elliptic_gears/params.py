@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
@@ -160,7 +161,12 @@ class EllipticGearParams(Parameters):
     thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
-        10.0, ge=0, le=300, description="Diameter of the shaft bore; 0 for none.", json_schema_extra=FIRST
+        10.0,
+        ge=0,
+        le=300,
+        description="Diameter of the shaft bore, 0 for none; left out, 10, or the largest standard one below "
+        "that leaves the rim of a small gear.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the hub keyway, towards the far vertex; 0 for none."
@@ -246,6 +252,12 @@ class EllipticGearParams(Parameters):
     clamp_screws: Annotated[int, Field(ge=3, le=8)] | None = Field(
         None, description="Number of the clamp's screws; left out, 4."
     )
+
+    def fitted(self) -> Mapping[str, Any]:
+        """The bore, smaller than usual in small gears."""
+        from mechwright_elliptic_gears.usual import bores
+
+        return {} if "bore" in self.model_fields_set else {"bore": float(bores(partial(getattr, self)))}
 
     @field_validator("band", mode="before")
     @classmethod

@@ -1,7 +1,7 @@
 """The mesh proof of a design: as drawn, and as the cutters leave it."""
 
 from mechwright import TOLERANCES, Array, kept
-from mechwright.mechanics.gearing import MeshProof, Teeth, prove_mesh
+from mechwright.mechanics.gearing import MeshProof, Teeth, first_depth, prove_mesh
 from mechwright_elliptic_gears.ellipse import EllipticPair
 from mechwright_elliptic_gears.gear import pair_of, rack_of, teeth_of, toothed
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -16,12 +16,34 @@ def prove(params: EllipticGearParams) -> MeshProof:
     return _prove(teeth_of(params), pair_of(params))
 
 
+def first_collision(params: EllipticGearParams) -> tuple[float, float]:
+    """Depth of the first collision that is seen, 0 for none, and what counts as contact, both mm.
+
+    Less than the whole turn is looked at. Half a turn of the picture about its middle makes each gear its
+    mate: from a quarter of the pitch curve to three, all is seen. Gears with an odd number of teeth are
+    mirror images of themselves besides: from a quarter to a half, it is.
+    """
+    return _first_collision(teeth_of(params), pair_of(params))
+
+
+@kept
+def _first_collision(teeth: Teeth, pair: EllipticPair) -> tuple[float, float]:
+    points, allowance = _outline(teeth, pair)
+    span = (0.25, 0.5 if teeth.count % 2 else 0.75)
+    return first_depth(points, points, pair, teeth.count, span=span, allowance=allowance), allowance
+
+
 @kept
 def _prove(teeth: Teeth, pair: EllipticPair) -> MeshProof:
+    points, allowance = _outline(teeth, pair)
+    return prove_mesh(pair, teeth.rack, teeth.count, (points, points), allowance)
+
+
+def _outline(teeth: Teeth, pair: EllipticPair) -> tuple[Array, float]:
+    """Corners (n, 2), mm, of a gear, and the depth, mm, that its making can cause in its mate."""
     outer, deviation = toothed(teeth)
     tolerance = min(FLATTEN * pair.distance / 2, TOLERANCES.flatten)
-    points = outer.flatten(tolerance)
-    return prove_mesh(pair, teeth.rack, teeth.count, (points, points), 2 * (deviation + tolerance))
+    return outer.flatten(tolerance), 2 * (deviation + tolerance)
 
 
 def prove_outlines(

@@ -26,7 +26,8 @@ from mechwright.mechanics.strength.tooth_bending import root_stress
 from mechwright_five_bar.hardware import HEAD, HEAD_HEIGHT
 from mechwright_five_bar.layout import STACK_SAMPLES
 from mechwright_five_bar.masses import MILLI
-from mechwright_five_bar.train import ADDENDUM, DEDENDUM
+from mechwright_five_bar.train import ADDENDUM
+from mechwright_five_bar.usual import DEDENDUM
 
 APART = 0.2
 """mm. What is called clear in plan besides the clearance: chords of the outlines that are compared."""

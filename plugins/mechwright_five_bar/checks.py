@@ -10,6 +10,7 @@ from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
@@ -31,6 +32,7 @@ from mechwright_five_bar.reach import (
 )
 from mechwright_five_bar.strength_checks import teeth_bear, teeth_judged
 from mechwright_five_bar.train import train_of
+from mechwright_five_bar.usual import USUAL
 
 GOOD_TRANSMISSION = 40.0
 """Degrees below which the coupler mainly presses the rocker into its bearing (VDI 2127: 40 to 50)."""
@@ -241,6 +243,7 @@ def _layers(params: FiveBarParams) -> Iterator[Finding]:
         return
     order = sorted(layout.stack.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layout.stack.spans.values())
+    yield from told("five-bar.sizes", USUAL, params)
     yield Finding.note(
         "five-bar.stack",
         f"{len(layout.stack.layers)} layers, {height:.4g} mm high: "

@@ -21,6 +21,7 @@ from mechwright_five_bar.bounds import Bars, Gears, stands, teeth_bear
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import PEAK_SAMPLES
 from mechwright_five_bar.reach import PER_TURN, TURN_BACK, bar_of
+from mechwright_five_bar.usual import with_sizes
 
 _APART = {
     "crank_teeth", "arm_teeth", "idler_teeth", "module", "swing_from", "swing_to", "setting_angle", "phases",
@@ -58,6 +59,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     """What is found of them; see :mod:`mechwright.contracts.by_arrays`."""
     if not covered(designs):
         return None
+    designs = with_sizes(designs)
     found, bars = Answer(len(designs)), _bars(designs)
     least, greatest = _motion(found, bars)
     sense = np.where(designs.full("direction") == "ccw", 1.0, -1.0)

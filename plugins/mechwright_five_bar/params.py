@@ -1,10 +1,12 @@
 """The design table of a geared five-bar linkage."""
 
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from functools import partial
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.units import Degrees, Millimetres, Unit
 
@@ -134,17 +136,33 @@ class FiveBarParams(Parameters):
         0.0, ge=0, le=1000, description="By how much posts or screws stand farther out than the gears ask."
     )
     pin_diameter: Millimetres = Field(
-        8.0, ge=1, le=200, description="Pins and shafts of all joints.", json_schema_extra=FIRST
+        8.0,
+        ge=1,
+        le=200,
+        description="Pins and shafts of all joints; left out, 8, or the largest of 5, 4, 3, 2, 1.5 and 1 "
+        "with which the bores of links and gears leave their rims.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     bushing_wall: fields.BushingWall = 1.0
     running_fit: fields.RunningFit = 0.03
     rim: fields.Rim = 4.0
     web_width: Millimetres = Field(
-        12.0, ge=1, le=500, description="Width of straight links between their bosses."
+        12.0,
+        ge=1,
+        le=500,
+        description="Width of straight links between their bosses; left out, 12, or less as the pins.",
+        json_schema_extra=FITTED,
     )
     clearance: fields.Clearance = 1.0
     washer: fields.Washer = 0.5
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
+
+    def fitted(self) -> Mapping[str, Any]:
+        """The sizes of the joints, smaller than usual where links are short or gears fine."""
+        from mechwright.mechanics.linkage.usual import of_table
+        from mechwright_five_bar.usual import USUAL, fits
+
+        return of_table(USUAL, self, fits(partial(getattr, self)))
 
     @model_validator(mode="after")
     def _together(self) -> Self:

@@ -19,9 +19,10 @@ from mechwright import GeometryError, kept
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop
 from mechwright_five_bar.params import FiveBarParams
+from mechwright_five_bar.usual import DEDENDUM
 
 PRESSURE_ANGLE = math.radians(20)
-ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
+ADDENDUM, TIP_RADIUS = 1.0, 0.38
 """Basic rack of ISO 53, profile A, in modules."""
 
 IN_LINE = 1e-9

@@ -19,7 +19,8 @@ from mechwright_four_bar.joints import SHAFT
 from mechwright_four_bar.masses import MICRO, MILLI
 from mechwright_four_bar.period import CIRCLE, Period, bars_of
 from mechwright_four_bar.period_kernels import most_force
-from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, OF_BORE, bore_about
+from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, OF_BORE
+from mechwright_four_bar.usual import bore_about
 
 MOST_PLATES, MOST_LAYERS = 3, 5
 """Links, and layers of them and two ground plates."""

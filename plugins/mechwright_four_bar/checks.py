@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.tolerances import falls_short
@@ -28,6 +29,7 @@ from mechwright_four_bar.reach import (
 )
 from mechwright_four_bar.room import above, room_findings
 from mechwright_four_bar.strength_checks import bearing_findings, strength_findings, strength_judged
+from mechwright_four_bar.usual import USUAL
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -137,7 +139,8 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
         yield Finding.error(
             "four-bar.change-point",
             parameter,
-            "all links line up once a turn, and nothing decides how the linkage goes on",
+            "all links line up once a turn, and nothing decides how the linkage goes on; a parallelogram "
+            "goes as a lever that turns back before that: give swing_from and swing_to",
             value,
             near,
             "mm",
@@ -238,6 +241,7 @@ def _layers(params: FourBarParams) -> Iterator[Finding]:
     layers = layout.stack
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layers.spans.values())
+    yield from told("four-bar.sizes", USUAL, params)
     yield Finding.note(
         "four-bar.stack",
         f"{len(layers.layers)} layers, {height:.4g} mm high: "

@@ -19,8 +19,9 @@ from mechwright_four_bar.bounds import bears
 from mechwright_four_bar.checks import LEAST_ROOM, LEAST_TRANSMISSION
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.period import Period, give_extremes
-from mechwright_four_bar.sizes import OF_BORE, bore_about
+from mechwright_four_bar.sizes import OF_BORE
 from mechwright_four_bar.swings import courses, toggles, transmission
+from mechwright_four_bar.usual import bore_about, with_sizes
 
 _APART = {"phases", "phase", "setting_angle", "coupler_bend", "frame"}
 """What is not varied here."""
@@ -40,6 +41,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     """What is found of them; see :mod:`mechwright.contracts.by_arrays`."""
     if not covered(designs):
         return None
+    designs = with_sizes(designs)
     found = Answer(len(designs))
     sizes: list[Any] = [designs.full(name) for name in ("crank", "coupler", "follower", "ground")]
     sizes += [np.radians(designs.full("ground_angle")), np.where(designs.full("branch") == "open", 1, -1)]

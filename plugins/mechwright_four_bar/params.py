@@ -1,11 +1,12 @@
 """The design table of a four-bar linkage."""
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Literal, Self
+from functools import partial
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.units import Degrees, Millimetres, Ratio, Unit
@@ -104,13 +105,23 @@ class FourBarParams(Parameters):
     )
     ground_thickness: fields.GroundThickness = 8.0
     pin_diameter: Millimetres = Field(
-        6.0, ge=1, le=200, description="Pins of all joints.", json_schema_extra=FIRST
+        6.0,
+        ge=1,
+        le=200,
+        description="Pins of all joints; left out, 6, or the largest of 5, 4, 3, 2, 1.5 and 1 with which the "
+        "bores leave their rims.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     bushing_wall: fields.BushingWall = 1.0
     running_fit: fields.RunningFit = 0.03
     rim: fields.Rim = 4.0
     web_width: Millimetres = Field(
-        10.0, ge=1, le=500, description="Width of straight and bent links between their bosses."
+        10.0,
+        ge=1,
+        le=500,
+        description="Width of straight and bent links between their bosses; left out, 10, or less as the "
+        "pins.",
+        json_schema_extra=FITTED,
     )
     coupler_bend: Millimetres = Field(
         0.0,
@@ -135,6 +146,13 @@ class FourBarParams(Parameters):
         "out, as near as the bores leave room.",
     )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
+
+    def fitted(self) -> Mapping[str, Any]:
+        """The sizes of the joints, smaller than usual where links are short."""
+        from mechwright.mechanics.linkage.usual import of_table
+        from mechwright_four_bar.usual import USUAL, fits
+
+        return of_table(USUAL, self, fits(partial(getattr, self)))
 
     @model_validator(mode="after")
     def _together(self) -> Self:

@@ -57,7 +57,7 @@ def _formulas_tell(common: GenevaParams) -> bool:
         (common.law == "straight" or common.law in LAWS)
         and common.driver_law == "constant"
         and common.slots_made != "backed"
-        and not (common.keyway_width or common.driver_keyway_width or common.counterbore_diameter)
+        and not common.counterbore_diameter
     )
 
 

@@ -17,7 +17,7 @@ from mechwright_geneva.contact import carried, peak_of, sampled
 from mechwright_geneva.feasible import ANGLE_SLACK, FLATTEST, LEAST_FLOOR, LENGTH_SLACK
 from mechwright_geneva.limits import FINE_SAMPLES, Measures, bends, measure, sharpened
 from mechwright_geneva.many import Mechanisms
-from mechwright_geneva.openings import around
+from mechwright_geneva.openings import around, reaches, unfit
 from mechwright_geneva.relief import drawn
 from mechwright_geneva.sound import LEAST_LOCKED, LEAST_TIP
 from mechwright_geneva.stud_checks import stresses_under
@@ -98,8 +98,12 @@ def _feasibility(m: Mechanisms, told: Verdicts, stage: Stage) -> None:
 
 
 def hub_of(m: Mechanisms) -> Any:
-    """Radius about the wheel's axis that the slots must leave alone, mm; bores have no keyways."""
-    return np.maximum(m.params.bore / 2, m.params.hub_diameter / 2)
+    """Radius about the wheel's axis that the slots must leave alone, mm."""
+    return np.maximum(_wheel_reaches(m), m.params.hub_diameter / 2)
+
+
+def _wheel_reaches(m: Mechanisms) -> Any:
+    return reaches(np.asarray(m.params.bore), m.params.keyway_width, m.params.keyway_relief)
 
 
 def _bottom(m: Mechanisms, told: Verdicts) -> Mechanisms:
@@ -172,9 +176,13 @@ def _openings(m: Mechanisms, told: Verdicts) -> Mechanisms:
     """Construction, openings and driver."""
     params = m.params
     told.forbid("islands-loose", params.slots_made == ("backed" if m.straight else "through"))
-    for size in (params.bore, params.driver_bore, params.keyway_relief, params.fixing):
+    driver = np.asarray(params.driver_bore), params.driver_keyway_width, params.keyway_relief
+    for opening in ((np.asarray(params.bore), params.keyway_width, params.keyway_relief), driver):
+        for code, which in unfit(*opening):
+            told.forbid(code, which)
+    for size in (params.keyway_relief, params.fixing):
         told.forbid("bore.size", (np.asarray(size) > 0) & (np.asarray(size) < LEAST_WIDTH))
-    inner, outer = params.driver_bore / 2, m.axes - m.rim - params.lock_clearance
+    inner, outer = reaches(*driver), m.axes - m.rim - params.lock_clearance
     told.forbid("driver", falls_short(outer - inner, around(0.0, params.least_wall, params.fixing)))
     return m
 
@@ -199,7 +207,7 @@ def _hub(m: Mechanisms, told: Verdicts) -> Mechanisms:
     told.forbid("lock", (locks < 0)[:, None])
     told.answer.doubt(locks == 0, told.places)
     told.forbid("hub", falls_short(m.axes - m.arc - hub_of(m), params.least_wall))
-    ring, wanted = (params.hub_diameter - params.bore) / 2, around(0.0, params.least_wall, params.fixing)
+    ring, wanted = params.hub_diameter / 2 - _wheel_reaches(m), around(0.0, params.least_wall, params.fixing)
     told.forbid("hub", np.asarray(params.hub_diameter > 0) & falls_short(ring, wanted))
     told.forbid("pin", exceeds(params.pin_diameter, 2 * m.roller * (1 - ROLLER_WALL)))
     return m

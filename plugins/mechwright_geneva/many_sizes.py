@@ -15,11 +15,20 @@ from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.law import law_of
 from mechwright_geneva.many import Mechanisms, Table
 from mechwright_geneva.mechanism import RIGHT
-from mechwright_geneva.openings import around
+from mechwright_geneva.openings import around, reaches
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import PINS, SLACK
 from mechwright_geneva.slot_choice import wheels
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowels_of, walls_of
+from mechwright_geneva.usual import (
+    FAIR_SHAFT,
+    LEAST_SHAFT,
+    PIN,
+    SHAFT,
+    cranks_of,
+    dowels_of,
+    loads_of,
+    walls_of,
+)
 
 _PINS = np.array(PINS)
 
@@ -56,7 +65,7 @@ CONTINUOUS = (
 def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
     """The mechanisms of designs that differ in lengths, angles and loads; None where their sizes are sought.
 
-    Designs whose law has no fault, at a constant speed, without keyways.
+    Designs whose law has no fault, at a constant speed.
     """
     straight = common.law == "straight"
     varied = {
@@ -81,8 +90,13 @@ def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
     if table.least_wall is None:
         columns["least_wall"] = walls_of(wheel)
     table = Table(common, varied | columns)
+    if table.load_inertia is None:
+        columns["load_inertia"] = loads_of(wheel)
     if table.pin_diameter is None:
         columns["pin_diameter"] = largest_of(PIN * np.asarray(table.roller_radius))
+    if table.crank_thickness is None:
+        pin = columns.get("pin_diameter", table.pin_diameter)
+        columns["crank_thickness"] = cranks_of(np.asarray(pin))
     frame = Frame(np.asarray(math.pi / common.slots), _half(common, half), np.radians(offset), wheel)
     table = Table(common, varied | columns)
     columns |= _driver(table, frame) | _wheel(table, frame)
@@ -136,7 +150,7 @@ def _driver(table: Table, frame: Frame) -> dict[str, Array]:
     """Dowels and bore of the driver, in the room that its relief leaves about its axis."""
     wheel, wall = frame.entry_radius, table.least_wall
     room = frame.axes - wheel - table.lock_clearance
-    given = table.driver_bore
+    given, keyway = table.driver_bore, (table.driver_keyway_width, table.keyway_relief)
     if given is None:
         shafts = _shafts(wheel)
         fair = _least(shafts & (np.floor(FAIR_SHAFT * wheel) <= _PINS))
@@ -147,8 +161,8 @@ def _driver(table: Table, frame: Frame) -> dict[str, Array]:
     if dowel is None:
         thick = dowels_of(wheel)
         able = (thick * (1 + SLACK) >= _PINS) & (thick / 2 <= _PINS)
-        dowel = np.maximum(_largest(able & (around(fair / 2, wall, _PINS) <= room)), 0.0)
-    bore = _first(shafts, around(_PINS / 2, wall, dowel) <= room) if given is None else given
+        dowel = np.maximum(_largest(able & (around(reaches(fair, *keyway), wall, _PINS) <= room)), 0.0)
+    bore = _first(shafts, around(reaches(_PINS, *keyway), wall, dowel) <= room) if given is None else given
     return {"fixing": dowel, "driver_bore": bore}
 
 
@@ -157,5 +171,6 @@ def _wheel(table: Table, frame: Frame) -> dict[str, Array]:
     if table.bore is not None:
         return {}
     room = frame.bottom - table.roller_radius - table.groove_clearance / 2 - table.least_wall
-    fits = np.maximum(_PINS / 2, table.hub_diameter / 2) <= room
+    opening = reaches(_PINS, table.keyway_width, table.keyway_relief)
+    fits = np.maximum(opening, table.hub_diameter / 2) <= room
     return {"bore": _first(_shafts(frame.entry_radius), fits)}

@@ -5,10 +5,17 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from mechwright import Finding
-from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
+from mechwright import Array, Finding
+from mechwright.geometry.keyway import (
+    KEYS,
+    LEAST_WIDTH,
+    SMALLEST_EDGE,
+    Opening,
+    key_for_bore,
+    key_of_width,
+)
 from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright_geneva.params import Sizes
 
@@ -40,6 +47,32 @@ def reach(opening: Opening | None) -> float:
         return opening.bore / 2
     # A relief bulges beyond its corner by less than its own bite.
     return math.hypot(opening.floor, opening.width / 2) + opening.bite / 2
+
+
+def reaches(bore: Array, width: float, relief: float) -> Any:
+    """The same (...) of openings with one keyway, 0 for none."""
+    key = key_of_width(width)
+    if key is None:
+        return np.asarray(bore / 2)
+    return np.where(bore > 0, np.hypot(bore / 2 + key.hub_depth, width / 2) + relief / math.sqrt(2) / 2, 0.0)
+
+
+def unfit(bore: Array, width: float, relief: float) -> list[tuple[str, NDArray[np.bool_]]]:
+    """Codes of errors of openings with one keyway, in the order of :func:`opening_findings`, and of which."""
+    small = np.asarray((bore > 0) & (bore < LEAST_WIDTH) | (0 < width < LEAST_WIDTH))
+    found = [("bore.size", small)]
+    if width == 0:
+        return found
+    key = key_of_width(width)
+    if key is None:
+        return [*found, ("bore.keyway-width", np.ones_like(bore, dtype=bool))]
+    mouth = np.sqrt(np.maximum(bore**2 - width**2, 0.0)) / 2
+    most = math.sqrt(2) * (np.minimum(width / 2, bore / 2 + key.hub_depth - mouth) - SMALLEST_EDGE)
+    return [
+        *found,
+        ("bore.keyway-width", np.asarray(bore <= width)),
+        ("bore.keyway-relief", np.asarray(relief > np.maximum(0.0, most))),
+    ]
 
 
 def hub_radius(params: Sizes) -> float:

@@ -161,7 +161,10 @@ class GenevaParams(Parameters):
     keyway_relief: Millimetres = Field(
         0.0, ge=0, le=20, description="Diameter of the reliefs in the keyways' corners; 0 for none."
     )
-    crank_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the crank plate.")
+    crank_thickness: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
+        None,
+        description="Thickness of the crank plate; left out, 8, with pins below 2 three and a half of them.",
+    )
     pin_diameter: Annotated[float, Field(ge=0.5, le=150), Unit("mm")] | None = Field(
         None,
         description=(
@@ -212,9 +215,12 @@ class GenevaParams(Parameters):
         "forwards",
         description="Sense of the driver: clockwise, the wheel counter-clockwise, or backwards.",
     )
-    load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
-        0.01,
-        description="Moment of inertia that turns with the wheel, the wheel's own included.",
+    load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] | None = Field(
+        None,
+        description=(
+            "Moment of inertia that turns with the wheel, its own included; left out, 0.01, and of wheels "
+            "below 100 less, with the fourth power of entry_radius."
+        ),
         json_schema_extra=FIRST,
     )
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
@@ -277,6 +283,8 @@ class Sizes(GenevaParams):
     bore: float
     driver_bore: float
     pin_diameter: float
+    crank_thickness: float
     fixing: float
+    load_inertia: float
     left_out: tuple[str, ...] = ()
     """The keys of the above that the design file leaves out."""

@@ -5,8 +5,10 @@ In this order, each from those before it (docs/geneva.md, "What is left out"):
     angles and roller   those of :mod:`mechwright_geneva.slot_choice`
     l                   as the centre distance wants it, or 100 mm, more where the driver's shaft needs it
     pin                 the largest standard one up to 1.2 r
-    dowels              4 mm, or 0.06 l; down to half of it where the driver has less room, or none
+    crank plate         8 mm, of pins below 2 mm three and a half of them
+    dowels              0.06 l, 2 to 4 mm; down to half of it where the driver has less room, or none
     bores               the largest standard shaft up to 0.12 l that leaves the walls
+    load                0.01 kg m², of a wheel below 100 mm as that of a disc, with the fourth power of l
 """
 
 import math
@@ -16,7 +18,7 @@ from mechwright_geneva.openings import driver_opening, driver_radius, hub_radius
 from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.series import PINS, largest, up_to
 from mechwright_geneva.slot_choice import Slot, slot_of
-from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, dowel_of, wall_of
+from mechwright_geneva.usual import FAIR_SHAFT, LEAST_SHAFT, PIN, SHAFT, crank_of, dowel_of, load_of, wall_of
 
 LEFT_OPEN = tuple(name for name, field in Sizes.model_fields.items() if field.is_required())
 """The keys that a design file may leave out and that have a value here."""
@@ -29,10 +31,13 @@ def sized(params: GenevaParams) -> Sizes:
         return params
     slot = slot_of(params)
     wall = params.least_wall or wall_of(slot.entry_radius)
+    pin = params.pin_diameter or largest(PINS, PIN * slot.roller_radius)
     open_ones: dict[str, object] = {
         **slot.sizes(),
         "least_wall": wall,
-        "pin_diameter": largest(PINS, PIN * slot.roller_radius),
+        "pin_diameter": pin,
+        "crank_thickness": crank_of(pin),
+        "load_inertia": load_of(slot.entry_radius),
         # Placeholders: what follows is found with a complete table.
         "fixing": dowel_of(slot.entry_radius),
         "bore": 0.0,

@@ -26,7 +26,9 @@ from mechwright_geneva.usual import (
     ROLLER,
     STEP,
     WHEEL,
+    least_rollers_of,
     least_room,
+    roller_of,
     wall_of,
 )
 
@@ -162,11 +164,13 @@ def slot_of(params: GenevaParams) -> Slot:
     first = _Tried.of(params, half, offset)
     if params.law == "straight":
         return _slot(params, first, 0, _radii(params, float(first.wheel[0]))[0])
-    for tried in (first, _Tried.of(params, np.append(half, HALVES), np.append(offset, OFFSETS))):
-        for radius in _radii(params, _about(params)):
-            found = tried.roller(params, radius)
-            if found is not None:
-                return _slot(params, tried, found, radius)
+    ways = (first, _Tried.of(params, np.append(half, HALVES), np.append(offset, OFFSETS)))
+    for least in least_rollers_of(_about(params)):
+        for tried in ways:
+            for radius in _radii(params, _about(params), least):
+                found = tried.roller(params, radius)
+                if found is not None:
+                    return _slot(params, tried, found, radius)
     if params.entry_radius is None and params.centre_distance is None and params.roller_radius is not None:
         wheel = min(MOST_WHEEL, math.ceil(2 * params.roller_radius / ROLLER / STEP) * STEP)
         if wheel > WHEEL:
@@ -184,12 +188,13 @@ def _about(params: GenevaParams) -> float:
     return params.entry_radius or (params.centre_distance or AXES * WHEEL) / AXES
 
 
-def _radii(params: GenevaParams, wheel: float) -> list[float]:
-    """Rollers that are tried on a wheel, the largest first."""
+def _radii(params: GenevaParams, wheel: float, least: float = 0.0) -> list[float]:
+    """Rollers that are tried on a wheel, the largest first, down to a diameter."""
     if params.roller_radius is not None:
         return [params.roller_radius]
-    able = [one / 2 for one in up_to(ROLLERS, ROLLER * wheel) if one >= LEAST_ROLLER * wheel]
-    return able or [max(0.5, largest(ROLLERS, ROLLER * wheel) / 2)]
+    most = roller_of(wheel)
+    able = [one / 2 for one in up_to(ROLLERS, most) if one >= max(least, LEAST_ROLLER * wheel)]
+    return able or [max(0.5, largest(ROLLERS, most) / 2)]
 
 
 def wheels(params: GenevaParams, half: Array, offset: Array) -> Array:

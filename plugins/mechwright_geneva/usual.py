@@ -30,6 +30,14 @@ STEP = 5.0
 ROLLER = 0.1
 """Diameter of the roller over l."""
 
+SMALL_ROLLER, MOST_ROLLER = 3.0, 0.2
+"""Of small wheels the roller may be as large as this, mm, and over l: thinner pins bend, and hardly a tool
+makes their holes."""
+
+WORTH_ROLLER, WORTH_SHARE = 2.0, 0.15
+"""Diameter of a roller, mm, and over l, down to which other angles are looked for on small wheels: its pin is
+of 1.2 mm."""
+
 LEAST_ROLLER = 0.036
 """The same where the slots are narrow: below it, other angles are looked for."""
 
@@ -40,8 +48,16 @@ SHAFT, FAIR_SHAFT, LEAST_SHAFT = 0.12, 0.08, 0.04
 """Diameter of the shafts over l; what a wheel that is left out is sized for, and dowels give way to; and the
 least that is taken where a given wheel leaves no more."""
 
+LOAD = 0.01
+"""Moment of inertia that turns with the wheel, kg m²: about that of a usual wheel of steel."""
+
+CRANK = 8.0
+"""Thickness of the crank plate."""
+
 _WALL, _WALL_SHARE = 2.0, 1 / 35
-_DOWEL, _DOWEL_SHARE = 4.0, 0.06
+_DOWELS, _DOWEL_SHARE = (2.0, 4.0), 0.06
+_FINE, _DEEP = 2.0, 3.5
+"""Diameter of pins below which drills are hard to get; how deep end mills cut their holes, in diameters."""
 
 
 def walls_of(entry_radius: Array) -> Array:
@@ -55,14 +71,46 @@ def wall_of(entry_radius: float) -> float:
     return float(walls_of(np.asarray(entry_radius)))
 
 
+def roller_of(entry_radius: float) -> float:
+    """Largest roller that is tried on a wheel: its diameter."""
+    return max(ROLLER * entry_radius, min(SMALL_ROLLER, MOST_ROLLER * entry_radius))
+
+
+def least_rollers_of(entry_radius: float) -> tuple[float, ...]:
+    """Smallest roller for which other angles are looked for, then the smallest at all: diameters."""
+    least = LEAST_ROLLER * entry_radius
+    worth = max(least, min(WORTH_ROLLER, WORTH_SHARE * entry_radius))
+    return (worth, least) if worth > least else (least,)
+
+
 def dowels_of(entry_radius: Array) -> Array:
-    """Largest dowels (...): 4 mm, or 0.06 l."""
-    return np.asarray(np.minimum(_DOWEL, _DOWEL_SHARE * entry_radius))
+    """Largest dowels (...): 0.06 l, 2 to 4 mm."""
+    return np.asarray(np.clip(_DOWEL_SHARE * entry_radius, *_DOWELS))
 
 
 def dowel_of(entry_radius: float) -> float:
     """Of one wheel."""
     return float(dowels_of(np.asarray(entry_radius)))
+
+
+def cranks_of(pin: Array) -> Array:
+    """Thicknesses (...) of crank plates for pins, which are mostly drilled."""
+    return np.asarray(np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK))
+
+
+def crank_of(pin: float) -> float:
+    """Of one."""
+    return float(cranks_of(np.asarray(pin)))
+
+
+def loads_of(entry_radius: Array) -> Array:
+    """Moments of inertia (...), kg m²: of smaller wheels as that of a disc, with l to the fourth."""
+    return np.asarray(LOAD * np.minimum(1.0, entry_radius / WHEEL) ** 4)
+
+
+def load_of(entry_radius: float) -> float:
+    """Of one wheel."""
+    return float(loads_of(np.asarray(entry_radius)))
 
 
 def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:

@@ -5,7 +5,7 @@ slide. The crank's pin and shaft are pressed into the crank, the slider's pin in
 dowels into rails and base. Rod and base carry bushings.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -176,26 +176,38 @@ def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[
     return [Plate(name, name, outlines[name], params.thickness) for name in MOVING]
 
 
-def standing(params: SliderCrankParams) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
-    """Plates but the base, spindles without heads, poses, and the clearance that they keep.
+def standing(
+    params: SliderCrankParams, wanted: Set[str]
+) -> tuple[list[Plate], list[Spindle], dict[str, Poses], float]:
+    """Some plates above the base, spindles without heads, poses, and the clearance that they keep.
 
-    Rails go on as far as the design says, or by their width.
+    Plates are ``wanted`` by name, or ``"rail"``. Rails go on as far as the design says, or by their width.
     """
     sizes = sizes_of(params)
-    outlines = {"crank": crank_outline(params), "rod": rod_outline(params), "slider": slider_outline(sizes)}
-    outlines["rail"], rails, dowels = rails_of(params, sizes, ends_of(params))
+    made: dict[str, Callable[[], Outline]] = {
+        "crank": lambda: crank_outline(params),
+        "rod": lambda: rod_outline(params),
+        "slider": lambda: slider_outline(sizes),
+    }
+    plates = [Plate(name, name, made[name](), params.thickness) for name in MOVING if name in wanted]
+    rail, rails, dowels = rails_of(params, sizes, ends_of(params))
+    if "rail" in wanted:
+        plates += _rails(params, rail, rails)
     poses = _link_poses(params, course_of(params).way(TURN_SAMPLES))
-    spindles = _spindles(params, sizes, dowels, heads=False)
-    return _above(params, outlines, rails), spindles, poses, params.clearance
+    return plates, _spindles(params, sizes, dowels, heads=False), poses, params.clearance
 
 
 def _above(
     params: SliderCrankParams, outlines: Mapping[str, Outline], rails: tuple[complex, complex]
 ) -> list[Plate]:
     """The plates above the base."""
-    return _moving(params, outlines) + [
-        Plate(f"rail-{number}", "base", outlines["rail"].moved(place.real, place.imag), params.thickness)
-        for number, place in enumerate(rails, start=1)
+    return _moving(params, outlines) + _rails(params, outlines["rail"], rails)
+
+
+def _rails(params: SliderCrankParams, outline: Outline, places: tuple[complex, complex]) -> list[Plate]:
+    return [
+        Plate(f"rail-{number}", "base", outline.moved(place.real, place.imag), params.thickness)
+        for number, place in enumerate(places, start=1)
     ]
 
 

@@ -41,6 +41,26 @@ def _along(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> fl
 
 
 @compiled
+def _polygon(
+    x: float, y: float, ax: float, ay: float, bx: float, by: float, boss: float, turn: float
+) -> float:
+    """What a point is at most away from the polygon of a straight rod: from a side, or from a corner.
+
+    The corners of a boss are ``turn`` apart, seen from its middle, and the first are the ends of the sides.
+    """
+    dx, dy = bx - ax, by - ay
+    share = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)
+    if 0.0 < share < 1.0:
+        return _along(x, y, ax, ay, bx, by) - boss
+    if share >= 1.0:
+        ax, ay, dx, dy = bx, by, -dx, -dy
+    x, y = x - ax, y - ay
+    beyond = math.atan2(-(dx * x + dy * y), abs(dx * y - dy * x)) / turn
+    off = turn * abs(beyond - round(beyond))
+    return math.hypot(math.hypot(x, y) * math.cos(off) - boss, math.hypot(x, y) * math.sin(off))
+
+
+@compiled
 def _keep(found: Array, room: int, low: float, high: float) -> None:
     found[room, 0], found[room, 1] = min(found[room, 0], low), min(found[room, 1], high)
 
@@ -91,6 +111,9 @@ def rooms(bars: Array, ways: Array, sizes: Array, circle: Array, chord: float, r
                 ax[i], ay[i] = a * math.cos(theta), a * math.sin(theta)
             extent[i] = math.sqrt(c * c - (e - ay[i]) ** 2)
             s[i] = ax[i] + branch * extent[i]
+        corners = math.pi / max(
+            3, math.ceil(math.pi / (4 * math.asin(math.sqrt(min(chord / (2 * boss), 0.5)))))
+        )
         turn = 2 * math.sin(abs(ways[one, 1]) / (samples - 1) / 2)
         pin_step, disc_step = BEND * a * turn, BEND * disc * turn
         for y in (e - apart, e + apart):
@@ -131,7 +154,10 @@ def rooms(bars: Array, ways: Array, sizes: Array, circle: Array, chord: float, r
             for y in (e - apart, e + apart):
                 for x in (middle - dowel, middle + dowel):
                     gap = max(_along(x, y, ax[i], ay[i], s[i], e) - boss, 0.0)
-                    _keep(out, DOWEL_ROD, gap - much / 2, gap + chord - little / 2)
+                    most = gap + chord
+                    if gap - little / 2 < out[DOWEL_ROD, 1]:
+                        most = min(most, _polygon(x, y, ax[i], ay[i], s[i], e, boss, corners))
+                    _keep(out, DOWEL_ROD, gap - much / 2, max(most, 0.0) - little / 2)
         if not rods:
             out[SHAFT_ROD], out[DOWEL_ROD] = (-math.inf, math.inf), (-math.inf, math.inf)
     return found

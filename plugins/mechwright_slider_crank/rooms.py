@@ -169,14 +169,22 @@ _MEASURED: Mapping[int, tuple[str, str]] = {
     DOWEL_SLIDER: ("dowel", "slider"),
 }  # fmt: skip
 
+_PLATES: Mapping[int, tuple[str, ...]] = {
+    **{room: (plate,) for room, (_, plate) in _MEASURED.items()},
+    CRANK_SLIDER: ("crank", "slider"), CRANK_RAIL: ("crank", "rail"),
+}  # fmt: skip
+"""The plates that a room is between, or beside."""
+
 
 def measure(designs: Designs, place: int, overhang: float, blocked: Bools, free: Bools) -> None:
     """Measure the rooms of a design that bounds leave open, as its layers are found with such rails."""
     changes = {name: values[place].item() for name, values in designs.varied.items()}
     changes["rail_overhang"] = float(overhang)
-    plates, spindles, poses, clearance = standing(designs.common.model_copy(update=changes))
+    left = np.flatnonzero(~blocked[place] & ~free[place]).tolist()
+    wanted = {name for room in left for name in _PLATES[room]}
+    plates, spindles, poses, clearance = standing(designs.common.model_copy(update=changes), wanted)
     close = Closeness(plates, spindles, poses, clearance)
-    for room in np.flatnonzero(~blocked[place] & ~free[place]).tolist():
+    for room in left:
         if room in _MEASURED:
             first, second = _MEASURED[room]
             hit = any(
@@ -188,7 +196,7 @@ def measure(designs: Designs, place: int, overhang: float, blocked: Bools, free:
                 and plate.name not in spindle.plates
             )
         else:
-            other = "slider" if room == CRANK_SLIDER else "rail"
+            other = _PLATES[room][1]
             crank = next(plate for plate in plates if plate.name == "crank")
             hit = any(close.plates(crank, plate) for plate in plates if plate.name.startswith(other))
         blocked[place, room], free[place, room] = hit, not hit

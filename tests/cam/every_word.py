@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from by_control import BY_NAME, interpret
+from klartext_blocks import anew
 from rs274 import RS274, run_rs274
 
 from mechwright.errors import ProgramError
@@ -47,6 +48,104 @@ SMALL["siemens-840d"] = (
     "G17 G710 G40 G90 G94 COMPOF\nG64\nG0 SUPA Z0 D0\nT1\nM6\nG54 S900 M3\nG0 X1 Y2\nD1 Z5\nM8\nG1 Z-1 F90\n"
     "X9\nG2 X9 Y8 I0 J3\nG3 Y2 CR=3\nG4 F0.5\nG0 Z5\nM9\nM5\nG0 SUPA Z0 D0\nM0\nM30\n"
 )
+SMALL["heidenhain-tnc"] = """\
+0 BEGIN PGM SMALL MM
+1 CYCL DEF 247 Q339=+1
+2 CYCL DEF 32.0 TOLERANCE
+3 CYCL DEF 32.1 T0.002
+4 L Z+0 R0 FMAX M91
+5 TOOL CALL 1 Z S900
+6 M3
+7 L X+1 Y+2 R0 FMAX
+8 L Z+5 R0 FMAX
+9 M8
+10 L Z-1 F90
+11 L X+9
+12 CC X+9 Y+5
+13 C X+9 Y+8 DR+
+14 CR X+9 Y+2 R+3 DR+
+15 CC X+9 Y+5
+16 CP IPA+360 IZ-1 DR+
+17 CYCL DEF 9.0 DWELL TIME
+18 CYCL DEF 9.1 DWELL 0.5
+19 TOOL DEF 7
+20 L Z+5 R0 FMAX
+21 M9
+22 M5
+23 L Z+0 R0 FMAX M91
+24 STOP
+25 M30
+26 END PGM SMALL MM
+"""
+KLARTEXT = (
+    *(
+        f"{name}{number}"
+        for name in ("IX", "IY", "IZ", "PR", "PA", "IPA", "IPR", "DL", "DR", "RX")
+        for number in NUMBERS
+    ),
+    *(f"{letter}+{number}" for letter in "XYZRQ" for number in NUMBERS if number[0] != "-"),
+    *(
+        "R0",
+        "RL",
+        "RR",
+        "FMAX",
+        "F MAX",
+        "FAUTO",
+        "F AUTO",
+        "FU0.1",
+        "FZ0.1",
+        "FT2",
+        "DR+",
+        "DR-",
+        "R",
+        "F",
+        "X",
+        "M",
+    ),
+    *(
+        "L",
+        "C",
+        "CC",
+        "CR",
+        "CP",
+        "CT",
+        "CTP",
+        "LP",
+        "LN",
+        "RND",
+        "CHF",
+        "APPR LT",
+        "DEP LT",
+        "FL",
+        "FC",
+        "STOP",
+        "END",
+    ),
+    *("LBL 1", "LBL 0", "CALL LBL 1", "CALL PGM A", "CYCL CALL", "CYCL DEF 7.0", "CYCL DEF 200 DRILLING"),
+    *(
+        "TOOL CALL",
+        "TOOL CALL 7 Z S900",
+        "TOOL CALL Z S500",
+        "TOOL DEF 2",
+        "PLANE RESET STAY",
+        "FN 0: Q1 = +1",
+    ),
+    *(
+        "Q1 = 5",
+        "BLK FORM 0.1 Z X+0 Y+0 Z-5",
+        "/",
+        "~",
+        ";",
+        "* - A",
+        "A+1",
+        "B+1",
+        "M91",
+        "M92",
+        "M128",
+        "M140 MB5",
+    ),
+)
+"""Words of Klartext, beside which those of the others are tried."""
 
 
 @dataclass(frozen=True)
@@ -67,13 +166,18 @@ def tries(control: str, words: tuple[str, ...] = WORDS) -> Iterator[Try]:
     """Every word in and before every block of a control's program."""
     lines = SMALL[control].splitlines()
     for index, line in enumerate(lines):
-        if line.startswith("O"):
+        if line.startswith(("O", "0 ")):
             continue
         for word in words:
             for alone in (False, True):
                 put = [word, line] if alone else [f"{line} {word}"]
-                text = "\n".join([*lines[:index], *put, *lines[index + 1 :], ""])
+                text = anew("\n".join([*lines[:index], *put, *lines[index + 1 :], ""]))
                 yield Try(control, line, word, alone, text)
+
+
+def words_of(control: str) -> tuple[str, ...]:
+    """The words that are tried on a control."""
+    return WORDS + KLARTEXT if control == "heidenhain-tnc" else WORDS
 
 
 def seen(text: str, control: str) -> tuple[list[str], bytes, bytes]:
@@ -106,10 +210,11 @@ MODAL = re.compile(
 """Words that hold until another of their group: one that is said again before it counts shows nowhere."""
 SAYS_NOTHING = re.compile(
     r"N.*|O\d+|"  # the numbers of lines and programs
-    r"G(9|15|50|69)|M(19|31|33|48|49|88|89)"  # they change no path (docs/controls.md)
+    r"G(9|15|50|69)|M(19|31|33|48|49|88|89)|"  # they change no path (docs/controls.md)
+    r"/|;|\* - A|BLK .*|D[LR]0|TOOL DEF 7|R\+?0"  # of Klartext: what is skipped, drawn or said, and what is 0
 )
 """Words that never show."""
-SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2", "K0", "K1", "L1"}
+SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2", "K0", "K1", "L1", "X+1"}
 """Words that say in some blocks what is so without them: a place, one turn, a Q as large as P, a cycle run once."""
 
 
@@ -155,7 +260,7 @@ def main(*controls: str) -> int:
     found: list[str] = []
     for control in controls or SMALL:
         with tempfile.TemporaryDirectory() as folder:
-            count, wrong = judged(control, WORDS, Path(folder))
+            count, wrong = judged(control, words_of(control), Path(folder))
         told = [f"{control}: " + ", ".join(f"{name} {n}" for name, n in count.items()), *wrong]
         sys.stdout.write("\n    ".join(told) + "\n")
         sys.stdout.flush()

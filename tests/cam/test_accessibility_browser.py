@@ -21,6 +21,23 @@ AXE = importlib.util.find_spec("axe_playwright_python")
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 WIDTHS = (1400, 390)
 
+STUDY = """
+format = 1
+family = "four-bar"
+name = "few"
+[study]
+count = 64
+front = 1
+columns = ["least_transmission_angle", "time_ratio"]
+[study.ranges]
+crank = { least = 20, greatest = 45 }
+coupler = { least = 60, greatest = 120 }
+follower = { least = 50, greatest = 100 }
+[study.objectives]
+swing = "greatest"
+alpha_b_max = "least"
+"""
+
 pytestmark = [
     by_night,
     pytest.mark.skipif(CHROMIUM is None or AXE is None, reason="no chromium, or no axe-core"),
@@ -29,7 +46,7 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory):
-    """Pages of a pair in its machine: model, programs, motion, drive, and what verify says of a program."""
+    """Pages of a pair in its machine: model, programs, motion, drive, what verify says; and of a study."""
     folder = tmp_path_factory.mktemp("pages")
     pair, gear = (
         ROOT / "examples" / "elliptic-pair.toml",
@@ -42,6 +59,9 @@ def pages(tmp_path_factory):
     ):
         done = commands.run(command, design, "-o", folder / design.stem)
         assert done.returncode == 0, done.stderr
+    study = folder / "few.toml"
+    study.write_text(STUDY, encoding="utf-8")
+    assert commands.run("sweep", study, "-o", folder / "few", "--workers", "1").returncode == 0
     program = folder / pair.stem / "gear.nc"
     commands.run("verify", program, "--design", pair, "--part", "gear", "--page", folder / "report.html")
     return sorted(folder.rglob("*.html"))
@@ -63,6 +83,7 @@ def test_pages(browser, pages, scheme):
         "gear.setup.html",
         "assembly.html",
         "report.html",
+        "study.html",
     }
     wrong = {}
     for width in WIDTHS:

@@ -4,19 +4,19 @@ from pathlib import Path
 
 import pytest
 from by_control import interpret
-from every_word import SMALL, WORDS, judged
+from every_word import SMALL, judged, words_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
 
-SAMPLE = WORDS[::97]
-"""A hundredth; ``python tests/cam/every_word.py`` tries them all."""
+EACH = 97
+"""One of so many words; ``python tests/cam/every_word.py`` tries them all."""
 START = "G21 G17 G90 G94\nG0 X0 Y0 Z5\n"
 
 
 @pytest.mark.parametrize("control", SMALL)
 def test_a_word_is_read_or_refused_in_every_block(control: str, tmp_path: Path) -> None:
-    count, wrong = judged(control, SAMPLE, tmp_path)
+    count, wrong = judged(control, words_of(control)[::EACH], tmp_path)
     assert not wrong
     assert count["refused"] > 300
     assert count["read"] > 0

@@ -365,3 +365,20 @@ def test_no_drawing_is_one_line(tmp_path: Path, data: bytes) -> None:
     with pytest.raises(DesignError) as error:
         read_drawing(path, THICK, "steel")
     assert "\n" not in str(error.value)
+
+
+def test_holes_are_drilled_from_one_r_plane_to_the_next(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
+    """G99 on a bare plate; where clamps on its edge are not named, or a plane is asked for, it is too low."""
+    text = coupler_program().replace("G98 G83", "G99 G83")
+    assert text.count("G99") == 1
+    code, _, err = verified(command_line, tmp_path, drawing, text, "--hold", "vacuum")
+    assert (code, err) == (0, ""), err
+    low = text.replace("R2.", "R0.1")
+    code, _, err = verified(command_line, tmp_path, drawing, low, "--hold", "vacuum")
+    assert "a sideways rapid over the stock at Z0.1, the least is Z0.2; go up first" in err
+    code, _, err = verified(command_line, tmp_path, drawing, text, "--hold", "vacuum", "--set", "clearance=5")
+    assert (
+        "the clearance plane is Z5; go up first, or set cam.clearance if nothing stands higher there" in err
+    )
+    code, _, err = verified(command_line, tmp_path, drawing, text)
+    assert "[rapid-height]" in err

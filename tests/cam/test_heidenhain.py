@@ -9,6 +9,7 @@ from by_control import BY_NAME, asked, interpret, prove
 from golden_operations import made
 from golden_programs import every_operation
 from klartext_blocks import anew, numbered
+from machine_programs import job_of, text_of
 
 from mechwright.contracts.finding import errors
 from mechwright.errors import ProgramError
@@ -111,7 +112,8 @@ def test_feeds_in_inches_are_in_tenths() -> None:
         (("L X+5 X+6 F9",), "two X words"),
         (("L X+5 F100 M91",), "machine coordinates are read with FMAX alone"),
         (("L X+5 FMAX M92",), "write M91"),
-        (("L X+5 FMAX M5",), "acts at its end"),
+        (("L X+5 FMAX M0",), "acts at its end"),
+        (("L X+5 FMAX M30",), "acts at its end"),
         (("L M140 MB MAX",), "no word that is read"),
         (("L X+5 FMAX M99",), "cycles are not read"),
         (("L X+5 FMAX M3 M8 M13",), "more than 2 M functions"),
@@ -368,3 +370,15 @@ def test_a_dwell_and_a_stop_are_read() -> None:
     run = interpret(program("CYCL DEF 9.0 DWELL TIME", "CYCL DEF 9.1 DWELL 2.5", "M5", "M0"), TNC)
     assert run.seconds[run.kind == Kind.DWELL].tolist() == [2.5]
     assert (run.kind == Kind.STOP).sum() == 1
+
+
+def test_a_spindle_that_stops_beside_a_move_stops_behind_it() -> None:
+    """Up with M5 is how retracts end; along the work it would stop in the material."""
+    text = text_of("heidenhain-tnc")
+    up = re.sub(r"(L Z\+5 R0 FMAX)\n\d+ M9\n\d+ M5", r"\1 M9 M5", text)
+    assert up.count("M9 M5") == 3
+    assert prove(anew(up), job_of("heidenhain-tnc"), TNC).ok
+    cut = re.sub(r"(L X\+22)(?=\n)", r"\1 M5", text, count=1)
+    (said, *_) = prove(cut, job_of("heidenhain-tnc"), TNC).failures
+    assert "while the spindle turns not at all" in said.message or "starts or stops while T3" in said.message
+    assert said.line is not None

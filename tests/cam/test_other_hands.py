@@ -75,6 +75,11 @@ REFUSED = {
         "^(G98 G83.*)$",
         r"\1 K3",
     ): "G83 is run as often as K3 says, which is not read; write each hole",
+    (
+        "fanuc",
+        "^G1 Z0. F400.$",
+        "M5\nG1 Z0. F400. M3",
+    ): "M3 beside a feed: whether Fanuc starts the spindle before",
     ("fanuc", "^G80$", "G80 G81 X0. Z-1. R2."): "G80 and G81 exclude each other (cycle)",
     ("fanuc", "^G98 G83", "G0 G98 G83"): "G0 and G83 exclude each other (motion)",
     ("linuxcnc", "^G80$", "G80\nZ50"): "an axis without a motion",

@@ -112,7 +112,7 @@ def test_a_standing_cutter_does_not_go_into_what_it_has_cut(
 def test_only_the_way_up_is_free_from_where_the_spindle_stopped(control: str) -> None:
     """In the middle of the recess, clear of floor and walls."""
     klartext = control == "heidenhain-tnc"
-    feed, turn = ("L Z-1.5 R0 F500", "L M3") if klartext else ("G1 Z-1.5 F500", "M3")
+    feed, turn = ("L Z-1.5 R0 F500", "L M3") if klartext else ("G1 Z-1.5 F500.", "M3")
     stop = [rapid(control, x=0), turn, feed, "M5"]
     assert after_m5(control, "pocket-contour", *stop, rapid(control, z=5))[0].passed
     for way in ({"x": 0.5}, {"z": -1.6}, {"x": 0.5, "z": 5}):

@@ -5,12 +5,17 @@ from types import SimpleNamespace
 
 import pytest
 
+import mechwright as mw
 from mechwright import DesignError, host
+from mechwright.contracts.finding import errors
 from mechwright.designs.design import design_of
 from mechwright.remedies.advice import advised
 from mechwright.remedies.keys import keys_of
+from mechwright_cam.inspection import Machinable
+from mechwright_cam.planning.remarks import refusal
 from mechwright_cam.setup.tab_places import LEAST_TAB_WIDTH, tab_width
 
+TAPE = {"cam.hold.method": "none", "cam.hold.bed": "tape"}
 BORE = {"cam.hold.method": "bore"}
 
 
@@ -23,3 +28,15 @@ def test_no_room_for_tabs_advises_another_hold_by_its_key(slopes, changes):
         tab_width(narrow, 4, slopes)
     design = design_of({"format": 1, "family": "elliptic-gears", "name": "a"}, Path("a.toml"), "", host())
     assert list(advised(str(caught.value), None, keys_of(design))) == changes
+
+
+def test_a_part_too_small_for_tabs_and_clamp_is_taped_down():
+    """A film's Geneva wheel: its horns are too thin for tabs, its bore is too small for a clamp."""
+    error = DesignError("cam.hold.tabs: outside has room for 0 tabs of at least 0.5 mm, not for 4; use bore")
+    found = refusal(error, part="wheel")
+    assert found.message.startswith("wheel: outside has room")
+    assert found.proposed == (BORE, TAPE)
+    sizes = {"law": "straight", "entry_radius": 15, "thickness": 4, "speed": 960, "load_inertia": 1e-6}
+    for hold, codes in (({}, ["cam.cannot-cut"]), ({"method": "none", "bed": "tape"}, [])):
+        film = mw.design("geneva", cam={"hold": hold}, **sizes)
+        assert [one.code for one in errors(Machinable().findings(film))] == codes

@@ -27,7 +27,19 @@ EXAMPLES = [
 OTHERS = ("template", "pyproject", "/shops/")  # shop files have a schema of their own
 EXAMPLES = [path for path in EXAMPLES if not any(other in path.as_posix() for other in OTHERS)]
 KNOWN = {
-    *("$schema", "$defs", "$ref", "title", "description", "default", "unit", "first", "given", "examples"),
+    *(
+        "$schema",
+        "$defs",
+        "$ref",
+        "title",
+        "description",
+        "default",
+        "unit",
+        "first",
+        "given",
+        "fitted",
+        "examples",
+    ),
     *("type", "properties", "required", "additionalProperties", "enum", "const", "pattern", "format"),
     *("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "minLength", "maxLength"),
     *("items", "prefixItems", "minItems", "maxItems", "uniqueItems", "anyOf", "allOf", "if", "then"),
@@ -203,7 +215,7 @@ VALUES: dict[str, tuple[type, ...]] = {
     **dict.fromkeys(("$schema", "$ref", "title", "description", "unit", "pattern", "format"), (str,)),
     **dict.fromkeys(("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"), (int, float)),
     **dict.fromkeys(("minLength", "maxLength", "minItems", "maxItems"), (int,)),
-    **dict.fromkeys(("first", "uniqueItems"), (bool,)),
+    **dict.fromkeys(("first", "fitted", "uniqueItems"), (bool,)),
     **dict.fromkeys(("required", "enum", "examples"), (list,)),
     **dict.fromkeys(("items", "if", "then"), (dict,)),
     **dict.fromkeys(("additionalProperties",), (dict, bool)),

@@ -44,6 +44,13 @@ STUDIES = {
         arm_length=(40, 120),
         pivot_bore=(4, 18),
     ),
+    "keyed slides": batch(
+        {"bore": 14, "keyway_width": 5, "keyway_relief": 1, "screw_diameter": 3},
+        8,
+        base_radius=(14, 40),
+        roller_radius=(4, 10),
+        screw_circle=(18, 40),
+    ),
     "pairs of slides": batch(
         {"conjugate": True, "laws": ["modified-sine", "3-4-5"]},
         10,
@@ -110,9 +117,19 @@ def test_what_moves_is_not_judged_for_its_parts():
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, asked, Stage.MOTION))
 
 
-def test_keyways_are_left_to_each():
-    designs = Designs(CamParams.model_validate({"keyway_width": 5}), {"base_radius": np.array([40.0])})
-    assert not covered(designs)
+@pytest.mark.parametrize("keyway", [{"keyway_width": 4.5}, {"keyway_width": 5, "keyway_relief": 9}])
+def test_keyways_that_are_none_forbid_all(keyway):
+    few = Batch(CamParams, {"bore": 14, **keyway}, {"base_radius": np.array([40.0, 50.0])})
+    found = FAMILY.evaluate(few, ())
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, (), Stage.PARTS))
+    assert found.forbidden.all()
+
+
+def test_shafts_with_keys_that_are_varied_are_left_to_each():
+    keyed = CamParams.model_validate({"keyway_width": 5})
+    assert covered(Designs(keyed, {"base_radius": np.array([40.0])}))
+    assert not covered(Designs(keyed, {"bore": np.array([15.0])}))
+    assert not covered(Designs(CamParams(), {"keyway_width": np.array([5.0])}))
 
 
 def test_kinds_that_are_varied_are_evaluated_kind_by_kind(monkeypatch):

@@ -8,7 +8,9 @@ import pytest
 from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.checks import findings, judged
 from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.gear import pair_of
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.proof import first_collision, prove
 from mechwright_elliptic_gears.strength_checks import strength_findings
 from mechwright_elliptic_gears.tip_reach import may_collide, that_clear, tip_depth
 
@@ -47,6 +49,22 @@ def test_the_judge_finds_a_collision_and_what_is_proposed_against_it_helps() -> 
     for change in found.proposed:
         better = COLLIDES.model_copy(update={key.removeprefix("parameters."): v for key, v in change.items()})
         assert not errors(findings(better)), change
+
+
+@pytest.mark.parametrize("teeth", [30, 31])
+@pytest.mark.parametrize("dedendum", [1.05, 1.25])
+def test_a_part_of_the_turn_tells_what_the_whole_one_does(teeth: int, dedendum: float) -> None:
+    """Rows of teeth that are mirror images of themselves, and such that are not."""
+    params = EllipticGearParams(eccentricity=0.4, teeth=teeth, dedendum=dedendum)
+    whole = prove(params)
+    depth, allowance = first_collision(params)
+    assert allowance == whole.allowance
+    assert whole.collides == (depth > 0) == (dedendum == 1.05)
+    assert depth == pytest.approx(whole.mesh.depth.max(), rel=0.05)
+    span = (0.25, 0.5 if teeth % 2 else 0.75)
+    place = whole.mesh.arc / pair_of(params).driver.perimeter
+    seen = whole.mesh.depth[(place >= span[0]) & (place <= span[1])]
+    assert seen.max() == pytest.approx(whole.mesh.depth.max(), rel=0.05)
 
 
 def test_a_usual_rack_asks_no_mesh_proof() -> None:

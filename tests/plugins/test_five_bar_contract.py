@@ -40,13 +40,13 @@ class TestFiveBars(DayContract):
     refused = (
         ({"swing_from": 10}, "swing_to"),
         ({"coupler": 10, "rocker": 20}, "coupler"),
-        ({"crank": 10}, "crank"),
+        ({"crank": 10, "pin_diameter": 8, "rim": 4}, "crank"),
         ({"module": 2.0}, "module"),
         ({"module": 3.2}, "module"),
         ({"idler_teeth": 12}, "idler_teeth"),
         ({"idler_teeth": 0, "module": 2.0}, "module"),
         ({**LEVER, "swing_to": -150}, "swing_to"),
-        ({"coupler_point_x": 3, "coupler_point_y": 0}, "coupler_point_x"),
+        ({"coupler_point_x": 3, "coupler_point_y": 0, "pin_diameter": 8, "rim": 4}, "coupler_point_x"),
     )
     derivatives = (
         ("theta", "omega_a"),

@@ -1,6 +1,7 @@
 """Linkages that guide a body or answer a crank, against the independent check and against their own motion."""
 
 import math
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
@@ -12,6 +13,7 @@ from synthesis_reference import fact, facts
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.burmester import dyads, freudenstein
 from mechwright_four_bar.burmester.dyads import Poses
+from mechwright_four_bar.burmester.kept import driven
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.dimensions import FourBar
@@ -282,3 +284,48 @@ def test_a_body_that_turns_about_one_point_has_infinitely_many_dyads():
     assert not result.candidates
     assert [one.code for one in result.findings] == ["poses.infinite"]
     assert not dyads.of_five(poses_of(FIVE)).infinite
+
+
+@pytest.mark.parametrize(
+    ("answer", "within"),
+    [
+        pytest.param(lambda x: 90 * (x / 90) ** 2, 0.1, id="square", marks=by_night),
+        pytest.param(lambda x: 60 * np.sqrt(x / 90), 1.8, id="root"),
+    ],
+)
+def test_a_function_is_fitted_within_the_limits(answer, within):
+    """Where the nearest linkages break the limits, those that keep them are found, not refused."""
+    x = np.linspace(0, 90, 10)
+    result = asked("function", crank_angles=list(x), follower_angles=list(answer(x)))
+    assert math.degrees(result.candidates[0].residual.value) < within
+    for one in result.candidates:
+        assert one.figures["least_transmission_angle"].value >= math.radians(20)
+        assert one.figures["longest_link"].value <= 400
+
+
+def test_a_crank_that_could_turn_swings_where_its_turn_would_be_too_weak():
+    """30-80-70-90 falls to 43.5 degrees over a turn, and stays above 60 over this swing."""
+    bar = FourBar(30, 80, 70, 90)
+    way = Way(bar, np.radians([60.0, 70.0, 80.0]), True)
+    over_turn, over_swing = (math.degrees(each.least_angle) for each in (way, replace(way, full=False)))
+    assert over_turn < 50 < over_swing
+    asked_for = PosesRequirement(least_transmission_angle=50)
+    assert not driven(way, asked_for).full
+    assert driven(way, PosesRequirement(least_transmission_angle=30)).full
+    assert driven(way, PosesRequirement(least_transmission_angle=50, drive="crank")).full
+    assert not driven(way, PosesRequirement(least_transmission_angle=30, drive="lever")).full
+    assert driven(way, PosesRequirement(least_transmission_angle=80)).full
+
+
+def test_pairs_that_no_linkage_meets_within_the_limits_are_answered_nearly():
+    """Five pairs, whose one exact linkage falls below the transmission angle."""
+    pairs = {"crank_angles": [0, 15, 35, 55, 70], "follower_angles": [0, 28, 54, 75, 90]}
+    weak = asked("function", **pairs, least_transmission_angle=1, longest_link=2000)
+    most = max(math.degrees(one.figures["least_transmission_angle"].value) for one in weak.candidates)
+    assert all(one.residual.value < 1e-9 for one in weak.candidates)
+    result = asked("function", **pairs, least_transmission_angle=most + 5)
+    assert [one.code for one in result.findings] == ["function.nearest", "function.found"]
+    assert "exactly" in result.findings[0].message
+    assert 1e-6 < result.candidates[0].residual.value < math.radians(5)
+    for one in result.candidates:
+        assert math.degrees(one.figures["least_transmission_angle"].value) >= most + 5

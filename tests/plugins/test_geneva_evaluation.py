@@ -50,6 +50,18 @@ STUDIES = {
          "centre_distance": np.linspace(90, 200, 16), "roller_radius": np.full(16, 4.0),
          "lock_radius": np.linspace(20, 60, 16), "hub_height": np.linspace(4, 8, 16)},
     ),
+    "keyed": (
+        {"slots": 6, "law": "3-4-5", "crank_half_angle": 58, "offset_angle": 10, "hub_diameter": 24},
+        {"entry_radius": np.tile(np.linspace(60, 160, 8), 4), "roller_radius": np.tile(np.linspace(3, 8, 8), 4),
+         "keyway_width": np.repeat([0.0, 2.0, 3.0, 4.5], 8), "driver_keyway_width": np.repeat([3.0, 3.0, 0.0, 2.0], 8),
+         "keyway_relief": np.tile([0.0, 0.6, 1.2, 4.0], 8)},
+    ),
+    "keyed shafts": (
+        {"slots": 6, "crank_half_angle": 58, "offset_angle": 10, "roller_radius": 4, "keyway_width": 3,
+         "driver_keyway_width": 4},
+        {"entry_radius": np.linspace(60, 120, 12), "bore": np.linspace(0.1, 16, 12),
+         "driver_bore": np.linspace(18, 2, 12)},
+    ),
     "backwards": (
         {"crank_half_angle": 60, "offset_angle": 10, "slots": 6, "driver_direction": "backwards"},
         {"entry_radius": np.linspace(70, 120, 5), "roller_radius": np.linspace(3, 6, 5)},
@@ -73,7 +85,7 @@ def test_they_are_what_each_is_by_itself(study, stage):
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, COLUMNS, stage))
 
 
-@pytest.mark.parametrize("study", ["curved", "loaded", "sized", "straight"])
+@pytest.mark.parametrize("study", ["curved", "loaded", "sized", "straight", "keyed", "keyed shafts"])
 def test_formulas_decide_nearly_all(study):
     content, varied = STUDIES[study]
     batch = Batch(GenevaParams, content, varied)

@@ -245,3 +245,22 @@ def test_a_disc_that_the_horns_cut_is_refused_with_one_that_they_miss():
     most = float(re.search(r"at most ([\d.]+)", finding.remedy)[1])
     assert most < 26
     assert errors(check(**table, lock_radius=most)) == []
+
+
+@pytest.mark.parametrize(("radius", "inertia"), [(20.0, 1.6e-5), (100.0, 0.01), (400.0, 0.01)])
+def test_a_load_that_is_left_out_is_in_proportion_to_a_small_wheel(radius: float, inertia: float) -> None:
+    assert sized(GenevaParams(entry_radius=radius)).load_inertia == pytest.approx(inertia)
+    assert sized(GenevaParams(entry_radius=radius, load_inertia=0.02)).load_inertia == 0.02
+
+
+def test_a_small_mechanism_bears_its_load_by_default() -> None:
+    assert errors(GENEVA.judge(GenevaParams(centre_distance=40))) == []
+    heavy = GENEVA.judge(GenevaParams(centre_distance=40, load_inertia=0.01))
+    assert [one.code for one in errors(heavy)] == ["geneva.stud"]
+
+
+@pytest.mark.parametrize(("axes", "dowel", "crank"), [(40.0, 2.0, 5.25), (60.0, 2.5, 8.0), (200.0, 4.0, 8.0)])
+def test_what_is_chosen_for_a_small_mechanism_can_be_cut(axes: float, dowel: float, crank: float) -> None:
+    """Holes of dowels of 2 mm are drilled; those of pins of 1.5 mm are milled, in a plate that is not too thick."""
+    table = sized(GenevaParams(centre_distance=axes))
+    assert (table.fixing, table.crank_thickness) == (dowel, crank)

@@ -182,7 +182,6 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
 @pytest.mark.parametrize(
     ("machine", "parameters", "code", "fix"),
     [
-        ({}, {"example": FIVE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
         pytest.param(
             {},
             {"example": FIVE, "post_offset": 0},
@@ -190,8 +189,6 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
             {"parameters.post_offset": 29},
             marks=by_night,
         ),
-        ({}, {"example": EIGHT, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
-        ({}, {"example": DOUBLE, "screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
         ({}, {"example": DOUBLE, "screw_hole": 7}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         pytest.param(
             {},
@@ -207,14 +204,12 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
             {"parameters.stub_length": 16},
             marks=by_night,
         ),
-        ({}, {"example": EIGHT, "stub_diameter": None}, "frame.coupling", {"parameters.stub_diameter": 10}),
         (
             {"load": 0.4},
             {"pin_diameter": 5, "screw_hole": 6},
             "frame.coupling",
             {"parameters.pin_diameter": 6},
         ),
-        ({}, {"screw_offset": None}, "frame.ground-offset", {"parameters.screw_offset": 42}),
         ({}, {"screw_hole": 8.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"pin_diameter": 5.8, "screw_hole": 6.0}, "frame.coupling", {"parameters.pin_diameter": 6}),
         ({}, {"ground_thickness": 46.0}, "frame.ground-thickness", {"parameters.ground_thickness": 45}),
@@ -231,6 +226,30 @@ def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, param
     (one,) = [told for told in tried(found, found.check()) if told.severity is Severity.ERROR]
     assert (one.code, one.fix) == (code, fix)
     assert errors(found.changed(fix).check()) == []
+
+
+@pytest.mark.parametrize(
+    ("parameters", "chosen"),
+    [
+        ({"example": EIGHT, "screw_hole": None}, {"parameters.screw_hole": 6}),
+        ({"example": DOUBLE, "screw_hole": None}, {"parameters.screw_hole": 6}),
+        ({"example": EIGHT, "stub_diameter": None}, {"parameters.stub_diameter": 10}),
+        ({"screw_offset": None}, {"parameters.screw_offset": 42}),
+    ],
+)
+def test_what_a_file_leaves_out_is_as_the_frame_wants_it(parameters, chosen):
+    found = design({}, **parameters)
+    assert found.chosen == chosen
+    assert errors(found.check()) == []
+    assert "design.chosen" in {one.code for one in found.check()}
+    # What the file says is the user's, and a key that has no frame to serve stays left out.
+    assert design({"frame": "none", "motor": "none"}, **parameters).chosen == {}
+
+
+def test_what_does_not_help_is_not_chosen():
+    found = design({"bearing": "60"}, screw_offset=None)
+    assert found.chosen == {}
+    assert {one.code for one in errors(found.check())} == {"frame.own-ground"}
 
 
 def test_the_offset_that_is_advised_is_the_least_that_works():

@@ -118,7 +118,6 @@ def test_the_ring_and_the_stepped_shaft_count_in_the_torque(changes):
 @pytest.mark.parametrize(
     ("machine", "parameters", "code", "fix"),
     [
-        ({}, {"screw_hole": None}, "frame.mounting", {"parameters.screw_hole": 6}),
         ({}, {"screw_hole": 9.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
         ({}, {"shaft": 4.5}, "frame.coupling", {"parameters.shaft": 5}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
@@ -136,6 +135,13 @@ def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, param
     (one,) = [told for told in tried(found, found.check()) if told.severity is Severity.ERROR]
     assert (one.code, one.fix) == (code, fix)
     assert errors(found.changed(fix).check()) == []
+
+
+def test_a_base_for_legs_is_chosen_where_the_file_says_nothing():
+    found = design({}, crank=25, rod=90, offset=0, screw_hole=None, shaft=None)
+    assert found.chosen == {"parameters.screw_hole": 6, "parameters.shaft": 5}
+    assert errors(found.check()) == []
+    assert found.changed({"machine.frame": "none", "machine.motor": "none"}).chosen == {}
 
 
 def test_no_plate_of_the_machine_meets_another(tmp_path):

@@ -142,6 +142,10 @@ class Dialect:
     does without them is told, and not refused."""
     cycles_apart: bool = False
     """Whether cycles are no motions: behind G80 the motion before the cycle is in force again."""
+    starts_first: bool = True
+    """Whether M3 and M4 beside a move are carried out before it, and not as the builder has set it."""
+    stops_behind: bool = False
+    """Whether M5 and M9 beside a move are carried out behind it."""
     repeats: str = "L"
     """The letter by which a drilling cycle says how often it is run."""
     ends_cycles: bool = False

@@ -64,6 +64,7 @@ class Fanuc(GcodeControl):
         ends_cycles=True,
         cycles_apart=True,
         repeats="K",
+        starts_first=False,
         feed_mode_stays=True,
         whole_dwells=True,
         # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and

@@ -49,6 +49,7 @@ class HeidenhainTnc(GcodeControl):
         ),
         translate=klartext.translated,
         m_codes=M_CODES,
+        stops_behind=True,
         arc_absolute=0.016,  # the machine parameter of circles allows no more
         arc_relative=0.0,
         arc_chord=0.0,

@@ -17,9 +17,10 @@ from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_d
 from mechwright_cam.operations.entry import enters
 from mechwright_cam.operations.finishing import (
     FINISH_STEP,
+    allowance_in,
+    bore_heights,
     cut_width,
     finish_engagement,
-    finish_heights,
 )
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.steps import Steps
@@ -214,12 +215,11 @@ def rough_bore(
     """
     mill = pen.tool
     data = mill.cutting[job.part.material]
-    widest = bore.diameter / 2 - mill.radius - max(job.settings.stock_to_leave, CIRCLE_BIAS)
-    final = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
+    # Too narrow for an allowance: the finishing circle is the only one.
+    allowance = allowance_in(job, bore.diameter, mill)
+    widest = bore.diameter / 2 - mill.radius - (allowance or CIRCLE_BIAS)
     if drill is not None and widest + mill.radius <= drill.radius + CIRCLE_BIAS:
         return  # the drill has left just the finishing allowance
-    # Too narrow for an allowance: the finishing circle is the only one.
-    widest = widest if widest >= final / 2 else final
     step = min(data.step_over, CORELESS) * mill.diameter
     bottom = _bottom(job, bore, mill)
     leave = floor_allowance(job, -bore.top, bottom)
@@ -299,7 +299,7 @@ def finish_bore(job: Job, bore: Bore, pen: Pen) -> None:
     into, off = half_circles(bore.centre, turn)
     path, feed, bottom = into + turn + off, pen.rates.inside(radius, mill.radius), _bottom(job, bore, mill)
     pen.above(path.start)
-    for z in finish_heights(job, mill, -bore.top, bottom):
+    for z in bore_heights(job, mill, bore, bottom):
         pen.sink(z)
         pen.follow(path, feed)
     pen.retract()

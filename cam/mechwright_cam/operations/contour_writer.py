@@ -6,7 +6,7 @@ from typing import Literal
 from mechwright.contracts.part import Bore
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.entry import bore_lead, offsets_of
-from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.finishing import bore_heights
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, line, round_from_right, rounded
 from mechwright_cam.program.moves import Feed
@@ -54,7 +54,7 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     )
     heading = side * math.pi / 2
     bottom = bottom_of(job, bore.top, bore.depth)
-    heights = finish_heights(job, tool, -bore.top, bottom)
+    heights = bore_heights(job, tool, bore, bottom)
     pen.above(start)
     run = ContourWriter(pen, side, offsets.planned)
     for z in heights:

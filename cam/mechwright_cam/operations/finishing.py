@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.part import Bore
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.bending import MOST, wall_bending
@@ -19,7 +20,7 @@ from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
-from mechwright_cam.plane.path import Path
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
@@ -35,16 +36,17 @@ EASE = 0.08
 """A finishing pass is deeper by this share rather than that there is one more."""
 
 
-def finish_depth(job: Job, tool: Tool, high: float, deep: float) -> float:
+def finish_depth(job: Job, tool: Tool, high: float, deep: float, inside: float = math.inf) -> float:
     """Depth of a finishing pass, mm, of a wall so ``high`` whose foot is ``deep`` mm below the stock's top.
 
     It is as deep as the wall where that bends the mill next to nothing: a pass that is half as deep bends its
     end hardly less, for the load is nearer to the end, and leaves a line. Else it is :data:`FINISH_STEP`
-    diameters; or what ``finish_step`` says. What stands on a wall is the allowance: a pass has no larger
-    section than a slot as deep as ``step_down``.
+    diameters; or what ``finish_step`` says. A pass has no larger section than a slot as deep as
+    ``step_down``: its width is that of the allowance, and more in a bore of radius ``inside``.
     """
     settings = job.settings
-    section = _slot(tool, job.part.material) / max(settings.stock_to_leave, TOLERANCES.noise)
+    wide = finish_width(settings, tool.radius, inside)
+    section = _slot(tool, job.part.material) / max(wide, TOLERANCES.noise)
     if settings.finish_step is not None:
         return min(settings.finish_step * tool.diameter, section)
     usual = FINISH_STEP * tool.diameter
@@ -57,15 +59,32 @@ def finish_depth(job: Job, tool: Tool, high: float, deep: float) -> float:
 def finish_engagement(settings: CamSettings, radius: float, inside: float = math.inf) -> float:
     """Engagement, rad, for which a finishing pass is fed, of a mill of this radius, mm.
 
-    Its width of cut is the allowance; on a circle ``inside`` a bore of that radius, mm, more of the mill is
-    in it. Where chips get thicker all the same the feed is lowered move by move.
+    On a circle ``inside`` a bore of that radius, mm, more of the mill is in the cut. Where chips get thicker
+    all the same the feed is lowered move by move.
     """
-    wide = settings.stock_to_leave
-    if math.isfinite(inside):
-        wide = cut_width(inside - radius, radius, inside - wide)
+    wide = finish_width(settings, radius, inside)
     if not settings.chip_thinning or wide >= radius:
         return math.pi / 2
     return max(math.acos(1 - wide / radius), LEAST_ENGAGEMENT)
+
+
+def allowance_in(job: Job, diameter: float, tool: Tool) -> float:
+    """What roughing leaves for the finishing of a bore, mm; 0 where it is too narrow, and roughed to size."""
+    allowance = max(job.settings.stock_to_leave, CIRCLE_BIAS)
+    final = diameter / 2 - tool.radius - CIRCLE_BIAS
+    return allowance if diameter / 2 - tool.radius - allowance >= final / 2 else 0.0
+
+
+def bore_heights(job: Job, tool: Tool, bore: Bore, bottom: float) -> list[float]:
+    """Heights of the finishing passes of a bore, z in mm."""
+    inside = bore.diameter / 2 if allowance_in(job, bore.diameter, tool) else math.inf
+    return finish_heights(job, tool, -bore.top, bottom, inside=inside)
+
+
+def finish_width(settings: CamSettings, radius: float, inside: float = math.inf) -> float:
+    """Width of cut of a finishing pass, mm: the allowance, and more on a circle ``inside`` a bore."""
+    wide = settings.stock_to_leave
+    return cut_width(inside - radius, radius, inside - wide) if math.isfinite(inside) else wide
 
 
 def cut_width(radius: float, mill: float, opened: float) -> float:
@@ -87,12 +106,15 @@ def _slot(tool: Tool, material: str) -> float:
     return tool.cutting[material].step_down * tool.diameter * tool.diameter
 
 
-def finish_heights(job: Job, tool: Tool, top: float, bottom: float, fillet: float = 0.0) -> list[float]:
+def finish_heights(
+    job: Job, tool: Tool, top: float, bottom: float, fillet: float = 0.0, inside: float = math.inf
+) -> list[float]:
     """Heights of the finishing passes, z in mm, with the repeats of the last one.
 
-    They are closer where a round mill has left a ``fillet`` of this height at the foot of the wall, mm.
+    They are closer where a round mill has left a ``fillet`` of this height at the foot of the wall, mm, and
+    in a bore whose radius ``inside`` is little more than the mill's.
     """
-    deep = (1 + EASE) * finish_depth(job, tool, top - bottom, -bottom)
+    deep = (1 + EASE) * finish_depth(job, tool, top - bottom, -bottom, inside)
     closer = _slot(tool, job.part.material) / max(fillet, TOLERANCES.noise)
     foot = min(bottom + max(fillet, 0.0), top)
     if closer < deep and foot > bottom:

@@ -50,7 +50,7 @@ def lay_out(
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
     except MechwrightError as error:
-        return None, [refusal(error, listed=settings.tools)]
+        return None, [refusal(error, listed=settings.tools, part=part.name)]
     refused = list(assigned.refused)
     try:
         check_clamp(job)
@@ -79,7 +79,16 @@ def _idle(job: Job, tasks: Sequence[Task]) -> list[Tool]:
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
 
 
-def refusal(error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Sequence[str] = ()) -> Finding:
+INSTEAD_OF_TABS: tuple[Change, ...] = (
+    {"cam.hold.method": "bore"},
+    {"cam.hold.method": "none", "cam.hold.bed": "tape"},
+)
+"""How a part is held whose walls have no room for tabs, as fine teeth and small wheels have none."""
+
+
+def refusal(
+    error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Sequence[str] = (), part: str = ""
+) -> Finding:
     """An error that names its parameter in front, as a finding.
 
     Where the design has ``listed`` its cutters the program may choose others, if it is let.
@@ -88,7 +97,12 @@ def refusal(error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Seq
     parameter, _, message = text.partition(": ")
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
-    proposed = ({"cam.tools": None},) if parameter == "cam.tools" and listed else ()
+    proposed: tuple[Change, ...] = ()
+    if parameter == "cam.tools" and listed:
+        proposed = ({"cam.tools": None},)
+    if parameter == "cam.hold.tabs":
+        message = f"{part}: {message}" if part else message
+        proposed = () if "tab_shape" in message else INSTEAD_OF_TABS
     if isinstance(error, MisfitError):
         code = error.code or code
         return Finding.error(code, parameter, message, error.measured, error.limit, "mm", proposed=proposed)

@@ -98,7 +98,9 @@ def feeds(scene: Scene) -> Check:
     limit = scene.job.settings.machine.max_feed
     if (step := first(scene.run.feed > limit + NEAR)) is not None:
         found = float(scene.run.feed[step])
-        return scene.bad(step, f"F{found:g} is above the machine's {limit:g} mm/min", found, limit, "mm/min")
+        return scene.bad(
+            step, f"a feed of {found:g} mm/min is above the machine's {limit:g}", found, limit, "mm/min"
+        )
     return Check(True, "feeds are within the machine's limit", limit=limit, unit="mm/min")
 
 

@@ -104,11 +104,19 @@ ABOVE = UNEVEN
 
 
 def rapid_height(scene: Scene) -> Check:
-    """Sideways rapids over the stock run at the clearance plane or above."""
+    """Sideways rapids over the stock run at the clearance plane or above.
+
+    Where all that stands there is named, and no such plane is asked for, they only stay off the stock: cycles
+    with G99 go from hole to hole at their R plane.
+    """
     paths, limit = scene.paths, scene.job.settings.clearance
+    least, named = scene.clear, "the clearance plane is"
+    if _all_is_known(scene):
+        limit = least = min(limit, max(scene.job.highest, 0.0) + ABOVE)
+        named = "the least is"
     rapid = paths.rapids
     sideways = np.hypot(*(paths.end - paths.start)[rapid, :2].T) > NEAR
-    low = rapid[sideways & (paths.low[rapid] < scene.clear)]
+    low = rapid[sideways & (paths.low[rapid] < least - NEAR)]
     if low.size:
         over = low[shapely.dwithin(paths.room(paths.whole(low)), stock_shape(scene.job), paths.radius[low])]
         if over.size:
@@ -118,11 +126,17 @@ def rapid_height(scene: Scene) -> Check:
                 ("over", "set cam.clearance if nothing stands higher") if z >= 0 else ("in", "feed")
             )
             message = (
-                f"a sideways rapid {where} the stock at Z{z:g}, the clearance plane is Z{limit:g}; "
+                f"a sideways rapid {where} the stock at Z{z:g}, {named} Z{limit:g}; "
                 f"go up first, or {other} there"
             )
             return scene.bad(step, message, z, limit, "mm")
     return Check(True, "sideways rapids run at the clearance plane or above", limit=limit, unit="mm")
+
+
+def _all_is_known(scene: Scene) -> bool:
+    """Whether all that stands on the plate is named, and no design says how high rapids cross it."""
+    cam = scene.job.settings
+    return cam.hold.method == "none" and "clearance" not in cam.model_fields_set
 
 
 def rapids_in_stock(scene: Scene) -> Check:

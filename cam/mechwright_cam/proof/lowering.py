@@ -64,7 +64,9 @@ def _taken(
     """Where cells (m, k) of discs are lowered: place, cell of the disc, and heights before and after."""
     ny, nx = heights.shape
     cells = np.where((row >= 0) & (row < ny) & (column >= 0) & (column < nx), row * nx + column, -1).ravel()
-    tips = np.maximum(end + z, floors.ravel()[cells].reshape(cells.size // end.size, -1)).ravel()
+    # One floor for all cells is one number: copies for every cell of a large plate take longer than its cuts.
+    under = floors.ravel()[cells].reshape(z.size, -1) if any(floors.strides) else floors[:1, :1]
+    tips = np.maximum(end + z, under).ravel()
     some = np.flatnonzero((cells >= 0) & (tips < heights.ravel()[cells]))
     # By cell, and in each cell in the order of the program.
     some = some[np.sort(cells[some] * some.size + np.arange(some.size)) % max(some.size, 1)]

@@ -18,15 +18,13 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.setup.job import Job
 
 _WORD = re.compile(r"([A-Z])(-?(?:\d+\.?\d*|\.\d+))")
-_MODES = frozenset(
-    {"G17", "G20", "G21", "G40", "G49", "G61", "G80", "G90", "G91", "G91.1", "G94", "M5", "M9"}
-)
-_NEEDED = ("G40", "G49", "G80", "G90", "G94", "M5")
+MODES = frozenset({"G17", "G20", "G21", "G40", "G49", "G61", "G80", "G90", "G91", "G91.1", "G94", "M5", "M9"})
+NEEDED = ("G40", "G49", "G80", "G90", "G94", "M5")
 """What has to be said before anything moves."""
 FEED_ROUNDED = 0.051
 """Feeds have one decimal of their unit."""
 ROOM = 2.0
-"""Between tip and setter where a rapid ends, where both heights are known, mm."""
+"""Between tip and setter, or stock, where a rapid ends, where both heights are known, mm."""
 
 
 def prove_lengths(texts: Mapping[str, str], job: Job, control: Control, numbers: tuple[int, ...]) -> None:
@@ -77,7 +75,7 @@ class _Reading:
             raise self.bad(f"{code!r} is more than a program that measures tools may say")
         names = [f"{letter}{value:g}" for letter, value in words]
         values = dict(words)
-        if set(names) <= _MODES | set(self.job.settings.offsets):
+        if set(names) <= MODES | set(self.job.settings.offsets):
             self._modes(names)
         elif names[:2] == ["G53", "G0"]:
             self._machine_place(values)
@@ -108,7 +106,7 @@ class _Reading:
             raise self.bad(f"{what} below machine Z {self.top:g}; retract first")
 
     def _machine_place(self, values: dict[str, float]) -> None:
-        missing = [word for word in _NEEDED if word not in self.said]
+        missing = [word for word in NEEDED if word not in self.said]
         if missing:
             raise self.bad(f"moves before {' '.join(missing)}")
         if set(values) == {"G", "Z"}:

@@ -14,6 +14,8 @@ ALIKE = 0.02
 """The path is so much off the walls everywhere, within this, mm: leads, tabs and corners aside."""
 MOST = 0.6
 """And at this share of the places at least."""
+LARGER = 2.1
+"""A path that is further off the walls than so many radii of its tool is made for another place."""
 OTHER = 0.05
 """Tools differ in radius by as much at least, mm: less is wear, or what was left."""
 
@@ -36,7 +38,11 @@ def misfit(sweeps: Sweeps, job: Job) -> str:
             continue
         away = last.chords.distance(points)
         usual = float(np.median(away))
-        if abs(usual - last.radius) < OTHER or np.mean(np.abs(away - usual) < ALIKE) < MOST:
+        if (
+            abs(usual - last.radius) < OTHER
+            or usual > LARGER * last.radius
+            or np.mean(np.abs(away - usual) < ALIKE) < MOST
+        ):
             continue
         tool = sweeps.paths.tools[int(sweeps.paths.run.tool[last.pieces.step.max()])]
         if tool.kind is ToolKind.TAP or last.radius < tool.radius - ALIKE:

@@ -203,7 +203,8 @@ def _cut(paths: Paths, tool: Tool, steps: Ints, grid: _Grid) -> Taken:
     area = cell * cell
     z = taken.z[low].astype(np.float32)
     # Of a flat end in an even floor the deepest place is known; else every cell is asked.
-    even = bool((floors == floors.flat[0]).all()) and bool(np.isin(disc, (0.0, disc.max())).all())
+    one_floor = not any(floors.strides) or bool((floors == floors.flat[0]).all())
+    even = one_floor and bool(np.isin(disc, (0.0, disc.max())).all())
     if even:
         z = np.maximum(z, floors.flat[0])
     y, x = rows[low] - half, columns[low] - half

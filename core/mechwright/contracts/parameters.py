@@ -19,6 +19,10 @@ GIVEN: JsonDict = {"given": True}
 """``json_schema_extra`` of a field that says what is at hand, such as a mill's travel, or how good a thing
 has to be: no remedy changes it."""
 
+FITTED: JsonDict = {"fitted": True}
+"""``json_schema_extra`` of a field that :meth:`Parameters.fitted` sets where a file leaves it out: its
+default is the usual value, and files that are written show it as a comment."""
+
 KEPT = 32
 """Designs of which a function's result is kept: checks, motion and parts ask for the same one."""
 
@@ -74,6 +78,17 @@ class Parameters(BaseModel):
 
     also: ClassVar[Mapping[str, str]] = {}
     """What people look for under another name, and what to say of it: ``{"conrod": "it is called rod"}``."""
+
+    def fitted(self) -> Mapping[str, Any]:
+        """Values of the fields that were left out and follow from others, where the default would not do.
+
+        Such fields are marked with :data:`FITTED`. A family's ``evaluate`` has to know it too.
+        """
+        return {}
+
+    def model_post_init(self, context: Any, /) -> None:  # noqa: ARG002 - pydantic's
+        """Take what :meth:`fitted` says; it still counts as left out."""
+        self.__dict__.update(self.fitted())
 
     @field_validator("*", mode="before")
     @classmethod

@@ -32,6 +32,7 @@ from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
 from mechwright.designs.inches import Units, in_millimetres, told_in
 from mechwright.designs.schema import FORMAT, HEAD
+from mechwright.designs.settling import settled, told
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, PluginError
@@ -64,6 +65,8 @@ class Design:
         What the file says, as plain data; lengths in mm and speeds in mm/min and m/min, whatever its units.
     units
         Those of its bare numbers.
+    chosen
+        Keys that the file leaves out, as what stands around the mechanism wants them; they are in ``params``.
     """
 
     name: str
@@ -75,6 +78,7 @@ class Design:
     readers: tuple[Table[Any], ...] = ()
     content: Mapping[str, Any] = field(default_factory=dict)
     units: Units = "mm"
+    chosen: Change = field(default_factory=dict)
 
     @property
     def own_tables(self) -> "dict[str, Parameters]":
@@ -128,7 +132,9 @@ class Design:
 
     def check(self) -> tuple[Finding, ...]:
         """What the family finds, and what there is to say of what stands around the mechanism."""
-        return (*self._own_findings, *(one for around in self.surroundings for one in around.findings))
+        chosen = (told(self.chosen),) if self.chosen else ()
+        around = (one for around in self.surroundings for one in around.findings)
+        return (*self._own_findings, *around, *chosen)
 
     def judge(self) -> tuple[Finding, ...]:
         """What :meth:`check` finds, as far as it is found fast; see :meth:`Family.judge`."""
@@ -162,7 +168,13 @@ class Design:
         params = own_params(self.family, content, self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = table_values(self.readers, content, self.path, self.tables, touched)
-        return replace(self, params=params, tables=tables, content=content)
+        return settled(replace(self, params=params, tables=tables, content=content, chosen={}))
+
+    def choosing(self, change: Change) -> "Design":
+        """The design with keys that its file leaves out, beside those that are chosen already."""
+        chosen = {**self.chosen, **change}
+        params = own_params(self.family, changed(self.content, chosen), self.path)
+        return replace(self, params=params, chosen=chosen)
 
 
 @once()
@@ -212,7 +224,7 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
     with told_in(units):
         params = own_params(family, content, path)
         values = table_values(readers, content, path)
-    return Design(name, family, params, path, digest, values, readers, content, units)
+    return settled(Design(name, family, params, path, digest, values, readers, content, units))
 
 
 def own_params(family: Family[Any], content: Mapping[str, Any], path: Path) -> Parameters:

@@ -101,7 +101,8 @@ def table_lines(
     """A table with the values of an instance, or with the defaults of its fields; or just the ``first``.
 
     Keys that an instance of ``open_`` models was not given stand as comments, so that what is written later,
-    such as the name of a machine, is not barred by defaults that nobody asked for.
+    such as the name of a machine, is not barred by defaults that nobody asked for; so do fields that follow
+    from others where they are left out.
     """
     lines, tables = [f"[{where}]"], []
     schema = model_schema(model)["properties"]
@@ -116,7 +117,12 @@ def table_lines(
         if value is None:
             lines.append(f"# {key} = ...  # {text}")
         else:
-            left_out = isinstance(values, open_) and key not in values.model_fields_set
+            fitted = bool(schema[key].get("fitted"))
+            left_out = (
+                fitted
+                if values is None
+                else (fitted or isinstance(values, open_)) and key not in values.model_fields_set
+            )
             lines.append(f"{'# ' if left_out else ''}{key} = {toml(value)}  # {text}")
     return lines + tables
 

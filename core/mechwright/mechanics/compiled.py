@@ -3,12 +3,41 @@
 numba takes a second to import, so only modules that need a kernel import this one.
 """
 
+import contextlib
+import hashlib
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from numba import njit
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+
+class _Files(IndexDataCacheFile):
+    """Machine code of one function, in a file of its own for every signature.
+
+    numba numbers the files. Two processes that compile a function for different arguments at the same time
+    take the same number, and the code of one is then run with the arguments of the other.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Write machine code, then enter it; what another process enters meanwhile is compiled once more."""
+        own: Any = self
+        digest = hashlib.sha256(repr((own._source_stamp, key)).encode()).hexdigest()
+        name = own._data_name(int(digest[:12], 16))
+        own._save_data(name, data)
+        own._save_index(own._load_index() | {key: name})
+
+
+class _Cache(FunctionCache):
+    """The cache of one function, whose files several processes may write."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)  # type: ignore[no-untyped-call]
+        files: Any = _Files
+        stamp = self._cache_file._source_stamp
+        self._cache_file = files(self._cache_path, self._impl.filename_base, stamp)
 
 
 def compiled(function: F) -> F:
@@ -17,9 +46,9 @@ def compiled(function: F) -> F:
     The machine code is kept beside the module, or in the user's cache folder. Where both are read-only it is
     compiled anew in every process. Division by zero gives infinity or NaN, as in numpy.
     """
-    try:
-        kernel: Any = njit(cache=True, error_model="numpy")(function)
-    except RuntimeError:  # numba found no place to write to
-        kernel = njit(error_model="numpy")(function)
+    kernel: Any = njit(error_model="numpy")(function)
+    if hasattr(kernel, "enable_caching"):  # with numba switched off it is the function itself
+        with contextlib.suppress(RuntimeError):  # numba finds no place to write to
+            kernel._cache = _Cache(function)
     found: F = kernel
     return found

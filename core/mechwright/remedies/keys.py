@@ -43,6 +43,8 @@ class Key:
         Whether it is one that people set first: what the mechanism is for, and not how it is made.
     given
         Whether it says what is at hand, such as the travel of a mill: no change of it is a remedy.
+    fitted
+        Whether its default follows from other keys.
     lender
         The table that lends the default, such as ``"shop"``; empty where none does.
     """
@@ -56,6 +58,7 @@ class Key:
     unit: str = ""
     first: bool = False
     given: bool = False
+    fitted: bool = False
     lender: str = ""
 
     @property
@@ -84,7 +87,11 @@ class Key:
 
 def keys_of(design: Design) -> dict[str, Key]:
     """Every key of the tables of a design, by its path, in the order of the tables' fields."""
-    found = [key for path, table in design.own_tables.items() for key in _keys(type(table), path)]
+    found = [
+        replace(key, default=getattr(table, key.path.rpartition(".")[2])) if key.fitted else key
+        for path, table in design.own_tables.items()
+        for key in _keys(type(table), path)
+    ]
     for reader in design.readers:
         if reader.settings is not None:
             found += _keys(reader.settings, reader.name)
@@ -142,7 +149,8 @@ def _of(schema: Mapping[str, Any], definitions: Mapping[str, Any], where: str) -
 
 
 def _key(path: str, field: Mapping[str, Any]) -> Key:
-    return replace(_plain(path, field), first=bool(field.get("first")), given=bool(field.get("given")))
+    first, given, fitted = (bool(field.get(name)) for name in ("first", "given", "fitted"))
+    return replace(_plain(path, field), first=first, given=given, fitted=fitted)
 
 
 def _plain(path: str, field: Mapping[str, Any]) -> Key:

@@ -7,7 +7,7 @@ from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.advice import advised
-from mechwright.remedies.bench import Bench, Limits, of_family, same
+from mechwright.remedies.bench import Bench, Limits, identity, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import (
@@ -44,7 +44,8 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     findings = list(findings)
     if all(one.severity is Severity.NOTE for one in findings):
         return findings
-    if any(same(one, bench.found({})) is None for one in findings if one.severity is not Severity.NOTE):
+    judged = {identity(one) for one in bench.found({}) or ()}
+    if any(identity(one) not in judged for one in findings if one.severity is not Severity.NOTE):
         return _remedied(bench.sure, findings)
     told = _remedied(bench, findings)
     lost = any(one.fix is not None and not holds(bench.sure, one, one.fix) for one in told)
@@ -154,14 +155,14 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
 
 
 def _first_step(bench: Bench, finding: Finding) -> str | None:
-    """What a finding of the motion proposes that leads past it, and to what: it had hidden other checks.
+    """The change that leads past a finding of the motion, and to what: it had hidden other checks.
 
     None of other findings: nothing is hidden by those.
     """
     if finding.stage is not Stage.MOTION:
         return None
     before = bench.errors({}) or []
-    step = proposed_step(bench, same(finding, bench.found({})) or finding, {}, before)
+    step = best_step(bench, same(finding, bench.found({})) or finding, {}, before)
     left = bench.errors(step.change) if step is not None and step.worth is Worth.REVEALS else None
     if step is None or not left:
         return None

@@ -15,7 +15,8 @@ from mechwright.sweep.shard import NUMBER, Counts, read_file
 from mechwright.sweep.study import Study
 
 SHOWN = 100_000
-"""Designs on the page besides the front: some megabytes, and a brush still follows the pointer."""
+"""Designs on the page besides the front, and of the front: some megabytes, and a brush still follows the
+pointer."""
 
 
 def page_of(
@@ -26,7 +27,7 @@ def page_of(
     tables: Sequence[Path],
     pictures: Mapping[str, Any],
 ) -> str:
-    """The page; of many designs every so-manieth is on it, and the whole front.
+    """The page; of many designs every so-manieth is on it, and the whole front unless that is as many.
 
     ``pictures`` are those of :func:`mechwright.scripting.moving.moving`, by the names of the designs.
     """
@@ -46,8 +47,8 @@ def page_of(
         templates(Path(__file__).parent, SHOWING)
         .get_template("study.html")
         .render(study=study, counts=counts, front=len(front), chosen=picked, every=every,
-                data=for_script(data), forbidden=forbidden, shown=len(best), pictures=list(pictures),
-                moving=for_script(list(pictures.values())))
+                thinned=_step(len(front)), data=for_script(data), forbidden=forbidden, shown=len(best),
+                pictures=list(pictures), moving=for_script(list(pictures.values())))
     )  # fmt: skip
 
 
@@ -56,9 +57,10 @@ def _shown(
 ) -> tuple[dict[str, NDArray[Any]], int]:
     """Columns of the designs on the page, in the order of their numbers, and of how many each is one."""
     rows = counts.designs if study.asked.keep == "all" else counts.feasible
-    every = max(1, -(-rows // SHOWN))
+    every = _step(rows)
     names = [NUMBER, *study.units]
-    parts = [{name: front.columns[name] for name in names}] if len(front) else []
+    best = slice(None, None, _step(len(front)))
+    parts = [{name: front.columns[name][best] for name in names}] if len(front) else []
     seen = 0
     for path in tables:
         table = read_file(study, path, names)
@@ -69,6 +71,11 @@ def _shown(
     joined = {name: np.concatenate([part[name] for part in parts]) for name in names}
     _, once = np.unique(joined[NUMBER], return_index=True)
     return {name: values[once] for name, values in joined.items()}, every
+
+
+def _step(count: int) -> int:
+    """Of how many designs one is on the page."""
+    return max(1, -(-count // SHOWN))
 
 
 def _column(name: str, unit: str, values: NDArray[Any]) -> dict[str, Any]:

@@ -48,7 +48,8 @@
 
   const lines = document.getElementById("lines"), dots = document.getElementById("dots");
   const across = document.getElementById("across"), up = document.getElementById("up");
-  const TOP = 34, BOTTOM = 22, SIDE = 46;
+  const TOP = 46, BOTTOM = 22, SIDE = 46, APART = 84;
+  lines.style.minWidth = `${APART * columns.length}px`;  // narrower screens scroll
   const axisX = (place, width) => columns.length < 2 ? width / 2 : SIDE + (width - 2 * SIDE) * place / (columns.length - 1);
   const axisY = (column, value, height) => height - BOTTOM - (height - TOP - BOTTOM) * (value - column.low) / (column.high - column.low);
 
@@ -89,8 +90,9 @@
       const x = axisX(place, width);
       pen.lineWidth = 1;
       pen.beginPath(); pen.moveTo(x, TOP); pen.lineTo(x, height - BOTTOM); pen.stroke();
-      pen.fillText(title(column), x, place % 2 ? 26 : 12, (width - SIDE) / Math.max(1, columns.length / 2));
-      pen.fillText(shown(column, column.high), x, TOP - 2 + (place % 2 ? 12 : 12));
+      const most = (width - SIDE) / Math.max(1, columns.length / 2), half = Math.min(most, pen.measureText(title(column)).width) / 2;
+      pen.fillText(title(column), Math.min(Math.max(x, half + 2), width - half - 2), place % 2 ? 26 : 12, most);
+      pen.fillText(shown(column, column.high), x, TOP - 5);
       pen.fillText(shown(column, column.low), x, height - 6);
       if (column.from !== -Infinity || column.to !== Infinity) {
         const y0 = axisY(column, Math.max(column.from, column.low), height), y1 = axisY(column, Math.min(column.to, column.high), height);

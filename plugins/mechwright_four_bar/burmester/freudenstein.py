@@ -16,6 +16,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright_four_bar.burmester import dyads
+from mechwright_four_bar.dimensions import FourBar
 
 LONGEST = 1e6
 """Links longer than this many grounds are none."""
@@ -50,6 +51,12 @@ class Answering:
     follower: float
     phi: float
     psi: float
+
+    def bar(self, ground: float, branch: int = 1) -> FourBar:
+        """Its dimensions over a ground, mm, along X."""
+        return FourBar(
+            self.crank * ground, self.coupler * ground, self.follower * ground, ground, 0.0, branch
+        )
 
 
 def linkage_of(k: Array, phi: float, psi: float) -> Answering | None:

@@ -11,7 +11,7 @@ from mechwright import Array, Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright_four_bar.burmester import dyads
 from mechwright_four_bar.burmester.dyads import Dyad, Poses
-from mechwright_four_bar.burmester.kept import Option, designs, penalties
+from mechwright_four_bar.burmester.kept import WEIGHTS, Option, designs, driven, penalties
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import EXACT, PosesRequirement
 from mechwright_four_bar.dimensions import FourBar
@@ -66,7 +66,7 @@ def through_poses(wanted: PosesRequirement, progress: Progress) -> Synthesis[Fou
         else:
             ways.append((way, one, two))
     progress(0.5, "linkages through the poses")
-    ways.sort(key=lambda one: -one[0].least_angle)
+    ways.sort(key=lambda one: -driven(one[0], wanted).least_angle)
     options = [_option(way, one, two, poses) for way, one, two in ways]
     if len(wanted.poses) > EXACT:
         ways.sort(key=lambda one: _spread(one[1], poses) + _spread(one[2], poses))
@@ -163,7 +163,7 @@ def _fitted(way: Way, one: Dyad, two: Dyad, poses: Poses, wanted: PosesRequireme
         bar = FourBar(a, abs(v - w), b, abs(ground), math.atan2(ground.imag, ground.real), way.bar.branch)
         return bar, Dyad(w, g, a), Dyad(v, h, b), x[10:]
 
-    def residual(x: Array) -> Array:
+    def residual(x: Array, weight: float) -> Array:
         bar, first, last, phi = linkage(x)
         loop = close(bar, phi)
         along = last.joint - first.joint
@@ -171,12 +171,13 @@ def _fitted(way: Way, one: Dyad, two: Dyad, poses: Poses, wanted: PosesRequireme
         places = first.pivot + loop.joint_a - first.joint * direction
         error = (places - poses.places) / size
         turned = np.angle(direction * np.exp(-1j * poses.angles)) * wanted.arm / size
-        values = np.concatenate((error.real, error.imag, turned, penalties(bar, phi, wanted)))
+        values = np.concatenate((error.real, error.imag, turned, penalties(bar, phi, wanted, weight)))
         return np.nan_to_num(values, nan=FAILED)
 
     start = [part / size for z in (one.joint, two.joint, one.pivot, two.pivot) for part in (z.real, z.imag)]
     x = np.array([*start, math.log(one.length / size), math.log(two.length / size), *way.phi])
-    x = fit(residual, x, xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=200).x
+    for weight in WEIGHTS:
+        x = fit(residual, x, xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=200, args=(weight,)).x
     bar, first, last, phi = linkage(x)
     loop = close(bar, phi)
     joints = first.pivot + np.stack((loop.joint_a, loop.joint_b))

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
-WEIGHT = 30.0
-"""Weight of a broken limit, over that of an error as large as the body's way or as a radian."""
+WEIGHTS = (30.0, 3000.0)
+"""Weights of a broken limit, over that of an error as large as the body's way or as a radian: a fit is led to
+its limits, then held."""
 
 MARGIN = 1e-4
 """Share by which a fit keeps inside its limits: a penalty ends a little beyond where it begins."""
@@ -84,6 +85,16 @@ def broken(way: Way, wanted: LinkLimits) -> tuple[str, str]:
     return "", ""
 
 
+def driven(way: Way, wanted: LinkLimits) -> Way:
+    """The way as it is driven: a crank that could turn fully swings where that alone keeps the limits."""
+    if not way.full or wanted.drive == "crank":
+        return way
+    lever = replace(way, full=False)
+    limit = math.radians(wanted.least_transmission_angle)
+    needed = way.least_angle < limit <= lever.least_angle
+    return lever if needed or wanted.drive == "lever" else way
+
+
 def _same(one: Option, other: Option) -> bool:
     """Whether nobody would choose between two linkages: links and pivots agree to a share of the links."""
     size = SAME * min(one.way.bar.lengths)
@@ -95,7 +106,7 @@ def _same(one: Option, other: Option) -> bool:
     )
 
 
-def penalties(bar: FourBar, angles: Array, wanted: LinkLimits) -> list[float]:
+def penalties(bar: FourBar, angles: Array, wanted: LinkLimits, weight: float) -> list[float]:
     """How far a linkage is beyond its limits at crank angles (n,) from X, weighted, for a fit."""
     short = [math.log(wanted.shortest_link * (1 + MARGIN) / length) for length in bar.lengths]
     long = [math.log(length / (wanted.longest_link * (1 - MARGIN))) for length in bar.lengths]
@@ -103,12 +114,16 @@ def penalties(bar: FourBar, angles: Array, wanted: LinkLimits) -> list[float]:
     if wanted.drive == "crank":
         cosines = list(bar.transmission_cosines())
     else:
+        # Where the crank passes the ground line on its way the angle is least or greatest.
+        turned = angles - bar.ground_angle
+        low, high = float(turned.min()) / math.pi, float(turned.max()) / math.pi
+        through = [k * math.pi for k in range(math.ceil(low), math.floor(high) + 1)]
         squares = abs(bar.ground - bar.crank) ** 2 + 2 * bar.ground * bar.crank * (
-            1 - np.cos(angles - bar.ground_angle)
+            1 - np.cos([*turned, *through])
         )
         cosines = [float(bar.cosine_over(float(square))) for square in squares]
     over = [max(abs(cosine) for cosine in cosines) - limit]
-    return [WEIGHT * max(0.0, value) for value in (*short, *long, *over)]
+    return [weight * max(0.0, value) for value in (*short, *long, *over)]
 
 
 def designs(
@@ -139,7 +154,8 @@ def designs(
         rejected.because(f"{name}.{defect}", DEFECTS[defect], count)
     good: list[Option] = []
     nearest = ""
-    for one in options:
+    for each in options:
+        one = replace(each, way=driven(each.way, wanted))
         key, why = broken(one.way, wanted)
         if key:
             rejected.because(f"{name}.{key}", why)

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.burmester.kept import Option, designs
+from mechwright_four_bar.burmester.kept import Option, designs, driven
 from mechwright_four_bar.burmester.rectify import Way, linkage, way_through
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
@@ -126,7 +126,7 @@ def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis
                 defects[way] += 1
             else:
                 options.append(_option(way, each))
-    options.sort(key=lambda one: -one.way.least_angle)
+    options.sort(key=lambda one: -driven(one.way, wanted).least_angle)
     full = sum(option.way.full for option in options)
     result = designs(
         "nine-points",

@@ -55,7 +55,7 @@ _CALL_WORD = re.compile(rf"(S|F|DL|DR)({NUMBER})")
 _DEF = re.compile(r"TOOL DEF (\d+)")
 _CYCL = re.compile(r"CYCL DEF (\d+)(?:\.(\d))?(?: (.*))?")
 _DATUM = re.compile(r"(?:[A-Z][A-Z .-]*?)?(?: ?Q339 ?= ?([+]?\d+))?")
-_CYCLE_NAME = re.compile(r"[A-Z .-]*")
+_CYCLE_NAME = re.compile(r"TOLERAN(CE|Z)|DWELL( TIME)?|VERWEILZEIT|")
 _NAMED = re.compile(r"([A-Z]+)")
 _ODD = re.compile(r"[^\t -~]")
 
@@ -145,6 +145,9 @@ class _Reading:
             start, code = self.joined[0], " ".join(self.joined[1:])
             self.joined = None
         if goes_on:
+            kind = _NAMED.match(code.upper().lstrip())
+            if kind is None or kind[1] in (self.kinds.keys() - {"CYCL"}) | {"M"}:
+                raise fail(number, "~ behind a block that is no cycle; take it out")
             self.joined = [start, code]
             return said.strip()
         code = " ".join(code.upper().split())
@@ -293,6 +296,8 @@ class _Reading:
             if machine:
                 raise fail(number, "M91 without a place; write the axes")
             said = [words.get("R", ""), self._feed_word(number, words), functions]
+            if not any(said):
+                raise fail(number, "L without a place says nothing; take it out")
             return " ".join(filter(None, said))
         rapid = words.get("F") == "MAX"
         if machine and not rapid:

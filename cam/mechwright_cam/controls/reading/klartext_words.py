@@ -17,6 +17,8 @@ BOTH_M = {13: "M3 M8", 14: "M4 M8"}
 """M functions that are two others."""
 AT_THE_END = frozenset({0, 1, 2, 5, 9, 30})
 """M functions that act when the move of their block is done."""
+STOPPING = frozenset({5, 9})
+"""Those of them that may stand beside a move."""
 AT_THE_START = frozenset({3, 4, 7, 8, 13, 14})
 """Those that act before it."""
 NO_CYCLE = "cycles are not read; post the moves"
@@ -116,7 +118,7 @@ def functions_of(number: int, code: str, *, moving: bool) -> str:
             continue
         if m not in AT_THE_START | AT_THE_END:
             raise refused(number, f"M{m}")
-        if moving and m in AT_THE_END:
+        if moving and m in AT_THE_END - STOPPING:
             raise fail(number, f"M{m} beside a move acts at its end; write it in a block behind it")
     return " ".join(BOTH_M.get(m, f"M{m}") for m in found)
 

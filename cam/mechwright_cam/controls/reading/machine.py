@@ -16,6 +16,8 @@ from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
 AXES_TAKEN = frozenset({100, 280, RETURN, 431})
 """G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
 MOTIONS = GROUPS["motion"]
+STOPPING = frozenset({5, 9})
+"""M codes that some controls carry out behind the move of their line."""
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
@@ -62,6 +64,12 @@ class Machine(Moving):
 
     def run(self, block: Block) -> None:
         """Run one block."""
+        if self.dialect.stops_behind and not STOPPING.isdisjoint(block.m) and block.words.keys() & set("XYZ"):
+            move = block.again(block.line)
+            move.m = [code for code in block.m if code not in STOPPING]
+            self.run(move)
+            self.run(Block(block.line, m=[code for code in block.m if code in STOPPING]))
+            return
         for comment in block.comments:
             self.remarks.append(Remark(block.line, comment, self.steps))
         if not (block.g or block.m or block.words):
@@ -84,6 +92,13 @@ class Machine(Moving):
         if self.state is not before and self.state.turning != before.turning:
             place = self.x, self.y, self.z
             self.spindle_changes.append(SpindleChange(block.line, before.tool, place, self.steps))
+            if self.state.turning and not self.dialect.starts_first and self._feeds(block):
+                word = f"M{self.dialect.m(3 if self.state.turning > 0 else 4)}"
+                raise fail(
+                    block.line,
+                    f"{word} beside a feed: whether {self.dialect.name} starts the spindle before it, the "
+                    f"machine's builder has set; write {word} in a line before",
+                )
         if 40 in block.g:
             bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
             seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")
@@ -102,6 +117,11 @@ class Machine(Moving):
         if words:
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
+
+    def _feeds(self, block: Block) -> bool:
+        """Whether a block moves at a feed."""
+        named = next((code for code in block.g if code in GROUPS["motion"] - {800}), self.motion)
+        return named not in {None, 0} and 530 not in block.g and not block.words.keys().isdisjoint("XYZ")
 
     def _check_codes(self, block: Block) -> None:
         for code in block.g:

@@ -48,6 +48,7 @@ _MAY_FOLLOW = {
     _END: (_END, _BLANK, _LETTER),
 }
 _SIGNED_N = re.compile(rb"[Nn][-+]")
+_INCHES = re.compile(r"[Gg]\s*0*20(?![0-9.])")
 _TWO_POINTS = re.compile(rb"\.\d*\.")
 
 
@@ -226,7 +227,7 @@ class PlainLines(Rows):
         clean = np.where(kept, np.frombuffer(data, dtype=np.uint8), ord(" ")).tobytes()
         self.words = np.full((len(LETTERS), length.size), np.nan)
         self.number = np.arange(1, length.size + 1)
-        self._fill(clean, dialect)
+        self._fill(clean, dialect, inches=_INCHES.search(text) is not None)
         self.kind, self.states = np.where(self.plain, beside.kind, 0), beside.states
         skipped = set(optional) if block_delete else ()
         self.comments = [
@@ -259,7 +260,7 @@ class PlainLines(Rows):
         self.kind[index : index + 1] = 0
         self.comments = [told for told in self.comments if told[0] != index]
 
-    def _fill(self, clean: bytes, dialect: Dialect) -> None:
+    def _fill(self, clean: bytes, dialect: Dialect, *, inches: bool) -> None:
         """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
         marks = np.frombuffer(clean.translate(_COLUMN, _DROPPED), dtype=np.uint8)
         at = np.flatnonzero(marks < _POINT_MARK)
@@ -274,7 +275,7 @@ class PlainLines(Rows):
         wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
         if dialect.point_needed:
             length = (column >= X) & (column <= R)
-            if dialect.feeds_with_point:
+            if dialect.feeds_with_point in ({"inch", "always"} if inches else {"always"}):
                 length |= column == F
             wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
         if "S" in dialect.whole_words:

@@ -11,7 +11,7 @@ driver, driven gear
 """
 
 from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
-from mechwright.mechanics.gearing.mesh import Mesh, mesh, swing
+from mechwright.mechanics.gearing.mesh import Mesh, first_depth, mesh, swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
 from mechwright.mechanics.gearing.primitive import Primitive
@@ -43,6 +43,7 @@ __all__ = [
     "SectorTeeth",
     "Shaper",
     "Teeth",
+    "first_depth",
     "gear_loop",
     "mesh",
     "prove_mesh",

@@ -215,16 +215,8 @@ def mesh_findings(
     """What the mesh proof of a design says; ``clearing`` gives changes that may end a collision."""
     depth = float(proof.mesh.depth.max())
     if proof.collides:
-        yield Finding.error(
-            "gear.mesh",
-            "addendum",
-            f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
-            depth,
-            proof.allowance,
-            "mm",
-            "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
-            proposed=tuple(clearing()),
-        )
+        said = f"{depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap"
+        yield collision(depth, proof.allowance, said, clearing)
         return
     if exceeds(proof.flank_error, FLANK_ERROR):
         yield Finding.warning(
@@ -250,6 +242,20 @@ def mesh_findings(
         ),
         proof.error * 1e6,
         "µrad",
+    )
+
+
+def collision(depth: float, allowance: float, said: str, clearing: Callable[[], Iterable[Change]]) -> Finding:
+    """That a pair collides, ``said`` how deeply, with changes that may end it."""
+    return Finding.error(
+        "gear.mesh",
+        "addendum",
+        f"the pair collides: {said}",
+        depth,
+        allowance,
+        "mm",
+        "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
+        proposed=tuple(clearing()),
     )
 
 

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright.contracts.parameters import FIRST
+from mechwright.contracts.parameters import FIRST, FITTED
 from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
 
 PivotX = Annotated[Millimetres, Field(ge=-10000, le=10000, description="X of the crank's pivot A0.")]
@@ -46,13 +46,27 @@ Phase = Annotated[int, Field(ge=1, le=8, description="Phase that motion and part
 GroundThickness = Annotated[Millimetres, Field(ge=1, le=100, description="Of the ground plate.")]
 BushingWall = Annotated[
     Millimetres,
-    Field(ge=0, le=50, description="Wall of the plain bushings in the turning joints; 0 for none."),
+    Field(
+        ge=0,
+        le=50,
+        description="Wall of the plain bushings in the turning joints, 0 for none; left out, 1, or less as "
+        "the pins.",
+        json_schema_extra=FITTED,
+    ),
 ]
 RunningFit = Annotated[
     Millimetres,
     Field(ge=0.005, le=0.5, description="Diameter by which a turning bore is larger than its pin."),
 ]
-Rim = Annotated[Millimetres, Field(ge=0.5, le=100, description="Material of the plates around the bores.")]
+Rim = Annotated[
+    Millimetres,
+    Field(
+        ge=0.5,
+        le=100,
+        description="Material of the plates around the bores; left out, 4, or less as the pins.",
+        json_schema_extra=FITTED,
+    ),
+]
 Clearance = Annotated[
     Millimetres, Field(ge=0.1, le=50, description="Least distance in plan of what moves in one layer.")
 ]

@@ -5,7 +5,10 @@ its own point alone, so it is taken out there: with the unit tangent u of the pa
 I - u uᵀ/(1+λ) of themselves, and what is left has as many columns as x has entries, however many points there
 are. The reduced system is solved by orthogonal factors, not by normal equations, which would lose half the
 digits of the nearly singular systems that an exact number of points makes. As λ falls the steps become those
-of Newton. After each step the angles are brought back into the order of the points.
+of Newton. Each step follows the bend of its way: the residuals a part of the way along it say how the slopes
+change, and the same factors give what that asks for (geodesic acceleration; Transtrum and Sethna 2012), so
+that long narrow valleys are followed in few steps. Then the angles are brought back into the order of the
+points.
 
 A limit g ≤ 0 of weight w and multiplier m adds the residual max(0, w g + m): with m = 0 a penalty, and an
 augmented Lagrangian where m becomes that residual whenever the descent has come to rest
@@ -26,6 +29,9 @@ ONE_SIDED = 1e-8
 
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-15, 1e8
 """Marquardt's λ at the start; where steps are Newton's; and where a start has given up."""
+
+AHEAD, BENT = 0.1, 0.75
+"""Part of a step after which its bend is looked at, and the most of a step that the bend may add."""
 
 LONGEST_STEP = 0.5
 """Most that an unknown or an angle changes in a step, rad or a part of the path's size."""
@@ -170,20 +176,61 @@ def _step(
     tangent = (ahead - behind) / (2 * SLOPE)
     limits = np.maximum(weight * over + pushed, 0.0)
     limit_slopes = np.where((limits > 0)[..., None], passed * weight[..., None], 0.0)
-    length = np.sqrt((tangent**2).sum(axis=-1)) + 1e-150
-    unit = tangent / length[..., None]
-    kept = 1 / (1 + damping)[:, None]
-    share = 1 - np.sqrt(1 - kept)  # (I - share u uᵀ)² = I - kept u uᵀ
-    along = np.einsum("snd,snd->sn", unit, miss)
-    along_slopes = np.einsum("snd,sndk->snk", unit, slopes)
-    rest = miss - (share * along)[..., None] * unit
-    rest_slopes = slopes - (share[..., None] * along_slopes)[:, :, None, :] * unit[..., None]
-    count = len(x)
-    rows = np.concatenate([rest_slopes.reshape(count, -1, x.shape[1]), limit_slopes], axis=1)
-    values = np.concatenate([rest.reshape(count, -1), limits], axis=1)
-    dx = _solved(rows, values, damping)
-    on = along + np.einsum("snk,sk->sn", along_slopes, dx)
-    return dx, -on / length * kept
+    system = _System(slopes, tangent, limit_slopes, damping)
+    dx, dt = system.solved(miss, limits)
+    # Along the step, second derivatives by the residuals a part of the way.
+    with np.errstate(all="ignore"):
+        made = traced.made(x + AHEAD * dx)
+        seen = theta + AHEAD * dt
+        bent = traced.missed(made, seen) - miss
+        bent_limits = np.where(limits > 0, weight * (traced.exceeded(made, seen) - over), 0.0)
+        bent -= AHEAD * (np.einsum("sndk,sk->snd", slopes, dx) + tangent * dt[..., None])
+        bent_limits -= AHEAD * np.einsum("sqk,sk->sq", limit_slopes, dx)
+    ax, at = system.solved(bent / AHEAD**2, bent_limits / AHEAD**2)
+    small = np.hypot(_norm(ax), _norm(at)) <= BENT * np.hypot(_norm(dx), _norm(dt))
+    return dx + np.where(small, ax, 0.0), dt + np.where(small, at, 0.0)
+
+
+def _norm(rows: Array) -> Array:
+    found: Array = np.sqrt((rows**2).sum(axis=-1, keepdims=True))
+    return found
+
+
+class _System:
+    """Linear least squares of many linkages (s), damped, the angles of their points taken out."""
+
+    def __init__(self, slopes: Array, tangent: Array, limit_slopes: Array, damping: Array) -> None:
+        """From slopes (s, n, d, k), tangents (s, n, d) and slopes of the limits (s, q, k)."""
+        length = np.sqrt((tangent**2).sum(axis=-1)) + 1e-150
+        self.unit, self.length = tangent / length[..., None], length
+        self.kept = 1 / (1 + damping)[:, None]
+        self.share = 1 - np.sqrt(1 - self.kept)  # (I - share u uᵀ)² = I - kept u uᵀ
+        self.along = np.einsum("snd,sndk->snk", self.unit, slopes)
+        rest = slopes - (self.share[..., None] * self.along)[:, :, None, :] * self.unit[..., None]
+        count, k = len(slopes), slopes.shape[-1]
+        rows = np.concatenate([rest.reshape(count, -1, k), limit_slopes], axis=1)
+        self.good = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
+        rows = np.where(self.good[:, None, None], rows, 0.0)
+        size = np.sqrt((rows**2).sum(axis=1))
+        self.size = np.maximum(size, 1e-6 * size.max(axis=1, keepdims=True) + 1e-12)
+        damped = np.sqrt(damping)[:, None, None] * np.eye(k)
+        q, self.r = np.linalg.qr(np.concatenate([rows / self.size[:, None, :], damped], axis=1))
+        self.q = q[:, : rows.shape[1]]
+        weak = np.abs(np.diagonal(self.r, axis1=1, axis2=2)).min(axis=1) < 1e-150
+        self.r[weak] = np.eye(k)
+        self.good &= ~weak
+
+    def solved(self, miss: Array, limits: Array) -> tuple[Array, Array]:
+        """Steps (s, k) and (s, n) that take away misses (s, n, d) and what limits are passed by (s, q)."""
+        along = np.einsum("snd,snd->sn", self.unit, miss)
+        rest = miss - (self.share * along)[..., None] * self.unit
+        values = np.concatenate([rest.reshape(len(miss), -1), limits], axis=1)
+        good = self.good & np.isfinite(values).all(axis=1)
+        right = np.einsum("smk,sm->sk", self.q, np.where(good[:, None], values, 0.0))
+        dx = -np.linalg.solve(self.r, right[..., None])[..., 0] / self.size
+        dx = np.where(good[:, None], dx, 0.0)
+        on = along + np.einsum("snk,sk->sn", self.along, dx)
+        return dx, -on / self.length * self.kept
 
 
 def _differences(values: Array, fine: bool) -> tuple[Array, Array]:
@@ -192,21 +239,3 @@ def _differences(values: Array, fine: bool) -> tuple[Array, Array]:
         return values[0], np.moveaxis(values[1:] - values[0], 0, -1) / ONE_SIDED
     ahead, behind = np.split(values[1:], 2)
     return values[0], np.moveaxis(ahead - behind, 0, -1) / (2 * SLOPE)
-
-
-def _solved(rows: Array, values: Array, damping: Array) -> Array:
-    """Least squares (s, k) of rows (s, m, k), damped in proportion to the columns."""
-    good = np.asarray(np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(values).all(axis=1))
-    rows = np.where(good[:, None, None], rows, 0.0)
-    values = np.where(good[:, None], values, 0.0)
-    size = np.sqrt((rows**2).sum(axis=1))
-    size = np.maximum(size, 1e-6 * size.max(axis=1, keepdims=True) + 1e-12)
-    scaled = rows / size[:, None, :]
-    k = rows.shape[2]
-    damped = np.sqrt(damping)[:, None, None] * np.eye(k)
-    q, r = np.linalg.qr(np.concatenate([scaled, damped], axis=1))
-    right = np.einsum("smk,sm->sk", q[:, : rows.shape[1]], values)
-    weak = np.abs(np.diagonal(r, axis1=1, axis2=2)).min(axis=1) < 1e-150
-    r[weak] = np.eye(k)
-    found = -np.linalg.solve(r, right[..., None])[..., 0] / size
-    return np.where((weak | ~good)[:, None], 0.0, found)

@@ -33,8 +33,9 @@ tell linkages apart, the way is long and flat."""
 COMING = 0.9
 """Share of its distance that is left of a linkage that still comes nearer, after it was brought to rest."""
 
-MET = 1e-8
-"""Root mean square distance, in sizes of the path, at which points are met exactly, for the search."""
+MET, ENOUGH = 1e-8, 1e-6
+"""Root mean square distances, in sizes of the path: at which points are met exactly and a linkage is left as
+it is; and at which it counts among those that are enough, a tenth of a micrometre on a path of 100 mm."""
 
 BROKEN = 1e-8
 """A linkage at rest that passes a limit by more is beyond it."""
@@ -127,11 +128,11 @@ def search(
             tried += len(x)
             fresh += _at_rest(room, number, x, theta, cost)
             progress((turn + (number + 1) / len(rooms)) / rounds)
-            if _enough([*found, *fresh], wanted, max(met, MET)):
+            if _enough([*found, *fresh], wanted, max(met, ENOUGH)):
                 break
         found += fresh
         best.append(min((one.mean for one in fresh if one.kept), default=math.inf))
-        if _enough(found, wanted, max(met, MET)) or _again(best, max(met, MET)):
+        if _enough(found, wanted, max(met, ENOUGH)) or _again(best, max(met, MET)):
             break
     found.sort(key=lambda one: one.mean)
     kept, beyond = (tuple(one for one in found if one.kept is good) for good in (True, False))

@@ -1,0 +1,43 @@
+"""Sizes of the joints where a design leaves them out."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mechwright.contracts.by_arrays import Designs
+from mechwright.mechanics.linkage.usual import Fits, JointSizes, sized
+from mechwright.tolerances import falls_short
+
+USUAL = JointSizes(6.0, 4.0, 1.0, 10.0)
+"""mm: the defaults of the table."""
+
+BY = ("crank", "coupler", "follower", "coupler_point_x", "coupler_point_y", "running_fit")
+
+
+def bore_about(pin: Any, wall: Any, fit: Any) -> Any:
+    """Diameter of a bore in which a pin turns, mm, with or without a bushing, of many designs too."""
+    wall = np.asarray(wall)
+    return np.asarray(pin + np.where(wall > 0, 2 * wall, fit))
+
+
+def fits(table: Callable[[str], Any]) -> Fits:
+    """Whether sizes leave a rim between the bores of crank, coupler and follower, of parameters by names."""
+
+    def answer(one: JointSizes) -> Any:
+        pin, rim = one.pin_diameter, one.rim
+        turning = bore_about(pin, one.bushing_wall, table("running_fit"))
+        short = falls_short(table("crank"), pin + rim) | falls_short(table("follower"), pin + rim)
+        short = short | falls_short(table("coupler"), turning + rim)
+        x, y = table("coupler_point_x"), table("coupler_point_y")
+        if x is not None and y is not None:
+            for along in (x, x - table("coupler")):
+                short = short | falls_short(np.hypot(along, y), (turning + pin) / 2 + rim)
+        return ~np.asarray(short)
+
+    return answer
+
+
+def with_sizes(designs: Designs) -> Designs:
+    """Designs with the sizes that each has by itself where they are left out."""
+    return sized(designs, USUAL, lambda some: fits(some.__getitem__), BY)

@@ -1,0 +1,107 @@
+"""Small mechanisms get pins, rims, webs and bores that fit them, where the file leaves them out."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mechwright as mw
+from mechwright import Stage
+from mechwright.contracts.evaluation import Batch
+from mechwright.contracts.finding import errors
+from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_five_bar.family import FiveBars
+from mechwright_five_bar.params import FiveBarParams
+from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.params import FourBarParams
+
+SHORT = {
+    "four-bar of 20 mm": ("four-bar", {"crank": 5, "coupler": 18, "follower": 15, "ground": 20}),
+    "four-bar of 10 mm": ("four-bar", {"crank": 3, "coupler": 10, "follower": 8, "ground": 11}),
+    "point near A": (
+        "four-bar",
+        {
+            "crank": 12,
+            "coupler": 40,
+            "follower": 30,
+            "ground": 42,
+            "coupler_point_x": 7,
+            "coupler_point_y": 0,
+        },
+    ),
+    "gear of 20 mm": ("elliptic-gears", {"semi_major": 10}),
+    "train of 30 mm": ("elliptic-gears", {"semi_major": 15, "stages": 2}),
+    "five-bar of 25 mm": (
+        "five-bar",
+        {
+            "crank": 5,
+            "coupler": 20,
+            "rocker": 20,
+            "arm": 5,
+            "ground": 25,
+            "coupler_point_x": 10,
+            "coupler_point_y": 0,
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_small_mechanisms_are_built_as_they_are(name):
+    family, lengths = SHORT[name]
+    mechanism = mw.design(family, thickness=2, **lengths)
+    assert not mechanism.findings.errors
+    assert len(mechanism.parts) > 0
+    noted = [one.message for one in mechanism.findings if one.code.endswith(".sizes")]
+    assert all("pin_diameter = " in one for one in noted)
+    assert bool(noted) == family.endswith("-bar")
+
+
+def test_what_is_given_stays_and_usual_links_have_usual_pins():
+    assert FourBarParams().pin_diameter == 6
+    assert FiveBarParams().web_width == 12
+    small = FourBarParams(crank=5, coupler=18, follower=15, ground=20, rim=1)
+    assert (small.pin_diameter, small.rim) == (4, 1)
+    asked = FourBarParams(crank=5, coupler=18, follower=15, ground=20, pin_diameter=6)
+    assert asked.pin_diameter == 6
+    assert mw.design("four-bar", crank=5, pin_diameter=6, rim=4).findings.errors
+
+
+def test_files_leave_them_open():
+    text = mw.design("four-bar", crank=5, coupler=18, follower=15, ground=20).toml
+    assert "\n# pin_diameter = 3.0" in text
+    assert "\n# pin_diameter = 6.0" in mw.design("four-bar").toml
+    assert "\npin_diameter = 2" in mw.design("four-bar", pin_diameter=2).toml
+
+
+def test_longer_links_get_thicker_pins_again():
+    small = mw.design("four-bar", crank=5, coupler=18, follower=15, ground=20)
+    assert small.with_(crank=30, coupler=80, follower=70, ground=90).design.params.pin_diameter == 6
+
+
+@given(st.floats(1, 30), st.floats(1, 60), st.floats(1, 60), st.sampled_from([0.0, 0.5, 1.0]))
+def test_sizes_leave_rims_wherever_some_do(crank, coupler, follower, wall):
+    one = FourBarParams(crank=crank, coupler=coupler, follower=follower, ground=90, bushing_wall=wall)
+    turning = one.pin_diameter + (2 * wall or one.running_fit)
+    least = min(crank - one.pin_diameter, follower - one.pin_diameter, coupler - turning)
+    assert least >= one.rim - 1e-9 or (one.pin_diameter, one.rim) == (6, 4)
+
+
+@pytest.mark.parametrize(
+    ("family", "content", "varied"),
+    [
+        (FourBars(), {"coupler": 24.0, "follower": 21.0, "ground": 27.0}, "crank"),
+        (FourBars(), {"coupler": 24.0, "follower": 21.0, "ground": 27.0, "crank": 8.0}, "rim"),
+        (EllipticGears(), {"eccentricity": 0.5, "teeth": 41}, "semi_major"),
+        (FiveBars(), {"coupler": 40.0, "rocker": 40.0, "arm": 9.0, "ground": 50.0}, "crank"),
+    ],
+)
+def test_many_at_once_have_the_sizes_of_each(family, content, varied):
+    values = np.linspace(2.0, 12.0, 11)
+    found = family.evaluate(Batch(family.Params, content, {varied: values}), (), Stage.PARTS)
+    codes = [found.codes[one] for one in found.forbidden]
+    alone = []
+    for value in values:
+        said = family.check(family.Params(**{**content, varied: float(value)}))
+        alone.append(next((one.code for one in errors(said, Stage.PARTS)), ""))
+    assert codes == alone
