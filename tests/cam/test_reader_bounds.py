@@ -32,7 +32,7 @@ def test_what_the_machine_keeps_is_named_from_the_first_to_the_last(first: int, 
 
 
 @pytest.mark.parametrize(
-    ("plane", "arc", "said"), [(18, "X5 Z9 I9 K1", "Z and X (G18)"), (19, "Y5 Z9 J9 K1", "Y and Z (G19)")]
+    ("plane", "arc", "said"), [(18, "X5 Z10 I9 K1", "Z and X (G18)"), (19, "Y5 Z10 J9 K1", "Y and Z (G19)")]
 )
 def test_a_wrong_arc_of_another_plane_says_which(plane: int, arc: str, said: str) -> None:
     with pytest.raises(ProgramError) as caught:
