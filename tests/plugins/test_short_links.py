@@ -14,6 +14,7 @@ from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
+from mechwright_geneva.sizes import sized
 
 SHORT = {
     "four-bar of 20 mm": ("four-bar", {"crank": 5, "coupler": 18, "follower": 15, "ground": 20}),
@@ -105,3 +106,13 @@ def test_many_at_once_have_the_sizes_of_each(family, content, varied):
         said = family.check(family.Params(**{**content, varied: float(value)}))
         alone.append(next((one.code for one in errors(said, Stage.PARTS)), ""))
     assert codes == alone
+
+
+@pytest.mark.parametrize(("law", "wheel"), [("straight", 12), ("straight", 20), ("cycloidal", 20)])
+def test_small_geneva_wheels_have_pins_and_dowels_whose_holes_can_be_made(law, wheel):
+    made = mw.design("geneva", law=law, entry_radius=wheel, thickness=5, load_inertia=1e-6)
+    assert not made.findings.errors
+    sizes = sized(made.design.params)
+    assert sizes.pin_diameter >= 1.2
+    assert sizes.crank_thickness < 6
+    assert sizes.fixing == 0 or sizes.fixing >= 1
