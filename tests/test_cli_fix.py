@@ -22,6 +22,8 @@ family = "four-bar"
 ground = 90  # between the shafts
 crank = 9.0
 coupler = "80 mm"
+pin_diameter = 6
+rim = 4
 """
 SMALL = """\
 family = "four-bar"
@@ -30,6 +32,9 @@ ground = 9
 crank = 3.0
 coupler = 8
 follower = 7
+pin_diameter = 6
+rim = 4
+bushing_wall = 1
 """
 
 

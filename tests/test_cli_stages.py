@@ -37,12 +37,12 @@ HIDDEN = {
     "a point off the coupler": ("elliptic-gears", {"stages": 2, "point_along": 1.5}, "point.off-coupler"),
     "bores of short links": (
         "four-bar",
-        {"crank": 3, "coupler": 7, "follower": 8, "ground": 9},
+        {"crank": 3, "coupler": 7, "follower": 8, "ground": 9, "pin_diameter": 6},
         "four-bar.bores",
     ),
     "bores of short links, other way round": (
         "four-bar",
-        {"crank": 3, "coupler": 8, "follower": 7, "ground": 9},
+        {"crank": 3, "coupler": 8, "follower": 7, "ground": 9, "pin_diameter": 6},
         "four-bar.bores",
     ),
     "web of a short crank": (

@@ -22,6 +22,8 @@ family = "four-bar"
 ground = 90
 crank = 9.0
 coupler = 80
+pin_diameter = 6
+rim = 4
 """
 PLATE = """\
 family = "plate"
@@ -87,7 +89,7 @@ def test_lines_are_told_of_the_file_that_was_read(tmp_path: Path, monkeypatch: p
 
     made = design.design_of
     monkeypatch.setattr(design, "design_of", gone)
-    with pytest.raises(DesignError, match=r"line 6: parameters: unknown key 'lenght'"):
+    with pytest.raises(DesignError, match=r"line 8: parameters: unknown key 'lenght'"):
         load(path, host())
 
 

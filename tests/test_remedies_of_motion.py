@@ -21,7 +21,7 @@ def design(family: str, **parameters: float) -> Design:
     ("family", "lengths", "said"),
     [
         ("slider-crank", {"crank": 3.0, "rod": 10.0, "offset": 1.0}, {"pin": 2.0}),
-        ("four-bar", {"crank": 3.0, "coupler": 8.0, "follower": 7.0, "ground": 9.0}, {}),
+        ("four-bar", {"crank": 3.0, "coupler": 8.0, "follower": 7.0, "ground": 9.0}, {"pin_diameter": 6.0}),
     ],
 )
 def test_of_a_small_mechanism_pins_are_made_smaller_and_no_length_is_changed(

@@ -257,7 +257,10 @@ class EllipticGearParams(Parameters):
         """The bore, smaller than usual in small gears."""
         from mechwright_elliptic_gears.usual import bores
 
-        return {} if "bore" in self.model_fields_set else {"bore": float(bores(partial(getattr, self)))}
+        unsized = self.module is None and self.semi_major is None  # which is refused
+        if unsized or "bore" in self.model_fields_set:
+            return {}
+        return {"bore": float(bores(partial(getattr, self)))}
 
     @field_validator("band", mode="before")
     @classmethod

@@ -128,7 +128,8 @@ def test_a_change_moves_the_mechanism(page):
 
 
 def test_what_is_drawn_while_one_drags_waits_for_no_frame():
-    design = load(ROOT / "examples" / "geneva-machine.toml", host())
+    session = Session(ROOT / "examples" / "geneva-machine.toml", host())
+    design = session.changed({"parameters.speed": 31.0}, settle=False)
     found = answers.motion(design)["scene"]
     assert "surroundings" not in vars(design), "a frame takes seconds"
     assert {layer["body"] for layer in found["layers"]} == {"", "driver", "wheel"}

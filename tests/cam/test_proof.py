@@ -123,7 +123,7 @@ DEFECTS = {
     ),
     "over-speed": (swap("S8000", "S12500"), "speeds", "S12500 is above the spindle's 12000 rpm", None),
     "under-speed": (swap("S8000", "S50"), "speeds", "S50 is below the spindle's 100 rpm", None),
-    "over-feed": (swap("Z-1.2 F600", "Z-1.2 F6000"), "feeds", "F6000 is above", 0),
+    "over-feed": (swap("Z-1.2 F600", "Z-1.2 F6000"), "feeds", "feed of 6000 mm/min is above", 0),
     "no end": (swap("M30\n", ""), "program-end", "no end; write M30", 0),
     "ends down": (swap("G0 Z5\nM9\nM5\nG53 G0 Z0\n", "M9\nM5\n"), "program-end", "tool down", -1),
     "no retract": (swap("G53 G0 Z0\n(operation: bore)\n", "G0 Z1\n"), "tool-change", "without a retract", 1),

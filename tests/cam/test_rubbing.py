@@ -25,7 +25,7 @@ def fed(control: str, feed: str) -> str:
     """The plate's program with its mill fed so."""
     text = text_of(control)
     assert re.search(rf"{OUTSIDE}\.?(?!\d)", text)
-    return re.sub(rf"{OUTSIDE}(?!\d)\.?", f"F{feed}", text)
+    return re.sub(rf"{OUTSIDE}(?!\d)\.?", f"F{feed}{'' if '.' in feed else '.'}", text)
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -76,7 +76,7 @@ def test_a_drill_rubs_in_pecks_too(control: str, name: str, own: str, number: in
     known = tuple(t.model_copy(update={"cutting": data}) if t.number == number else t for t in of.tools)
     of = replace(of, tools=known)
     assert asked("chips", text_of(control), of, BY_NAME[control]).passed
-    slow = re.sub(rf"F{own}(?!\d)\.?", "F1", text_of(control))
+    slow = re.sub(rf"F{own}(?!\d)\.?", "F1.", text_of(control))
     found = asked("chips", slow, of, BY_NAME[control])
     assert re.match(
         rf"line {found.line}: F1 at S\d+ feeds T{number} \({name}\) 0\.\d+ µm per tooth", found.message

@@ -128,7 +128,9 @@ def test_the_order_of_setting_is_told_with_angles_and_distances():
 
 
 def test_what_leaves_no_room_for_slots_is_refused_with_what_helps():
-    found = errors(FAMILY.check(reference(phases=NEAR, coupler_point_x=6, coupler_point_y=8)))
+    found = errors(
+        FAMILY.check(reference(phases=NEAR, coupler_point_x=6, coupler_point_y=8, pin_diameter=8, rim=4))
+    )
     assert [one.code for one in found] == ["five-bar.phases"]
     assert found[0].value < found[0].limit
     thin = errors(FAMILY.check(reference(phases=({"crank_turn": 1, "rocker_turn": 1},), pin_diameter=4)))

@@ -107,7 +107,7 @@ def test_what_is_said_of_the_count():
     assert message.startswith(
         "141 found of 141 solutions, all of them, each certified; 11 of them are real, "
     )
-    assert "4 of these with a full turn; 2 of them are given" in message
+    assert "4 of these with a full turn; 4 of them are given" in message
     driven = said(**two, ground=102.9, acceleration_ratios=[0.2])
     assert "in 200 starts" in driven
     assert "141" not in driven

@@ -171,7 +171,7 @@ def test_places_without_a_solution_get_the_best_residual():
 
 
 def test_designs_that_are_too_small_to_build_say_so():
-    poles = [(0.66, 0.53), (3.27, 3.59), (3.22, 3.62)]
+    poles = [(0.2, 0.16), (0.98, 1.08), (0.97, 1.09)]
     result, _ = synthesise(poles=poles, crank_turns=[0, 210, 220], starts=1000)
     (finding,) = result.findings
     assert finding.code == "poles.unbuildable"

@@ -32,7 +32,7 @@ class Session(Following):
         """Motion, parts, remedies, and builds."""
         return {
             **self.common(),
-            "motion": lambda body: answers.motion(self.changed(change_of(body))),
+            "motion": lambda body: answers.motion(self.changed(change_of(body), settle=False)),
             "parts": lambda body: answers.parts(self.changed(change_of(body))),
             "remedies": lambda body: {"findings": self.remedies(change_of(body))},
             "build": self._build,
@@ -51,9 +51,9 @@ class Session(Following):
                 self._design = load(self.path, self.host)
             return self._design
 
-    def changed(self, change: Change) -> Design:
+    def changed(self, change: Change, *, settle: bool = True) -> Design:
         """The design with what the page says; raises DesignError where that cannot be."""
-        return self.design().changed(change) if change else self.design()
+        return self.design().changed(change, settle=settle) if change else self.design()
 
     def described(self, change: Change) -> dict[str, Any]:
         """Names, digest and fields."""

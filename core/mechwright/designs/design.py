@@ -162,13 +162,19 @@ class Design:
         others = self.family.settings(self.params)
         return {name: replace(self, params=params) for name, params in others.items()}
 
-    def changed(self, change: Change) -> "Design":
-        """The design that the file would hold with a change; raises as :func:`load` does."""
+    def changed(self, change: Change, *, settle: bool = True) -> "Design":
+        """The design that the file would hold with a change; raises as :func:`load` does.
+
+        Without ``settle`` what was chosen for keys that the file leaves out stays: to choose anew may take
+        seconds.
+        """
         content = changed(self.content, change)
-        params = own_params(self.family, content, self.path)
+        chosen = {} if settle else {key: value for key, value in self.chosen.items() if key not in change}
+        params = own_params(self.family, changed(content, chosen), self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = table_values(self.readers, content, self.path, self.tables, touched)
-        return settled(replace(self, params=params, tables=tables, content=content, chosen={}))
+        design = replace(self, params=params, tables=tables, content=content, chosen=chosen)
+        return settled(design) if settle else design
 
     def choosing(self, change: Change) -> "Design":
         """The design with keys that its file leaves out, beside those that are chosen already."""

@@ -33,7 +33,7 @@ def shares(seconds: Sequence[float], most: int) -> list[list[int]]:
     >>> shares([1, 1], most=4)
     [[0, 1]]
     >>> shares([3, 4, 2, 6], most=2)
-    [[0, 2, 3], [1]]
+    [[2, 3], [0, 1]]
     """
     ends = [0.0] + [BEGINS] * (most - 1)
     found: list[list[int]] = [[] for _ in ends]
