@@ -9,6 +9,7 @@ import mechwright as mw
 from mechwright import Stage
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.finding import errors
+from mechwright.contracts.refusals import refusals
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.params import FiveBarParams
@@ -116,3 +117,9 @@ def test_small_geneva_wheels_have_pins_and_dowels_whose_holes_can_be_made(law, w
     assert sizes.pin_diameter >= 1.2
     assert sizes.crank_thickness < 6
     assert sizes.fixing == 0 or sizes.fixing >= 1
+
+
+@pytest.mark.parametrize(("model", "short"), [(FourBarParams, 9.0), (FiveBarParams, 8.0)])
+def test_a_first_design_with_fitted_sizes_does_not_send_all_the_slow_way(model, short):
+    assert model(crank=short).rim < model.model_fields["rim"].default
+    assert refusals(Batch(model, {}, {"crank": np.array([short, 40.0])})).known.all()

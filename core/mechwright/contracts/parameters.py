@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
 from pydantic.config import JsonDict
+from pydantic.fields import FieldInfo
 
 if TYPE_CHECKING:
     from functools import _lru_cache_wrapper
@@ -22,6 +23,13 @@ has to be: no remedy changes it."""
 FITTED: JsonDict = {"fitted": True}
 """``json_schema_extra`` of a field that :meth:`Parameters.fitted` sets where a file leaves it out: its
 default is the usual value, and files that are written show it as a comment."""
+
+
+def is_fitted(field: FieldInfo) -> bool:
+    """Whether a field is marked with :data:`FITTED`."""
+    marks = field.json_schema_extra
+    return isinstance(marks, dict) and bool(marks.get("fitted"))
+
 
 KEPT = 32
 """Designs of which a function's result is kept: checks, motion and parts ask for the same one."""

@@ -20,7 +20,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from mechwright.contracts.evaluation import PARAMETERS, Batch
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import Parameters, is_fitted
 from mechwright.contracts.stand_in import Asked, StandIn, Unlike, changed
 from mechwright.units import Unit
 
@@ -147,13 +147,16 @@ def _allowed(batch: Batch[Any], content: Mapping[str, Any], places: NDArray[np.i
 
 
 def _as_said(table: BaseModel, content: Mapping[str, Any], varied: Mapping[str, NDArray[Any]]) -> bool:
-    """Whether what is not varied is what the content and the defaults say, and no rule has changed it."""
+    """Whether what is not varied is what the content and the defaults say, and no rule has changed it.
+
+    What is fitted is asked for each design by who answers by arrays.
+    """
     for name, info in type(table).model_fields.items():
         value = getattr(table, name)
         if isinstance(value, BaseModel):
             if not _as_said(value, content.get(name, {}), _below(varied, name)):
                 return False
-        elif name not in varied:
+        elif name not in varied and (name in content or not is_fitted(info)):
             said = _adapter(info).validate_python(content[name]) if name in content else info.get_default()
             if value != said:
                 return False

@@ -10,7 +10,7 @@ from typing import Any, Protocol, Self, TypeVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import Parameters, is_fitted
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
 from mechwright.designs.change import found_at
@@ -113,9 +113,8 @@ def _open(key: str, design: _Open) -> bool:
     if not isinstance(model, Parameters) or name not in type(model).model_fields:
         return False
     field = type(model).model_fields[name]
-    marks = field.json_schema_extra
-    fitted = isinstance(marks, dict) and bool(marks.get("fitted"))
-    return fitted or (not field.is_required() and field.get_default(call_default_factory=True) is None)
+    follows = not field.is_required() and field.get_default(call_default_factory=True) is None
+    return follows or is_fitted(field)
 
 
 def told(chosen: Mapping[str, Any]) -> Finding:
