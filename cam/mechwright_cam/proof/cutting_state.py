@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.machine_rules import retract
-from mechwright_cam.proof.off_path import deepest_off_path, too_deep
+from mechwright_cam.proof.off_path import deepest_off_path
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
@@ -152,14 +152,11 @@ def path_tolerance(scene: Scene) -> Check:
         return scene.bad(step, message, found, LOOSEST, "mm")
     if not off.any():
         return Check(True, f"no word lets {name} leave the path further than its settings do")
-    far = scene.off_path.too_deep(off, limit, any_one=True)
-    if far.any() and scene.gouge is not None and scene.gouge.depth > limit:
-        # What the path itself cuts is the gouge of that rule, and no finer tolerance mends it.
-        far = scene.off_path.too_deep(off, limit) & ~too_deep(
-            scene.paths, scene.job, np.zeros(len(run)), limit
+    if scene.gouge is not None and scene.gouge.depth > limit:
+        return Check(
+            True, f"not asked of {name}, for the path itself cuts into the part, and no tolerance mends that"
         )
-        if not far.any():
-            return Check(True, f"{name} cuts the part nowhere but where the path itself does")
+    far = scene.off_path.too_deep(off, limit, any_one=True)
     if far.any():
         some = copy(scene.paths)
         some.steps = some.steps[far[some.steps]]
