@@ -2,6 +2,8 @@
 
 import contextlib
 import os
+import threading
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
@@ -48,5 +50,8 @@ def together(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
     count = min(len(work), cores())
     if count < 2:
         return [function(item) for item in work]
-    with ThreadPoolExecutor(count) as pool:
+    # Libraries that set the filters of warnings aside and back, as shapely does in ``is_valid``, leave those
+    # of another thread when two of them cross.
+    alone = threading.current_thread() is threading.main_thread()
+    with warnings.catch_warnings() if alone else contextlib.nullcontext(), ThreadPoolExecutor(count) as pool:
         return list(pool.map(function, work))
