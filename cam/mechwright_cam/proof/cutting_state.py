@@ -135,7 +135,7 @@ def path_tolerance(scene: Scene) -> Check:
     """The control has a bound on how far it leaves the path, and there, too, stays out of the part."""
     run, name, limit = scene.run, scene.control.title, TOLERANCES.gouge
     off, exact = scene.motion.off, scene.control.exact_words
-    advice = f"write {scene.control.rounding_words} or {exact}"
+    advice = "write " + " or ".join(filter(None, (scene.control.rounding_words, exact)))
     words = run.of_states(lambda state: state.off_path)
     if (step := first(run.moving & np.isinf(words))) is not None:
         message = (
@@ -145,9 +145,9 @@ def path_tolerance(scene: Scene) -> Check:
         return scene.bad(step, message, None, limit, "mm")
     if (step := first(in_work(scene) & (words > LOOSEST))) is not None:
         found = float(words[step])
+        said = f" ({scene.control.bound_words})" if scene.control.bound_words else ""
         message = (
-            f"{name} may leave the path by {found:g} mm at corners ({scene.control.bound_words}), "
-            f"{LOOSEST:g} mm at most; {advice}"
+            f"{name} may leave the path by {found:g} mm at corners{said}, {LOOSEST:g} mm at most; {advice}"
         )
         return scene.bad(step, message, found, LOOSEST, "mm")
     if not off.any():

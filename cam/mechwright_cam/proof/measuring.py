@@ -9,22 +9,15 @@ import math
 import re
 from collections.abc import Mapping
 
-from mechwright.designs.inches import FACTORS
 from mechwright.errors import ProofError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import place_of
+from mechwright_cam.proof.by_words import FEED_ROUNDED, MODES, NEEDED, ROOM, ByWords
 from mechwright_cam.proof.offset_rules import LAST_DECIMAL
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.setup.job import Job
 
 _WORD = re.compile(r"([A-Z])(-?(?:\d+\.?\d*|\.\d+))")
-MODES = frozenset({"G17", "G20", "G21", "G40", "G49", "G61", "G80", "G90", "G91", "G91.1", "G94", "M5", "M9"})
-NEEDED = ("G40", "G49", "G80", "G90", "G94", "M5")
-"""What has to be said before anything moves."""
-FEED_ROUNDED = 0.051
-"""Feeds have one decimal of their unit."""
-ROOM = 2.0
-"""Between tip and setter, or stock, where a rapid ends, where both heights are known, mm."""
 
 
 def prove_lengths(texts: Mapping[str, str], job: Job, control: Control, numbers: tuple[int, ...]) -> None:
@@ -37,46 +30,31 @@ def prove_lengths(texts: Mapping[str, str], job: Job, control: Control, numbers:
     """
     left = list(numbers)
     for name, text in texts.items():
-        reading = _Reading(name, job, control, left, one_by_hand=not control.offsets.lengths)
-        for number, line in enumerate(text.splitlines(), start=1):
-            reading.line(number, line)
-        reading.finish()
+        _Reading(name, job, control, left, one_by_hand=not control.offsets.lengths).read(text)
     if left:
         raise ProofError(f"{', '.join(texts)}: T{left[0]} is not measured; measure every tool of the job")
 
 
-class _Reading:
-    """One program, line by line; lengths in mm."""
+class _Reading(ByWords):
+    """A program that measures tools."""
 
     def __init__(self, name: str, job: Job, control: Control, left: list[int], *, one_by_hand: bool) -> None:
-        self.name, self.job, self.control, self.left = name, job, control, left
-        self.setter, self.top = job.settings.setter, control.upper_end(job.settings.machine)
-        self.scale, self.said = 1.0, set[str]()
+        super().__init__(name, job, control)
+        self.left, self.setter = left, job.settings.setter
         self.tool: int | None = left[0] if one_by_hand and left else None
         """The one that has been put in, where tools are changed by hand."""
-        self.up = self.ended = False
-        self.over_setter = False
+        self.up = self.over_setter = False
         self.touches = 0
-        self.number = 0
 
-    def bad(self, why: str) -> ProofError:
-        return ProofError(f"{self.name}: line {self.number}: {why}")
-
-    def line(self, number: int, text: str) -> None:
+    def obey(self, code: str) -> None:
         """Obey a line, or refuse it."""
-        self.number = number
-        code = re.sub(r"\([^()]*\)", "", text).replace(" ", "")
-        if not code:
-            return
-        if self.ended:
-            raise self.bad("stands behind the end of the program; take it out")
         words = [(letter, float(value)) for letter, value in _WORD.findall(code)]
         if "".join(match[0] for match in _WORD.finditer(code)) != code:
             raise self.bad(f"{code!r} is more than a program that measures tools may say")
         names = [f"{letter}{value:g}" for letter, value in words]
         values = dict(words)
         if set(names) <= MODES | set(self.job.settings.offsets):
-            self._modes(names)
+            self.modes(names)
         elif names[:2] == ["G53", "G0"]:
             self._machine_place(values)
         elif names[0] == "G38.2" and set(values) == {"G", "Z", "F"}:
@@ -89,26 +67,12 @@ class _Reading:
             self._change(int(values["T"]))
         elif names == ["M30"]:
             self.ended = True
-            self._has_to_be_up("ends")
+            self.check_up("ends", up=self.up)
         else:
             raise self.bad(f"{' '.join(names)} is none of what a program that measures tools does")
 
-    def _modes(self, names: list[str]) -> None:
-        self.said |= set(names)
-        for one, other in (("G90", "G91"), ("G91", "G90")):
-            if one in names:
-                self.said.discard(other)
-        if {"G20", "G21"} & set(names):
-            self.scale = FACTORS["mm"] if "G20" in names else 1.0
-
-    def _has_to_be_up(self, what: str) -> None:
-        if not self.up:
-            raise self.bad(f"{what} below machine Z {self.top:g}; retract first")
-
     def _machine_place(self, values: dict[str, float]) -> None:
-        missing = [word for word in NEEDED if word not in self.said]
-        if missing:
-            raise self.bad(f"moves before {' '.join(missing)}")
+        self.check_modes([word for word in NEEDED if word not in self.said])
         if set(values) == {"G", "Z"}:
             z = values["Z"] * self.scale
             self.up = z >= self.top - NEAR
@@ -121,7 +85,7 @@ class _Reading:
             return
         if set(values) != {"G", "X", "Y"}:
             raise self.bad("a move in machine coordinates is of X and Y, or of Z")
-        self._has_to_be_up("goes sideways")
+        self.check_up("goes sideways", up=self.up)
         x, y = values["X"] * self.scale, values["Y"] * self.scale
         assert self.setter.x is not None and self.setter.y is not None  # noqa: S101, PT018 - the table has both
         off = math.hypot(x - self.setter.x, y - self.setter.y)
@@ -199,12 +163,7 @@ class _Reading:
         self.touches = 0
 
     def _change(self, tool: int) -> None:
-        self._has_to_be_up("changes the tool")
+        self.check_up("changes the tool", up=self.up)
         if tool not in self.left:
             raise self.bad(f"T{tool} is no tool of this job, or has been measured")
         self.tool = tool
-
-    def finish(self) -> None:
-        """Refuse a program that does not end."""
-        if not self.ended:
-            raise self.bad("the program has no end; write M30")

@@ -15,12 +15,10 @@ contact
 import math
 import re
 
-from mechwright.designs.inches import FACTORS
-from mechwright.errors import ProofError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import place_of
 from mechwright_cam.controls.writing.probing import FAST, PARAMETERS, SLOW
-from mechwright_cam.proof.measuring import FEED_ROUNDED, MODES, NEEDED, ROOM
+from mechwright_cam.proof.by_words import FEED_ROUNDED, MODES, NEEDED, ROOM, ByWords
 from mechwright_cam.proof.offset_rules import LAST_DECIMAL
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.setup.job import Job
@@ -41,43 +39,28 @@ def prove_probe(name: str, text: str, job: Job, control: Control) -> None:
     ProofError
         One line: file and line, what is wrong, the limit.
     """
-    reading = _Reading(name, job, control)
-    for number, line in enumerate(text.splitlines(), start=1):
-        reading.line(number, line)
-    reading.finish()
+    _Reading(name, job, control).read(text)
 
 
-class _Reading:
-    """One program, line by line; lengths in mm."""
+class _Reading(ByWords):
+    """A program that probes."""
 
     def __init__(self, name: str, job: Job, control: Control) -> None:
-        self.name, self.job, self.control = name, job, control
+        super().__init__(name, job, control)
         self.probe, self.offset = job.settings.probe, job.settings.work_offset
         self.radius, self.doubt = self.probe.diameter / 2, self.probe.doubt
-        self.top = control.upper_end(job.settings.machine)
-        self.scale, self.said = 1.0, set[str]()
         self.at: dict[str, Span] = dict.fromkeys("XYZ", (math.nan, math.nan))
         self.sure = set[str]()
         self.touched: tuple[str, int, int] | None = None
         """Axis, direction and number of the last touches, if nothing but moves along it came since."""
-        self.meets = self.taken = self.ended = False
-        """Whether the ball stands at a contact, the probe is in the spindle, the program has ended."""
+        self.meets = self.taken = False
+        """Whether the ball stands at a contact, the probe is in the spindle."""
         self.slow = False
         self.free: Span = (0.0, 0.0)
         """Where along its axis the ball has come from in its last touch."""
-        self.number = 0
 
-    def bad(self, why: str) -> ProofError:
-        return ProofError(f"{self.name}: line {self.number}: {why}")
-
-    def line(self, number: int, text: str) -> None:
+    def obey(self, code: str) -> None:
         """Obey a line, or refuse it."""
-        self.number = number
-        code = re.sub(r"\([^()]*\)", "", text).replace(" ", "")
-        if not code:
-            return
-        if self.ended:
-            raise self.bad("stands behind the end of the program; take it out")
         words = _WORD.findall(code)
         if "".join(letter + value for letter, value in words) != code:
             raise self.bad(f"{code!r} is more than a program that probes may say")
@@ -86,7 +69,7 @@ class _Reading:
         if len(codes) + len(rest) != len(words):
             raise self.bad("two words of one letter")
         if not rest and set(codes) <= MODES:
-            self._modes(codes)
+            self.modes(codes)
         elif codes in (["G53", "G0"],) and set(rest) == {"Z"}:
             self._retract(self._value(rest["Z"]))
         elif not rest and codes == [f"T{self.probe.tool}", "M6"] and self.control.offsets.lengths:
@@ -112,14 +95,6 @@ class _Reading:
         except ValueError:
             raise self.bad(f"{word} is no place that is known here") from None
 
-    def _modes(self, codes: list[str]) -> None:
-        self.said |= set(codes)
-        for one, other in (("G90", "G91"), ("G91", "G90")):
-            if one in codes:
-                self.said.discard(other)
-        if {"G20", "G21"} & set(codes):
-            self.scale = FACTORS["mm"] if "G20" in codes else 1.0
-
     def _states(self, codes: set[str]) -> None:
         if {"G43", f"H{self.probe.tool}"} <= codes:
             if not self.taken:
@@ -130,13 +105,10 @@ class _Reading:
         self.said |= codes & {self.offset}
 
     def _up(self, what: str) -> None:
-        if self.at["Z"][0] != math.inf:
-            raise self.bad(f"{what} below machine Z {self.top:g}; retract first")
+        self.check_up(what, up=self.at["Z"][0] == math.inf)
 
     def _retract(self, z: float) -> None:
-        missing = [word for word in NEEDED if word != "M5" and word not in self.said]
-        if missing:
-            raise self.bad(f"moves before {' '.join(missing)}")
+        self.check_modes([word for word in NEEDED if word != "M5" and word not in self.said])
         if not self.top - NEAR <= z <= max(self.top, 0.0) + NEAR or "G91" in self.said:
             raise self.bad(
                 f"goes to machine Z{z:g}, and not to its upper end, {self.top:g}, in absolute coordinates"
@@ -160,9 +132,7 @@ class _Reading:
     def _rapid(self, codes: list[str], rest: dict[str, str]) -> None:
         if "G0" not in codes or not set(rest) <= set("XYZ"):
             raise self.bad("moves otherwise than by G0")
-        missing = [word for word in (*NEEDED, self.offset) if word not in self.said and word != "G90"]
-        if missing:
-            raise self.bad(f"moves before {' '.join(missing)}")
+        self.check_modes([word for word in (*NEEDED, self.offset) if word not in self.said and word != "G90"])
         if "G91" in self.said and not self.meets:
             raise self.bad("goes by a distance elsewhere than away from a contact")
         if self.meets and self.touched is not None and set(rest) != {self.touched[0]}:
@@ -293,7 +263,6 @@ class _Reading:
 
     def finish(self) -> None:
         """Refuse a program that does not end, or has not found the zero."""
-        if not self.ended:
-            raise self.bad("the program has no end; write M30")
+        super().finish()
         if missing := sorted(set("XYZ") - self.sure):
             raise self.bad(f"ends without {' and '.join(missing)} of {self.offset}")
