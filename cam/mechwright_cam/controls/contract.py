@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, ClassVar
 from mechwright.contracts.plugin import Plugin
 from mechwright.designs.inches import FACTORS
 from mechwright.errors import ProgramError
-from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.dialect import EXACT, Corners
 from mechwright_cam.controls.offsets import G54_TO_G59, OffsetTables, WorkOffsets
 
@@ -170,10 +169,10 @@ class Control(Plugin):
     """Whether it has cutter compensation at all, which an earlier program may have left on."""
     dwell_words: ClassVar[str] = "P is in seconds"
     """The unit of its dwells."""
-    bound_words: ClassVar[str] = "P and Q of G64 together"
-    """Where a program says how far the control may leave the path."""
-    rounding_words: ClassVar[str] = f"G64 P{TOLERANCES.arc_fit:g} Q0 (in mm)"
-    """What keeps it as near to the path as our own programs do at walls."""
+    bound_words: ClassVar[str] = ""
+    """Where a program says how far the control may leave the path; empty where none can say so."""
+    rounding_words: ClassVar[str] = ""
+    """What keeps it as near to the path as our own programs do at walls; empty where no word does."""
     exact_words: ClassVar[str] = "G61"
     """What keeps it on the path."""
     several: ClassVar[bool] = False

@@ -87,6 +87,9 @@ class LinuxCnc(Measuring, GcodeControl):
         """Its trajectory planner."""
         return Planner()
 
+    bound_words = "P and Q of G64 together"
+    rounding_words = f"G64 P{TOLERANCES.arc_fit:g} Q0 (in mm)"
+
     def blending(self, exact: bool) -> list[str]:
         """How corners are taken.
 

@@ -26,6 +26,8 @@ M_GROUPS: dict[str, frozenset[int]] = {
 G_GROUP = {code: name for name, codes in GROUPS.items() for code in codes}
 CYCLES_APART = {code: name for code, name in G_GROUP.items() if code != 800}
 """The same where cycles are a group of their own: G80 may stand beside a motion."""
+STOPPING = frozenset({5, 9})
+"""M codes that some controls carry out behind the move of their line."""
 M_GROUP = {code: name for name, codes in M_GROUPS.items() for code in codes}
 
 TAPPING = frozenset({740, 840})

@@ -5,6 +5,7 @@ import re
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.characters import NO_LINE_END
+from mechwright_cam.controls.reading.groups import STOPPING
 
 NAME = "HEIDENHAIN"
 LONGEST = 128
@@ -17,8 +18,6 @@ BOTH_M = {13: "M3 M8", 14: "M4 M8"}
 """M functions that are two others."""
 AT_THE_END = frozenset({0, 1, 2, 5, 9, 30})
 """M functions that act when the move of their block is done."""
-STOPPING = frozenset({5, 9})
-"""Those of them that may stand beside a move."""
 AT_THE_START = frozenset({3, 4, 7, 8, 13, 14})
 """Those that act before it."""
 NO_CYCLE = "cycles are not read; post the moves"

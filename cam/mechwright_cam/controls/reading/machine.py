@@ -9,15 +9,13 @@ from collections.abc import Mapping
 
 from mechwright_cam.controls.dialect import RETURN, Dialect
 from mechwright_cam.controls.reading.blocks import Block, check_points, fail, no_code
-from mechwright_cam.controls.reading.groups import GROUPS, spell
+from mechwright_cam.controls.reading.groups import GROUPS, STOPPING, spell
 from mechwright_cam.controls.reading.motions import Moving
 from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
 
 AXES_TAKEN = frozenset({100, 280, RETURN, 431})
 """G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
 MOTIONS = GROUPS["motion"]
-STOPPING = frozenset({5, 9})
-"""M codes that some controls carry out behind the move of their line."""
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
