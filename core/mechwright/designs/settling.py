@@ -14,6 +14,7 @@ from mechwright.contracts.parameters import Parameters, is_fitted
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
 from mechwright.designs.change import found_at
+from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain import Chain
 
@@ -119,5 +120,9 @@ def _open(key: str, design: _Open) -> bool:
 
 def told(chosen: Mapping[str, Any]) -> Finding:
     """What was chosen."""
-    said = ", ".join(f"{key.removeprefix('parameters.')} = {value:g}" for key, value in chosen.items())
+    said = ", ".join(f"{key.removeprefix('parameters.')} = {_shown(value)}" for key, value in chosen.items())
     return Finding.note(CHOSEN, f"left out, and chosen as its frame or chain wants it: {said}")
+
+
+def _shown(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else toml(value)
