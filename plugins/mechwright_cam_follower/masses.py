@@ -95,7 +95,8 @@ class _Weights:
     def _inside(self, number: int) -> Array:
         """Area (n, 1) of a cam without its bores."""
         cams, nodes, weights = self.cams, *_GAUSS
-        swept, length = 0.0, 0.0
+        swept: Any = 0.0
+        length: Any = 0.0
         for piece in self.course.pieces:
             half = (piece.high - piece.low) / 2
             u = piece.low + half * (1 + nodes) if piece.segment.law else np.array([piece.low])
@@ -144,6 +145,7 @@ class _Weights:
 
     def _slide(self) -> Any:
         cams, start = self.cams, self.geometry.start
+        low: Any
         if cams.contact == "flat":
             margin, (low, high) = cams.value("face_margin"), self._face
             width = high - low + 2 * margin
