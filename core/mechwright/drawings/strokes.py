@@ -34,7 +34,7 @@ FARTHEST = 1e6
 FULLEST = 1e9
 """Bulges from here on are whole circles, whose place they do not tell."""
 MOST_UNEVEN = 1e9
-"""The greatest weight of a rational spline over its least one: beyond it the curve has corners in all but name."""
+"""The greatest weight of a rational spline over its least one: beyond it the curve is all but cornered."""
 
 
 class NoCurveError(GeometryError):
