@@ -95,7 +95,8 @@ class _Weights:
     def _inside(self, number: int) -> Array:
         """Area (n, 1) of a cam without its bores."""
         cams, nodes, weights = self.cams, *_GAUSS
-        swept, length = 0.0, 0.0
+        swept: Any = 0.0
+        length: Any = 0.0
         for piece in self.course.pieces:
             half = (piece.high - piece.low) / 2
             u = piece.low + half * (1 + nodes) if piece.segment.law else np.array([piece.low])
@@ -151,8 +152,8 @@ class _Weights:
             corner = np.minimum(np.minimum(CORNER, margin), width / 3)
             return rectangle_area(width, reach + FREE + cams.guide_length - start, corner)
         width = self._bar
-        low = self.geometry.apart if cams.conjugate else 0.0
-        return strip_area(low + cams.stroke + width / 2 + FREE + cams.guide_length, width / 2)
+        apart: Any = self.geometry.apart if cams.conjugate else 0.0
+        return strip_area(apart + cams.stroke + width / 2 + FREE + cams.guide_length, width / 2)
 
     @property
     def _bar(self) -> Any:

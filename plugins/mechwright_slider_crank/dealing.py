@@ -7,7 +7,6 @@ dealing has that, pins have none.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,8 +59,8 @@ def dealt(designs: Designs, many: Cranks, rooms: Rooms) -> Dealt:
     blocked, free = rooms.blocked.copy(), rooms.free.copy()
     closer(designs, many, rooms.sizes, blocked, free, lambda: _first(blocked, free)[1])
     way, _ = _first(blocked, free)
-    layers: Any = np.array(ORDER)[way % len(ORDER)].T
-    return Dealt(*layers, way < len(ORDER), rooms.sizes)
+    crank, rod, slider = np.array(ORDER)[way % len(ORDER)].T
+    return Dealt(crank, rod, slider, way < len(ORDER), rooms.sizes)
 
 
 def _first(blocked: Bools, free: Bools) -> tuple[NDArray[np.intp], Bools]:

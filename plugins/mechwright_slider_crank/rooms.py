@@ -113,7 +113,7 @@ def forbid_layers(found: Answer, designs: Designs, many: Cranks, sizes: Sizes) -
         # What finds no layers has longer rails where it finds some with them.
         others, slid = chosen.some(again), cranks.some(again)
         longer = longer_rails(others, slid, some_sizes(few, again))
-        overhang = np.array(np.broadcast_to(few.overhang, left.size), dtype=float)
+        overhang: Any = np.array(np.broadcast_to(few.overhang, left.size), dtype=float)
         overhang[again] = longer.overhang
         few = replace(few, overhang=overhang)
         blocked[again], free[again] = _judged(others, slid, longer)
