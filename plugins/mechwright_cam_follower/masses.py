@@ -153,8 +153,8 @@ class _Weights:
             corner = np.minimum(np.minimum(CORNER, margin), width / 3)
             return rectangle_area(width, reach + FREE + cams.guide_length - start, corner)
         width = self._bar
-        low = self.geometry.apart if cams.conjugate else 0.0
-        return strip_area(low + cams.stroke + width / 2 + FREE + cams.guide_length, width / 2)
+        apart: Any = self.geometry.apart if cams.conjugate else 0.0
+        return strip_area(apart + cams.stroke + width / 2 + FREE + cams.guide_length, width / 2)
 
     @property
     def _bar(self) -> Any:
