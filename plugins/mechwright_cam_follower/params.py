@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, GIVEN, MaterialName, Parameters
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.units import Millimetres, RevPerMin, Unit
+from mechwright_cam_follower.usual import FOLLOWS, followed
 
 MOST_SEGMENTS = 24
 """Of a turn: more are a table."""
@@ -38,8 +39,6 @@ USUAL: dict[str, Any] = {
     "swings": (20.0, 20.0, 0.0, 0.0),
     "roller_radius": 8.0,
     "offset": 0.0,
-    "centre_distance": 90.0,
-    "arm_length": 75.0,
     "face_margin": 2.0,
     "spring_preload": 60.0,
     "spring_rate": 4.0,
@@ -170,10 +169,19 @@ class CamParams(Parameters):
         json_schema_extra=FIRST,
     )
     centre_distance: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="From the cam's axis to the lever's; left out, 90.", json_schema_extra=FIRST
+        None,
+        description=(
+            "From the cam's axis to the lever's; left out, it grows with the cam: 90 for the usual one, "
+            "68 with a flat face."
+        ),
+        json_schema_extra=FIRST,
     )
     arm_length: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="From the lever's axis to its roller; left out, 75.", json_schema_extra=FIRST
+        None,
+        description=(
+            "From the lever's axis to its roller; left out, it grows with the cam: 75 for the usual one."
+        ),
+        json_schema_extra=FIRST,
     )
     face_offset: Annotated[float, Field(ge=2, le=300), Unit("mm")] | None = Field(
         None,
@@ -309,6 +317,8 @@ class CamParams(Parameters):
         given = getattr(self, name)
         if given is None and name in SPRINGS and self.conjugate:
             return 0.0
+        if given is None and name in FOLLOWS:
+            return float(followed(self, name))
         found: float = USUAL[name] if given is None else given
         return found
 

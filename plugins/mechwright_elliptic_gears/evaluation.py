@@ -15,12 +15,12 @@ from scipy.special import ellipe
 from mechwright import Array, Stage, material
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.geometry.keyway import LEAST_WIDTH
+from mechwright.mechanics.gearing import driven_torque
 from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_CLEARANCE, LEAST_RIM, LEAST_TIP
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import least_backlashes
-from mechwright_elliptic_gears.joint_load import TO_NM
 from mechwright_elliptic_gears.kinematics import alpha_peak
 from mechwright_elliptic_gears.many import ENDS, SHARES, Gears, least_regularity, tips_of
 from mechwright_elliptic_gears.many_columns import columns_of
@@ -184,7 +184,7 @@ def _may_break(designs: Designs, sizes: _Sizes) -> NDArray[np.bool_]:
     polar = math.pi * a * b * (grown**4 * (a * a + b * b) / 4 + grown**2 * (a * e) ** 2)
     inertia = polar * designs["thickness"] * own.density * 1e-6
     omega = designs["speed"] * math.tau / 60
-    torque = inertia * omega**2 * alpha_peak(e) * TO_NM + designs["load_torque"]
+    torque = driven_torque(inertia, omega**2 * alpha_peak(e), designs["load_torque"])
     slant = np.arcsin(e)
     reach = a * (1 - e) * np.cos(sizes.angle + slant) / np.cos(sizes.angle)
     force = torque * 1000 / reach
