@@ -2,8 +2,8 @@
 
 Requirements of all kinds of all families by turns, drawn near what they are by default. Each design is read
 from the text of its file, checked through all stages (motion, parts, machining, comparison of the solids),
-and compared with the limits of its requirement: by its figures, and for links and transmission angles by what
-the motion of the design itself says.
+compared with the other designs, and with the limits of its requirement: by its figures, and for links and
+transmission angles by what the motion of the design itself says.
 """
 
 import argparse
@@ -19,6 +19,7 @@ from random_requirements import kinds, near_default
 
 import mechwright as mw
 from mechwright.contracts.finding import errors
+from mechwright.testing.likeness import repeated
 from mechwright.testing.limits import limits_broken
 
 SHARE = 1e-6
@@ -68,6 +69,8 @@ def faults(found: mw.Found) -> Iterator[tuple[str, str]]:
             yield mechanism.design.name, said
         for said in measured(found, mechanism):
             yield mechanism.design.name, said
+    for said in repeated(found.asked.family, found.result.candidates):
+        yield found.asked.name, said
 
 
 def measured(found: mw.Found, mechanism: mw.Mechanism) -> Iterator[str]:

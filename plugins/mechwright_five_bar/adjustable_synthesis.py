@@ -8,7 +8,7 @@ import numpy as np
 from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.adjustable import PlaneSpace, settings_of
 from mechwright.mechanics.adjustable.designs import Phased, designs_of
-from mechwright.mechanics.adjustable.machine import Machine
+from mechwright.mechanics.adjustable.machine import DIGITS, Machine
 from mechwright_five_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_five_bar.loop import FiveBar, close
 from mechwright_five_bar.params import FiveBarParams
@@ -20,6 +20,9 @@ from mechwright_five_bar.requirements import AdjustablePathRequirement
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FiveBarParams]:
     """Machines whose coupler point follows all paths, each as one design per phase; the best first."""
     return designs_of(PhasedFiveBar(wanted), progress)
+
+
+LINKS = ("crank", "coupler", "rocker", "arm", "ground")
 
 
 class PhasedFiveBar(Phased[AdjustablePathRequirement, FiveBarParams]):
@@ -106,11 +109,7 @@ def table_of(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[st
     a0, a, c, p = (complex(getattr(one.pins, name)[0]) for name in ("a0", "a", "c", "p"))
     point = (p - a) * (c - a).conjugate() / abs(c - a)
     table: dict[str, object] = {
-        "crank": bar.crank,
-        "coupler": bar.coupler,
-        "rocker": bar.rocker,
-        "arm": bar.arm,
-        "ground": bar.ground,
+        **{name: round(getattr(bar, name), DIGITS) for name in LINKS},
         "ground_angle": math.degrees(bar.ground_angle),
         "arm_angle": math.degrees(bar.offset),
         "branch": "open" if bar.branch > 0 else "crossed",

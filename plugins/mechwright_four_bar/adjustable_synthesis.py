@@ -8,13 +8,13 @@ import numpy as np
 from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.adjustable import Moves, PlaneSpace, settings_of
 from mechwright.mechanics.adjustable.designs import Phased, designs_of
-from mechwright.mechanics.adjustable.machine import Machine
+from mechwright.mechanics.adjustable.machine import DIGITS, Machine
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import in_phase
-from mechwright_four_bar.requirements import AdjustablePathRequirement
+from mechwright_four_bar.requirements import LINKS, AdjustablePathRequirement
 
 
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FourBarParams]:
@@ -99,10 +99,7 @@ def table_of(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[st
     a0, a, c, p = (complex(getattr(one.pins, name)[own]) for name in ("a0", "a", "c", "p"))
     point = (p - a) * (c - a).conjugate() / abs(c - a)
     table: dict[str, object] = {
-        "crank": bar.crank,
-        "coupler": bar.coupler,
-        "follower": bar.follower,
-        "ground": bar.ground,
+        **{name: round(getattr(bar, name), DIGITS) for name in LINKS},
         "ground_angle": math.degrees(bar.ground_angle),
         "branch": "open" if bar.branch > 0 else "crossed",
         "pivot_x": a0.real,

@@ -21,8 +21,12 @@ from mechwright_four_bar.pole_system import TWO_POLES, any_parameters, links
 FILE = Path(__file__).with_name("pole_start.npz")
 """``parameters`` (7,) and ``solutions`` (141, 6), of :mod:`mechwright_four_bar.pole_system`."""
 
+CUT = Path(__file__).with_name("pole_cut.npz")
+"""The points whose sums prove that these are all, see :mod:`mechwright.mechanics.continuation.trace`."""
+
 SOLUTIONS = 141
-"""Solutions of two poles in general position: what loops from two linkages drawn by lot closed at."""
+"""Solutions of two poles in general position: what loops from two linkages drawn by lot closed at, and the
+slope of the cut's sums."""
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,19 @@
 """From dimensions that a synthesis has found to designs that can be built."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from pydantic import ValidationError
 
 from mechwright import Candidate, Rejected, Scalar
-from mechwright.contracts.finding import errors
-from mechwright_four_bar.checks import findings
+from mechwright.contracts.finding import Severity, errors
+from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
+
+GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
+"""Transmission angle from which a larger one is not worth longer links."""
 
 
 @dataclass(frozen=True)
@@ -71,30 +74,64 @@ class Found:
 
 
 def buildable(
-    found: Iterable[Found], most: int, rejected: Rejected, progress: Callable[[float], None], count: int
+    found: Iterable[Sequence[Found]],
+    most: int,
+    rejected: Rejected,
+    progress: Callable[[float], None],
+    count: int,
 ) -> tuple[list[Candidate[FourBarParams]], str]:
     """The first ``most`` of ``count`` linkages whose design has no error, and why the first other has one.
 
-    Those that come after them are counted and not looked at.
+    Those that come after them are counted and not looked at. A linkage is given as all that it may be built
+    as, such as its mirror image, of which the first without an error is taken.
     """
     candidates: list[Candidate[FourBarParams]] = []
     reason = ""
-    for looked, one in enumerate(found, start=1):
-        try:
-            params = FourBarParams.model_validate(one.table())
-        except ValidationError as error:
-            detail = error.errors(include_url=False)[0]
-            said = f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
-            reason = reason or said
-            rejected.because("four-bar.out-of-bounds", said)
+    for looked, ways in enumerate(found, start=1):
+        said: list[tuple[str, str, str]] = []
+        for one in ways:
+            built = _built(one)
+            if isinstance(built, FourBarParams):
+                candidates.append(Candidate(built, one.residual, one.figures))
+                break
+            said.append(built)
+        else:
+            code, message, why = said[0]
+            rejected.because(code, message)
+            reason = reason or why
             continue
-        faults = errors(findings(params))
-        if rejected.by(faults):
-            reason = reason or f"{faults[0].parameter}: {faults[0].message}"
-            continue
-        candidates.append(Candidate(params, one.residual, one.figures))
         progress(len(candidates) / most)
         if len(candidates) == most:
             rejected.beyond(most, count - looked)
             break
     return candidates, reason
+
+
+def _built(one: Found) -> FourBarParams | tuple[str, str, str]:
+    """The design; or of what speaks against it the code, the message and that in short."""
+    try:
+        params = FourBarParams.model_validate(one.table())
+    except ValidationError as error:
+        detail = error.errors(include_url=False)[0]
+        said = f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
+        return "four-bar.out-of-bounds", said, said
+    faults = errors(findings(params))
+    if not faults:
+        return params
+    first = faults[0]
+    return first.code, str(first), f"{first.parameter}: {first.message}"
+
+
+def building(one: Found) -> tuple[int, int, float, float]:
+    """How well a linkage builds, the least best: errors, warnings, transmission angle up to a good one, size.
+
+    Figures of the linkage have ``least_transmission_angle`` and ``longest_link``.
+    """
+    try:
+        params = FourBarParams.model_validate(one.table())
+    except ValidationError:
+        return (2, 0, 0.0, 0.0)
+    told = [finding.severity for finding in findings(params)]
+    angle = min(one.figures["least_transmission_angle"].value, GOOD_ANGLE)
+    longest = one.figures["longest_link"].value
+    return int(Severity.ERROR in told), told.count(Severity.WARNING), -round(angle, 6), longest

@@ -55,7 +55,7 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
             rejected.because("poles.transmission", f"the transmission angle falls to {angle:.3g} degrees")
     common = common_ratio(wanted.acceleration_ratios)
     candidates, reason = buildable(
-        (_found(one, common or 0.0) for one in good),
+        ((_found(one, common or 0.0),) for one in good),
         wanted.designs,
         rejected,
         lambda part: progress(0.5 + 0.3 * part, "designs"),

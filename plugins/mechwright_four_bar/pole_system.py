@@ -60,6 +60,11 @@ TWO_POLES = System(equations)
 """Two poles, the turn between them and the ground given, constant speed."""
 
 
+MOVING = 4
+"""Parameters that move where solutions are counted: the places. Solutions with the others as they are are as
+irreducible as all: what is left are both coordinates of A₁, both lengths, and the roots."""
+
+
 def any_parameters(rng: np.random.Generator) -> Plane:
     """Complex parameters (7,) in general position, of the order of 1."""
     places = np.exp(2j * np.pi * rng.random(6)) * rng.uniform(0.6, 1.4, 6)

@@ -36,13 +36,6 @@ class PathRequirement(PlanePath):
         description="Rectangle [least x, least y, greatest x, greatest y] in which both fixed pivots "
         "stand; left out, anywhere.",
     )
-    length_step: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=50,
-        description="Links and the coupler point's coordinates are multiples of it, the rest fitted "
-        "again; 0 for any lengths.",
-    )
 
 
 _BEAN = (

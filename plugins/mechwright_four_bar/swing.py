@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright.contracts.synthesis import ALIKE
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
@@ -29,9 +30,6 @@ GRID, ROUNDS = 2000, 6
 
 NEAREST, FARTHEST = 1e-3, 1e3
 """Distances of A0 from B2, in chords, between which it is sought."""
-
-SAME = 0.02
-"""Share of a length within which two linkages are one."""
 
 GOOD = math.radians(50)
 """Transmission angle from which a larger one is not worth longer links."""
@@ -117,7 +115,10 @@ def size_of(wanted: SwingRequirement, lengths: Array) -> Array:
 
 
 def swinging(wanted: SwingRequirement, progress: Progress) -> Synthesis[FourBarParams]:
-    """Crank-rockers with the swing and time ratio, each with its mirror image: A0 on the other side.
+    """Crank-rockers with the swing and time ratio.
+
+    Each stands for its mirror image as well, with A0 on the other side, which is given where it alone can be
+    built.
 
     First the smallest whose transmission angle is good, or nearly the best; then that with the best; then the
     smallest that keeps the angle that is asked for.
@@ -136,16 +137,16 @@ def swinging(wanted: SwingRequirement, progress: Progress) -> Synthesis[FourBarP
     ):
         chosen += sorted((one for one in group if one is not None), key=lambda one: float(one.longest[0]))
     rejected = Rejected()
+    middle = math.radians(wanted.middle_angle)
     found = [
-        _found(one.bar(0, math.radians(wanted.middle_angle), mirrored), wanted)
+        [_found(one.bar(0, middle, mirrored), wanted) for mirrored in (False, True)]
         for one in _distinct(chosen, rejected)
-        for mirrored in (False, True)
     ]
     candidates, reason = buildable(
         found, wanted.designs, rejected, lambda part: progress(part, "designs"), len(found)
     )
     if candidates:
-        return Synthesis(tuple(candidates), (), rejected.reasons)
+        return Synthesis(tuple(candidates), (_mirrored(candidates[0].params, wanted),), rejected.reasons)
     fault = Finding.error(
         "swing.unbuildable",
         "crank",
@@ -199,11 +200,22 @@ def _distinct(chosen: Sequence[Rockers], rejected: Rejected) -> Iterator[Rockers
     kept: list[Array] = []
     for one in chosen:
         sizes = np.log(one.lengths[:, 0])
-        if any(np.abs(sizes - other).max() < SAME for other in kept):
+        if any(np.abs(sizes - other).max() < ALIKE for other in kept):
             rejected.same()
         else:
             kept.append(sizes)
             yield one
+
+
+def _mirrored(params: FourBarParams, wanted: SwingRequirement) -> Finding:
+    """How the best design is turned into its mirror image."""
+    angle = math.remainder(2 * wanted.middle_angle - params.ground_angle, 360)
+    branch = "crossed" if params.branch == "open" else "open"
+    said = (
+        "mirror images, with the crank's axis on the other side, swing in the same way: the first design's "
+        f'has ground_angle = {angle:.6g} and branch = "{branch}", and its crank turns in the same sense'
+    )
+    return Finding.note("swing.mirror", said, angle, "deg")
 
 
 def _found(bar: FourBar, wanted: SwingRequirement) -> Found:

@@ -1,6 +1,6 @@
 """What a slider-crank can be synthesised from: the tables ``[requirement]``."""
 
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -25,6 +25,11 @@ class StrokeRequirement(Parameters):
         ge=0.1,
         le=10,
         description="Time of the slow stroke over that of the quick one, K, between 1 and 3.",
+    )
+    quick: Literal["inward", "outward"] = Field(
+        "inward",
+        description="Which stroke is the quick one where the crank turns counter-clockwise: that towards it, "
+        "or away from it.",
     )
     crank: Length | None = Field(None, description="Crank a; give at most one of crank, rod and offset.")
     rod: Length | None = Field(None, description="Rod c.")

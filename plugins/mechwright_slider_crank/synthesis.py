@@ -52,43 +52,45 @@ def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
 
 
 def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
-    """Both mirror images of the slider-crank with this stroke and time ratio."""
+    """The slider-crank with this stroke and time ratio, its offset on the side of the wanted quick stroke."""
     refused = tuple(bounds(wanted))
     if refused:
         return Synthesis((), refused)
     lengths = lengths_of(wanted)
-    candidates: list[Candidate[Design]] = []
-    why, rejected = "", Rejected()
-    for offset in (lengths.offset, -lengths.offset):
-        params, why = buildable(
-            {
-                "crank": lengths.crank,
-                "rod": lengths.rod,
-                "offset": offset,
-                "slide_direction": wanted.slide_direction,
-            }
-        )
-        if params is None:
-            rejected.because("slider-crank.not-buildable", why)
-            continue
-        stroke, ratio = simulated(params.linkage)
-        figures = {
-            "least_transmission_angle": Scalar(_transmission(params), "deg"),
-            "stroke_simulated": Scalar(stroke, "mm"),
-            "time_ratio_simulated": Scalar(ratio, ""),
-            **_lengths(params),
+    # With a slide to the left, e > 0, a crank that turns counter-clockwise takes longer for the way back.
+    offset = lengths.offset if wanted.quick == "outward" else -lengths.offset
+    params, why = buildable(
+        {
+            "crank": lengths.crank,
+            "rod": lengths.rod,
+            "offset": offset,
+            "slide_direction": wanted.slide_direction,
         }
-        candidates.append(Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures))
-    if candidates:
-        return Synthesis(tuple(candidates), (), rejected.reasons)
-    fault = Finding.error(
-        "slider-crank.not-buildable",
-        "crank",
-        f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this "
-        f"stroke and time ratio, but cannot be built: {why}",
-        remedy="choose another length inside its range, or a larger stroke",
     )
-    return Synthesis((), (fault,), rejected.reasons)
+    if params is None:
+        fault = Finding.error(
+            "slider-crank.not-buildable",
+            "crank",
+            f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this "
+            f"stroke and time ratio, but cannot be built: {why}",
+            remedy="choose another length inside its range, or a larger stroke",
+        )
+        rejected = Rejected()
+        rejected.because("slider-crank.not-buildable", why)
+        return Synthesis((), (fault,), rejected.reasons)
+    stroke, ratio = simulated(params.linkage)
+    figures = {
+        "least_transmission_angle": Scalar(_transmission(params), "deg"),
+        "stroke_simulated": Scalar(stroke, "mm"),
+        "time_ratio_simulated": Scalar(ratio, ""),
+        **_lengths(params),
+    }
+    said = (
+        f"the mirror image, offset = {-offset:.6g} and clockwise = true, does the same; with one of the two "
+        "alone the other stroke is the quick one"
+    )
+    note = Finding.note("slider-crank.mirror", said, -offset, "mm")
+    return Synthesis((Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures),), (note,))
 
 
 def _lengths(params: Design) -> dict[str, Scalar]:

@@ -128,6 +128,15 @@ class FiveBarRoom:
             + MARGIN
         )
 
+    def dimensions(self, made: FiveShapes) -> Array:
+        """Arcs, azimuth and elevation of the path point, (..., 7) degrees."""
+        return np.degrees(made.rows[..., self.columns])
+
+    @property
+    def columns(self) -> tuple[int, ...]:
+        """Unknowns that are dimensions: five arcs, then two angles."""
+        return (0, 1, 2, 3, 4, 6, 7)
+
     def cosines(self, made: FiveShapes, theta: Array, fine: int = FINE) -> Array:
         """Greatest cosines of μ and of 180° - μ in each stretch of the passage, (..., 2 stretches)."""
         stretches = STRETCHES * math.ceil(max(1.0, abs(self.ratio)))

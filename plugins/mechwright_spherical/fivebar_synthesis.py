@@ -23,6 +23,7 @@ from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, MORE, S
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import FiveBarPathRequirement
+from mechwright_spherical.stepped import NO_STEP, no_step, rounded
 from mechwright_spherical.vectors import arc, vector
 
 INSIDE = math.radians(0.01)
@@ -34,7 +35,10 @@ GOOD_ANGLE = math.radians(50)
 
 @dataclass(frozen=True)
 class Drawn:
-    """A five-bar on the points: its pins (3,) at the first, crank angles (n,), mean distance over radius."""
+    """A five-bar on the points: its pins (3,) at the first, crank angles (n,), mean distance over radius.
+
+    ``trace`` is what the search knows of it.
+    """
 
     a0: Array
     b0: Array
@@ -44,6 +48,7 @@ class Drawn:
     p: Array
     angles: Array
     mean: float
+    trace: Trace
 
     @property
     def arcs(self) -> tuple[float, ...]:
@@ -53,8 +58,9 @@ class Drawn:
 
     @property
     def shape(self) -> Array:
-        """Arcs, and those from the path point to the coupler's pins, degrees: alike in mirror images."""
-        return np.degrees([*self.arcs, float(arc(self.p, self.a)), float(arc(self.p, self.c))])
+        """Arcs, and those from the path point to the coupler's axes, degrees: alike in mirror images."""
+        to_axes = (min(one, math.pi - one) for one in (float(arc(self.p, pin)) for pin in (self.a, self.c)))
+        return np.degrees([*self.arcs, *to_axes])
 
 
 def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis[SphericalParams]:
@@ -86,7 +92,15 @@ def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis
         rejected.because(*_broken(rooms[trace.room], trace))
     candidates: list[Candidate[SphericalParams]] = []
     looked: list[Drawn] = []
-    for one in found:
+    for exact in found:
+        one = exact
+        if wanted.arc_step and len(candidates) < wanted.designs:
+            room = rooms[exact.trace.room]
+            again = rounded(exact.trace, room, wanted.arc_step)
+            if again is None:
+                rejected.because(*NO_STEP)
+                continue
+            one = _drawn(room, again)
         if any(np.abs(one.shape - other.shape).max() < ALIKE for other in looked):
             rejected.same()
             continue
@@ -109,7 +123,8 @@ def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis
         progress(SEARCH + (1 - SEARCH) * len(candidates) / wanted.designs, "designs")
     progress(1.0, "done")
     if not candidates:
-        why = list(dict.fromkeys(refused)) or [_none(result, rooms, wanted)]
+        why = list(dict.fromkeys(refused)) or no_step(rejected, wanted.arc_step)
+        why = why or [_none(result, rooms, wanted)]
         return Synthesis((), tuple(why), rejected.reasons)
     note = Finding.note(
         "spherical.path",
@@ -149,6 +164,7 @@ def _drawn(room: FiveBarRoom, one: Trace) -> Drawn:
             **{**pins, "a": a * pins["a"], "b": b * pins["b"], "c": c * pins["c"]},
             angles=angles,
             mean=one.mean * room.size,
+            trace=one,
         )
         for a, b, c in product((1, -1), repeat=3)
     ]

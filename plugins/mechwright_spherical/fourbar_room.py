@@ -106,6 +106,15 @@ class FourBarRoom:
         high = np.broadcast_to(arcs - self.bounds.greatest, low.shape)
         return np.concatenate([low, high, pinched], axis=-1) + MARGIN
 
+    def dimensions(self, made: Shapes) -> Array:
+        """Arcs, azimuth and elevation of the path point, (..., 6) degrees."""
+        return np.degrees(made.rows[..., self.columns])
+
+    @property
+    def columns(self) -> tuple[int, ...]:
+        """Unknowns that are dimensions: four arcs, then two angles."""
+        return (0, 1, 2, 3, 4, 5)
+
     def extremes(self, angles: Array) -> Array:
         """Input angles (..., 5) at one of which the transmission angle is least, for angles (..., n).
 

@@ -23,6 +23,7 @@ from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FourBarTable, SphericalParams
 from mechwright_spherical.requirements import FourBarPathRequirement
+from mechwright_spherical.stepped import NO_STEP, no_step, rounded
 from mechwright_spherical.vectors import vector
 
 MORE = 4
@@ -79,8 +80,14 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
     found: list[Candidate[SphericalParams]] = []
     refused: list[Finding] = []
     looked: list[SphericalParams] = []
-    for one in on_all(result.kept, rooms, chosen, MORE * wanted.designs):
-        room = rooms[one.room]
+    for trace in on_all(result.kept, rooms, chosen, MORE * wanted.designs):
+        room, one = rooms[trace.room], trace
+        if wanted.arc_step:
+            again = rounded(trace, room, wanted.arc_step) if len(found) < wanted.designs else trace
+            if again is None:
+                rejected.because(*NO_STEP)
+                continue
+            one = again
         placed = shortest(_placed(room, one), room.bounds)
         params = design(placed, wanted, targets, closed)
         if params is None:
@@ -98,7 +105,8 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
                 progress(SEARCH + (1 - SEARCH) * len(found) / wanted.designs, "designs")
     progress(1.0, "done")
     if not found:
-        why = list(dict.fromkeys(refused)) or [_none(result.starts, result.beyond, rooms, wanted)]
+        why = list(dict.fromkeys(refused)) or no_step(rejected, wanted.arc_step)
+        why = why or [_none(result.starts, result.beyond, rooms, wanted)]
         return Synthesis((), tuple(why), rejected.reasons)
     note = Finding.note(
         "spherical.path",
@@ -249,10 +257,16 @@ def design(
 
 
 def _same(one: SphericalParams, two: SphericalParams) -> bool:
-    names = ("ground", "input", "coupler", "output", "point_azimuth")
-    near = all(abs(getattr(one.four_bar, name) - getattr(two.four_bar, name)) < ALIKE for name in names)
-    heights = abs(one.four_bar.point_elevation), abs(two.four_bar.point_elevation)
-    return near and abs(heights[0] - heights[1]) < ALIKE
+    return bool(np.abs(_shape(one.four_bar) - _shape(two.four_bar)).max() < ALIKE)
+
+
+def _shape(table: FourBarTable) -> Array:
+    """Arcs, and those from the path point to the coupler's pins, degrees: alike in mirror images."""
+    azimuth, height = math.radians(table.point_azimuth), math.cos(math.radians(table.point_elevation))
+    to_pins = [height * math.cos(azimuth - at) for at in (0.0, math.radians(table.coupler))]
+    # A pin holds its axis at either end.
+    folded = np.degrees(np.arccos(np.minimum(np.abs(to_pins), 1.0)))
+    return np.array([table.ground, table.input, table.coupler, table.output, *folded])
 
 
 def _candidate(params: SphericalParams, residual: float) -> Candidate[SphericalParams]:

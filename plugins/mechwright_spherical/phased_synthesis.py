@@ -13,6 +13,7 @@ import numpy as np
 
 from mechwright import Array, Candidate, Finding, KinematicsError, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import ALIKE
 from mechwright.mechanics.adjustable import (
     Fit,
     Limits,
@@ -46,9 +47,6 @@ MARGIN = math.radians(0.5)
 
 EXACT, FINE = 1e-20, 721
 """Sum of squares, in sizes of the path, that counts as met; crank angles at which a machine is judged."""
-
-SAME = 1e-3
-"""Machines whose unknowns agree to this are one."""
 
 REFINED = 12
 """Planar machines that are projected and fitted on the sphere, at most."""
@@ -241,7 +239,7 @@ def _projection(
 
 def _ranked(task: Task, found: Fit) -> Iterator[int]:
     """Machines that differ: the nearest first, of exact ones that with the best transmission angle."""
-    unlike = [int(k) for k in distinct(np.column_stack([found.x, found.theta]), SAME)]
+    unlike = [int(k) for k in distinct(np.column_stack([found.x, found.theta]), ALIKE)]
     near = np.where(found.squares < EXACT, 0.0, found.squares)
     yield from sorted(unlike, key=lambda k: (near[k], -_weakest(task, found.x[k], found.theta[k])))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import ALIKE
 from mechwright.mechanics.linkage.passing import passing
 from mechwright_spherical import checks
 from mechwright_spherical.dyads import COUNT, Dyad, of_five, turns
@@ -121,6 +122,7 @@ def from_five(wanted: PosesRequirement, progress: Progress) -> Synthesis[Spheric
         found += _kept(design(linkage, wanted), wanted, rejected)
     progress(1.0, "designs")
     found.sort(key=lambda one: -one.figures["least_transmission"].value)
+    found = _distinct(found, rejected)
     said = (
         f"five poses have {len(dyads)} real dyads of {COUNT}; {sound} linkages of them go through the poses "
         "without a defect"
@@ -132,6 +134,24 @@ def from_five(wanted: PosesRequirement, progress: Progress) -> Synthesis[Spheric
     why = next(iter(reason.message for reason in rejected.reasons), "none is real")
     fault = _fault("poses", f"{said}, and none that can be built within the limits: {why}", "move a pose")
     return Synthesis((), (fault,), rejected.reasons)
+
+
+def _distinct(
+    found: list[Candidate[SphericalParams]], rejected: Rejected
+) -> list[Candidate[SphericalParams]]:
+    """The candidates but those whose arcs and input axis are nearly those of an earlier one."""
+    kept: list[Candidate[SphericalParams]] = []
+    rows: list[Array] = []
+    for one in found:
+        table = one.params.four_bar
+        arcs_ = np.radians([table.ground, table.input, table.coupler, table.output])
+        row = np.concatenate((arcs_, np.array(table.input_axis), np.array(table.output_towards)))
+        if any(np.abs(row - other).max() < ALIKE * arcs_.min() for other in rows):
+            rejected.same()
+        else:
+            kept.append(one)
+            rows.append(row)
+    return kept
 
 
 def _fault(parameter: str, message: str, remedy: str) -> Finding:

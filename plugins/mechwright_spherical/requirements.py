@@ -193,6 +193,9 @@ _POSED = (
 )  # fmt: skip
 """Fields that count with poses alone."""
 
+WHOLE = 1e-9
+"""By how much a quotient may miss a whole number: rounding."""
+
 SAME_PLACE = 1e-9
 """Points nearer to each other than this, in the plane's unit, are one."""
 
@@ -234,11 +237,23 @@ class FourBarPathRequirement(Parameters):
         12.0, ge=5, le=90, description="Least arc; a shorter one has no room for two pins."
     )
     greatest_arc: Degrees = Field(168.0, ge=20, le=175, description="Greatest arc.")
+    arc_step: Degrees = Field(
+        0.0,
+        ge=0,
+        le=10,
+        description="Arcs and the place of the path point on the coupler are multiples of it, the rest "
+        "fitted again; 0 for any arcs.",
+    )
     radius: Millimetres = Field(100.0, ge=5, le=2000, description="Radius of the sphere.")
     speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Speed of the input.")
 
     @model_validator(mode="after")
     def _together(self) -> Self:
+        if self.arc_step and abs(180 / self.arc_step - round(180 / self.arc_step)) > WHOLE:
+            raise ValueError(
+                f"arc_step = {self.arc_step:g} does not divide 180 degrees, and an arc and its supplement "
+                f"are one link; give {180 / round(180 / self.arc_step):.6g}"
+            )
         if self.least_arc >= self.greatest_arc:
             raise ValueError(
                 f"least_arc must be below greatest_arc: {self.least_arc:g} and {self.greatest_arc:g} degrees"

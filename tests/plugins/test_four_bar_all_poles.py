@@ -4,18 +4,19 @@ import math
 
 import numpy as np
 import pytest
-from by_night import by_night
+from by_night import by_night, in_ci
 from four_bar_reference import SYNTHESIS, poles_of
 
 from mechwright.mechanics.continuation import closed, read
 from mechwright.mechanics.continuation.loops import new_ones
 from mechwright.mechanics.continuation.paths import tracked
-from mechwright_four_bar.all_poles import FILE, SOLUTIONS, all_linkages
+from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
+from mechwright_four_bar.all_poles import CUT, FILE, SOLUTIONS, all_linkages
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import completed, search
-from mechwright_four_bar.pole_system import TWO_POLES, any_parameters, any_solution
+from mechwright_four_bar.pole_system import MOVING, TWO_POLES, any_parameters, any_solution
 from mechwright_four_bar.requirements import PolesRequirement
 
 TWO = [case for case in SYNTHESIS if "two_poles" in case["kind"]]
@@ -86,6 +87,19 @@ def test_a_loop_leads_from_kept_solutions_to_kept_solutions():
         known = tracked(TWO_POLES, known, begin, end).arrived
     assert len(known) > 0
     assert len(new_ones(known, start.solutions)) == 0
+
+
+@in_ci
+def test_the_sums_of_a_cut_prove_that_these_are_all():
+    """The kept cut goes through the kept solutions, no two of which have one crank pin, and its sums are linear."""
+    start, cut = read(FILE, TWO_POLES), read_cut(CUT)
+    np.testing.assert_array_equal(cut.base, start.parameters)
+    assert (cut.way[:MOVING] != 0).all()
+    pins = start.solutions[:, cut.unknown]
+    assert np.abs(pins[:, None] - pins + np.eye(SOLUTIONS)).min() > 1e-6
+    found = trace(TWO_POLES, cut)
+    assert found is not None
+    assert found.proves(SOLUTIONS, EXACT)
 
 
 @by_night

@@ -53,7 +53,7 @@ def test_no_known_linkage_is_better_or_smaller(name: str) -> None:
 def test_centric_linkages_are_those_of_the_closed_form() -> None:
     """K = 1: a = b sin(ψ/2), a² + f² = b² + c², and both extremes of the angle at B have cos μ = a f/(b c)."""
     result = asked(swing=70, follower=80, longest_link=200, least_transmission_angle=40, designs=3)
-    assert len(result.candidates) == 3
+    assert len(result.candidates) == 2
     for one in result.candidates:
         a, c, b, f = bar_of(one.params).lengths
         assert a == pytest.approx(80 * math.sin(math.radians(35)))
@@ -71,12 +71,16 @@ def test_centric_linkages_are_those_of_the_closed_form() -> None:
     ],
 )
 def test_the_motion_has_what_was_asked_for(table: dict[str, Any]) -> None:
-    result = asked(**table, designs=2)
+    result = asked(**table, designs=1)
     limit = table.get("least_transmission_angle", 30)
-    assert len(result.candidates) == 2
+    (candidate,), (note,) = result.candidates, result.findings
+    one = candidate.params
+    branch = "crossed" if one.branch == "open" else "open"
+    assert f'branch = "{branch}"' in note.message
+    mirrored = one.model_copy(update={"ground_angle": note.value, "branch": branch})
     pivots = set()
-    for one in result.candidates:
-        motion = FourBars().solve(one.params, 7201)
+    for params in (one, mirrored):
+        motion = FourBars().solve(params, 7201)
         psi = np.unwrap(motion.channels["psi"].values)
         assert math.degrees(np.ptp(psi)) == pytest.approx(table["swing"], abs=1e-3)
         middle = math.degrees((psi.max() + psi.min()) / 2) - table.get("middle_angle", 90)
@@ -88,7 +92,7 @@ def test_the_motion_has_what_was_asked_for(table: dict[str, Any]) -> None:
             assert (rising < 0.5) == (table.get("quick", "ccw") == "ccw")
             slow = max(rising, 1 - rising)
             assert slow / (1 - slow) == pytest.approx(table["time_ratio"], abs=0.01)
-        side = math.sin(math.radians(one.params.ground_angle - table.get("middle_angle", 90)))
+        side = math.sin(math.radians(params.ground_angle - table.get("middle_angle", 90)))
         pivots.add(side > 0)
     assert pivots == {True, False}  # the mirror images
 
@@ -121,6 +125,6 @@ def test_designs_are_best_first_and_distinct() -> None:
     longest = [one.figures["longest_link"].value for one in result.candidates]
     assert angles[0] >= max(angles) - math.radians(3.001)
     shapes = {tuple(round(length) for length in bar_of(one.params).lengths) for one in result.candidates}
-    assert len(result.candidates) == 2 * len(shapes)
+    assert len(result.candidates) == len(shapes) > 1
     assert all(isinstance(one.params, FourBarParams) for one in result.candidates)
     assert max(longest) <= 400

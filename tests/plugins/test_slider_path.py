@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from by_night import by_night
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
@@ -104,3 +105,31 @@ def test_the_room_knows_the_linkage():
     wanted = [math.log(30 / 40), math.log(120 / 100), abs(POINT) / 100 - 1, abs(POINT - 120) / 100 - 1,
               55 / 120 - cosine, 25 / 120 - cosine, -12 / 50, 7 / 50, -38 / 50, -57 / 50]  # fmt: skip
     np.testing.assert_allclose(over, wanted, atol=2e-9)
+
+
+def test_lengths_come_in_steps_and_the_rest_is_fitted_again():
+    points = path(np.linspace(0.3, 4.2, 9))
+    limits = {"longest_link": 200, "shortest_link": 25, "least_transmission_angle": 40}
+    result = asked(points, length_step=2.5, starts=6000, designs=2, **limits)
+    (note,) = result.findings
+    assert note.code == "path.found"
+    size = np.abs(points - points.mean()).max()
+    for one in result.candidates:
+        p = one.params
+        for length in (p.crank, p.rod, p.offset, p.coupler_x, p.coupler_y):
+            assert length % 2.5 == 0
+        pivot = complex(one.figures["pivot_x"].value, one.figures["pivot_y"].value)
+        curve = path(np.linspace(0, math.tau, 20001), p.linkage, pivot, p.coupler_point)
+        near = np.abs(curve[:, None] - points).min(axis=0)
+        assert np.sqrt(np.mean(near**2)) <= one.residual.value + 0.005
+        assert p.crank >= 25
+        assert one.figures["longest_link"].value <= 200
+        assert one.figures["least_transmission_angle"].value >= math.radians(40)
+    assert result.candidates[0].residual.value < 0.02 * size, "rounded alone it would miss by a millimetre"
+
+
+@by_night
+def test_steps_that_are_too_coarse_are_said():
+    points = path(np.linspace(0.3, 4.2, 9))
+    (fault,) = errors(asked(points, length_step=45, starts=300, designs=1).findings)
+    assert (fault.code, fault.parameter) == ("path.length-step", "length_step")

@@ -107,17 +107,18 @@ def test_reference_best():
 
 
 @pytest.mark.parametrize("given_", [{"offset": 50}, {"crank": 35}, {"rod": 130}, {}])
-def test_both_mirror_images_are_simulated(given_):
-    result = from_stroke(StrokeRequirement(stroke=120, time_ratio=1.5, **given_))
+@pytest.mark.parametrize("quick", ["inward", "outward"])
+def test_the_design_is_simulated_and_has_the_wanted_quick_stroke(given_, quick):
+    result = from_stroke(StrokeRequirement(stroke=120, time_ratio=1.5, quick=quick, **given_))
     assert errors(result.findings) == []
-    one, two = result.candidates
-    assert one.params.offset == -two.params.offset
-    for candidate in result.candidates:
-        assert candidate.residual.value < 1e-9
-        assert candidate.figures["stroke_simulated"].value == pytest.approx(120, rel=1e-10)
-        assert candidate.figures["time_ratio_simulated"].value == pytest.approx(1.5, rel=1e-10)
-    slow = [limits(candidate.params.linkage).slow_outward for candidate in result.candidates]
-    assert slow[0] != slow[1], "the quick return goes the other way"
+    (candidate,), (note,) = result.candidates, result.findings
+    assert note.value == -candidate.params.offset
+    assert candidate.residual.value < 1e-9
+    assert candidate.figures["stroke_simulated"].value == pytest.approx(120, rel=1e-10)
+    assert candidate.figures["time_ratio_simulated"].value == pytest.approx(1.5, rel=1e-10)
+    assert limits(candidate.params.linkage).slow_outward == (quick == "inward")
+    (told,) = [one for one in findings(candidate.params) if one.code == "slider-crank.stroke"]
+    assert ("slower away from the crank" in told.message) == (quick == "inward")
 
 
 @pytest.mark.parametrize(

@@ -190,3 +190,13 @@ def test_a_transmission_angle_that_none_keeps_is_refused_with_the_nearest():
     said = str(result.findings[0])
     assert "starts no five-bar was found that keeps a transmission angle of 80 degrees" in said
     assert "the nearest misses the points by" in said or "near the points" in said
+
+
+def test_arcs_come_in_steps_and_the_rest_is_fitted_again():
+    points = known(np.linspace(0.2, 2.4, 7), 1.0)
+    (one,) = ask(points, closed=False, atlas=300, starts=1, arc_step=5)[0].candidates
+    pins = {name: np.array(getattr(one.params.five_bar, name)) for name in ("a0", "b0", "a1", "b1", "c1")}
+    for two in (("a0", "b0"), ("a0", "a1"), ("a1", "c1"), ("b1", "c1"), ("b0", "b1")):
+        arc = math.degrees(math.acos(float(pins[two[0]] @ pins[two[1]])))
+        assert abs(arc / 5 - round(arc / 5)) < 1e-9, two
+    assert one.figures["path_error_max"].value <= 3 * one.residual.value + 1e-6

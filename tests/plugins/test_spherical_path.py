@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from by_night import in_ci
+from pydantic import ValidationError
 
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.family import Spherical
@@ -168,3 +169,16 @@ def test_the_room_knows_the_linkage():
     np.testing.assert_allclose(over[:8], wanted, atol=2e-9)
     fine = linkage.at(Turning.of(np.linspace(0.3, 2.5, 4001)), 0).transmission
     assert over[8:].max() == pytest.approx(np.abs(np.cos(fine)).max() - math.cos(math.radians(80)), abs=1e-6)
+
+
+def test_arcs_come_in_steps_and_the_rest_is_fitted_again():
+    path, _ = known_path(9)
+    found = ask("four-bar-path", points=path.tolist(), atlas=300, starts=1, arc_step=4, designs=1)
+    (one,) = found.candidates
+    table = one.params.four_bar
+    for name in ("ground", "input", "coupler", "output", "point_azimuth", "point_elevation"):
+        assert getattr(table, name) % 4 == 0, name
+    # The design itself, with its digits, misses the points by what is said.
+    assert one.figures["path_error_max"].value <= 3 * one.residual.value < 6
+    with pytest.raises(ValidationError, match=r"0\.7 does not divide 180 degrees.*give 0\.70038"):
+        ask("four-bar-path", arc_step=0.7)

@@ -53,6 +53,10 @@ def _in_degrees(figure: Scalar) -> Scalar:
     return Scalar(math.degrees(figure.value), "deg") if figure.unit == "rad" else figure
 
 
+ALIKE = 0.02
+"""Share of a length within which two designs are one: nobody would choose between them. So are mirror images
+of each other, where both meet the requirement, and four-bars that draw one curve (cognates)."""
+
 BEYOND = "synthesis.beyond-the-number"
 """Code of designs that come after those that are asked for."""
 
@@ -108,6 +112,10 @@ class Rejected:
     def same(self, count: int = 1) -> None:
         """Count designs that differ from an earlier one by nothing that anybody would choose by."""
         self.because("synthesis.near-another", "nearly the same as a design that was found before", count)
+
+    def cognate(self) -> None:
+        """Count a linkage whose point runs over the curve of another that may be given."""
+        self.because("synthesis.cognate", "it draws the same curve as a linkage that was found before")
 
     def beyond(self, most: int, count: int) -> None:
         """Count designs that come after the ``most`` that are asked for."""

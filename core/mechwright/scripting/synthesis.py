@@ -191,7 +191,7 @@ def synthesize(
     --------
     >>> found = synthesize("slider-crank", "stroke", stroke=120, time_ratio=1.2)
     >>> found
-    <Found 2 found, 2 given>
+    <Found 1 found, 1 given>
     >>> round(found[0].motion.scalars["stroke"].value, 6)
     120.0
     """

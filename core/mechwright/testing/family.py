@@ -40,6 +40,7 @@ from mechwright.testing.evaluation import EvaluationTests
 from mechwright.testing.fixes import FixTests
 from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
+from mechwright.testing.likeness import repeated
 from mechwright.testing.limits import limits_broken
 from mechwright.testing.rates import assert_rates
 from mechwright.testing.results import Results
@@ -266,6 +267,7 @@ class FamilyContract(
             assert design not in designs[:number], f"{kind}: a design is given twice"
             assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
             assert limits_broken(requirement, candidate) == [], f"{kind}: {number + 1} breaks a limit"
+        assert repeated(self.family(), result.candidates) == [], f"{kind}: designs are not distinct"
 
     # All designs
 

@@ -1,15 +1,18 @@
 """Linkages that guide or answer, kept to their limits and made into designs."""
 
+import cmath
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mechwright import Array, Finding, Rejected, Scalar, Synthesis
+from mechwright.contracts.synthesis import ALIKE
 from mechwright_four_bar.burmester.rectify import Way
 from mechwright_four_bar.burmester.requirements import LinkLimits
-from mechwright_four_bar.candidates import Found, buildable
+from mechwright_four_bar.candidates import Found, buildable, building
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
@@ -19,9 +22,6 @@ its limits, then held."""
 
 MARGIN = 1e-4
 """Share by which a fit keeps inside its limits: a penalty ends a little beyond where it begins."""
-
-SAME = 0.02
-"""Share of the shortest link within which two linkages are one."""
 
 DEFECTS = {
     "branch": "the positions lie on both branches: the linkage would have to be taken apart",
@@ -44,6 +44,8 @@ class Option:
         What to compare it by, besides.
     pivot, point
         A0, mm, and a point of the coupler in the coupler's frame, mm; None for none.
+    curve
+        Number of the curve that the point draws: linkages that draw one are one design.
     """
 
     way: Way
@@ -51,6 +53,7 @@ class Option:
     figures: dict[str, Scalar]
     pivot: complex = 0j
     point: complex | None = None
+    curve: int | None = None
 
     @property
     def found(self) -> Found:
@@ -97,13 +100,23 @@ def driven(way: Way, wanted: LinkLimits) -> Way:
 
 def _same(one: Option, other: Option) -> bool:
     """Whether nobody would choose between two linkages: links and pivots agree to a share of the links."""
-    size = SAME * min(one.way.bar.lengths)
-    near = zip(one.way.bar.lengths, other.way.bar.lengths, strict=True)
+    bars = one.way.bar, other.way.bar
+    size = ALIKE * min(bars[0].lengths)
+    near = zip(bars[0].lengths, bars[1].lengths, strict=True)
+    ends = [
+        each.pivot + cmath.rect(bar.ground, bar.ground_angle)
+        for each, bar in zip((one, other), bars, strict=True)
+    ]
     return (
-        one.way.bar.branch == other.way.bar.branch
+        bars[0].branch == bars[1].branch
         and all(abs(a - b) < size for a, b in near)
         and abs(one.pivot - other.pivot) < size
+        and abs(ends[0] - ends[1]) < size
     )
+
+
+def _best_built(cognates: list[Option]) -> Option:
+    return min(cognates, key=lambda one: building(one.found)) if len(cognates) > 1 else cognates[0]
 
 
 def penalties(bar: FourBar, angles: Array, wanted: LinkLimits, weight: float) -> list[float]:
@@ -136,6 +149,8 @@ def designs(
 ) -> Synthesis[FourBarParams]:
     """The options that keep the limits and can be built, in their order; else why there is none.
 
+    Of those that draw one curve the one that builds best stands in the place of the first.
+
     Parameters
     ----------
     name
@@ -153,6 +168,7 @@ def designs(
     for defect, count in defects.items():
         rejected.because(f"{name}.{defect}", DEFECTS[defect], count)
     good: list[Option] = []
+    cognates: defaultdict[int, list[Option]] = defaultdict(list)
     nearest = ""
     for each in options:
         one = replace(each, way=driven(each.way, wanted))
@@ -163,8 +179,16 @@ def designs(
         elif any(_same(one, other) for other in good):
             rejected.same()
         else:
+            if one.curve is not None:
+                cognates[one.curve].append(one)
+                if len(cognates[one.curve]) > 1:
+                    rejected.cognate()
+                    continue
             good.append(one)
-    candidates, reason = buildable((one.found for one in good), wanted.designs, rejected, progress, len(good))
+    chosen = [one if one.curve is None else _best_built(cognates[one.curve]) for one in good]
+    candidates, reason = buildable(
+        ((one.found,) for one in chosen), wanted.designs, rejected, progress, len(chosen)
+    )
     if candidates:
         return Synthesis(tuple(candidates), (Finding.note(f"{name}.found", said()),), rejected.reasons)
     why = f"; none of those within the limits can be built: {reason}" if good else nearest

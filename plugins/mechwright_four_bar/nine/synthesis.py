@@ -110,7 +110,8 @@ def _turns(x: complex, a: complex, y: complex, b: complex, deltas: Plane) -> Pla
 def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis[FourBarParams]:
     """Every four-bar through the points that keeps the limits, the best transmission angle leading.
 
-    Each real four-bar is driven at either pivot; those that would have to be taken apart, that cannot come
+    Each real four-bar is driven at either pivot, and of the cognates of a triple, which draw one curve, the
+    one that builds best is given. Those that would have to be taken apart, that cannot come
     from one point to the next, or that pass the points in another order, are counted and left out. The first
     finding says how many triples of how many are known.
     """
@@ -181,4 +182,4 @@ def _option(way: Way, one: Drawn) -> Option:
     places = one.a0 + loop.joint_a + point * loop.coupler.direction
     error = float(np.sqrt(np.mean(np.abs(places - one.points) ** 2)))
     figures = {"triple": Scalar(float(one.triple), ""), "cognate": Scalar(float(one.member), "")}
-    return Option(way, Scalar(error, "mm"), figures, one.a0, point)
+    return Option(way, Scalar(error, "mm"), figures, one.a0, point, one.triple)

@@ -7,14 +7,12 @@ from itertools import permutations
 import numpy as np
 
 from mechwright import Array
+from mechwright.contracts.synthesis import ALIKE
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
 from mechwright_four_bar.cognates import third_pivot
 from mechwright_four_bar.paths.asked import PathProblem
 from mechwright_four_bar.paths.search import PathSolution
-
-SAME = 0.02
-"""Share of the path's size, or of the links where these are larger, within which two designs are one."""
 
 
 def signature(one: PathSolution) -> tuple[Plane, Array]:
@@ -34,7 +32,7 @@ def distinct(found: Sequence[PathSolution], problem: PathProblem, most: int) -> 
     taken: list[tuple[Plane, Array]] = []
     for one in found:
         pivots, links = signature(one)
-        room = SAME * max(problem.size, min(one.bar.lengths))
+        room = ALIKE * max(problem.size, min(one.bar.lengths))
         if not any(_same(pivots, links, *other, images, room) for other in taken):
             kept.append(one)
             taken.append((pivots, links))

@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
-from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
 from mechwright.mechanics.tracing.requirement import faults
-from mechwright_four_bar.candidates import Found, buildable
-from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
+from mechwright_four_bar.candidates import GOOD_ANGLE, Found, buildable, building
 from mechwright_four_bar.cognates import Drawing, cognates
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.paths.asked import PathProblem
@@ -22,9 +21,6 @@ from mechwright_four_bar.requirements import PathRequirement
 
 EXACT = 1e-11
 """Mean distance, as a share of the path's size, that is rounding: the points are met."""
-
-GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
-"""Transmission angle from which a larger one is not worth longer links."""
 
 SEARCH = 0.8
 """Part of the work that is the search; the rest looks whether the designs can be built."""
@@ -68,7 +64,7 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     good = _designs(result, few, problem, wanted, chosen, rejected)
     good.sort(key=lambda one: _rank(one, met))
     candidates, reason = buildable(
-        (_found(_best_built(one, problem, wanted)) for one in good),
+        ((_found(_best_built(one, problem, wanted)),) for one in good),
         wanted.designs,
         rejected,
         lambda part: progress(SEARCH + (1 - SEARCH) * part, "designs"),
@@ -114,8 +110,7 @@ def _rank(one: PathSolution, met: float) -> tuple[float, float, float]:
 def _best_built(one: PathSolution, problem: PathProblem, wanted: PathRequirement) -> tuple[PathSolution, int]:
     """Of a design and its cognates the one that builds best, and which it is: 1 the design itself.
 
-    A linkage builds better that has no error, then fewer warnings, then a better transmission angle up to a
-    good one, then shorter links. A cognate has no lengths in steps.
+    A cognate has no lengths in steps.
     """
     choices = [(one, 1)]
     if not wanted.length_step:
@@ -126,17 +121,7 @@ def _best_built(one: PathSolution, problem: PathProblem, wanted: PathRequirement
         ]
     if len(choices) == 1:
         return choices[0]
-    return min(choices, key=lambda choice: _building(choice[0]))
-
-
-def _building(one: PathSolution) -> tuple[int, int, float, float]:
-    try:
-        params = FourBarParams.model_validate(_found((one, 1)).table())
-    except ValueError:
-        return (2, 0, 0.0, 0.0)
-    told = [finding.severity for finding in findings(params)]
-    angle = min(one.bar.least_transmission_angle(), GOOD_ANGLE)
-    return int(Severity.ERROR in told), told.count(Severity.WARNING), -round(angle, 6), one.longest
+    return min(choices, key=lambda choice: building(_found(choice)))
 
 
 def _as_solution(drawing: Drawing, one: PathSolution, problem: PathProblem) -> PathSolution | None:

@@ -148,6 +148,12 @@ class SliderRoom:
             found += [low.real - x, low.imag - y, x - high.real, y - high.imag]
         return np.stack(found, axis=-1) + MARGIN
 
+    def dimensions(self, made: Sliders) -> Array:
+        """Crank, rod, offset, and the coupler point's coordinates in the rod's frame, (..., 5) mm."""
+        rod = np.abs(made.s) * self.size
+        point = made.q / made.s
+        return np.stack([made.a, 1 + 0 * made.a, made.e, point.real, point.imag], axis=-1) * rod[..., None]
+
     def ordered(self, theta: Array, sense: Array) -> Array:
         """See ``Traced``; angles that are given are in order."""
         return theta.copy() if self.turns is not None else one_way(theta, sense, self.slack)

@@ -1,18 +1,20 @@
 """Synthesis of a path: a point of the rod through points, timed or untimed, within limits."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import ALIKE
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import in_plane, thinned
 from mechwright.mechanics.tracing.requirement import SENSES, faults
-from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, rounds_of, search
+from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, followed, rounds_of, search
+from mechwright.mechanics.tracing.stepped import Held, stepped
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams
@@ -25,9 +27,6 @@ SEARCH = 0.8
 
 MORE = 4
 """Distinct designs that are looked at for each one that is given: some of them cannot be built."""
-
-SAME = 0.02
-"""Share of the path's size, or of the crank where it is longer, within which two designs are one."""
 
 GOOD_ANGLE = math.radians(40)
 """Transmission angle from which a larger one is not worth longer links."""
@@ -50,6 +49,8 @@ class Drawn:
         (n,) crank angles from X, rad.
     mean
         Root mean square distance from the points, mm.
+    trace
+        What the search knows of it.
     """
 
     crank: float
@@ -61,6 +62,16 @@ class Drawn:
     point: complex
     phi: Array
     mean: float
+    trace: Trace
+
+    @property
+    def path(self) -> Plane:
+        """(n,) places of the coupler point, mm."""
+        pin = self.crank * np.exp(1j * (self.phi - self.direction))
+        height = self.offset - pin.imag
+        rod = self.branch * np.sqrt(self.rod**2 - height**2) + 1j * height
+        way = pin + self.point / self.rod * rod
+        return np.asarray(self.pivot + way * np.exp(1j * self.direction))
 
     @property
     def least_angle(self) -> float:
@@ -128,9 +139,9 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Sli
     found = [drawn(rooms[one.room], one) for one in on_all(result.kept, rooms, chosen, most)]
     good = distinct(found, wanted, rooms[0], rejected)
     good.sort(key=lambda one: _rank(one, met))
-    candidates: list[Candidate[SliderCrankParams]] = []
+    designs: list[tuple[Drawn, SliderCrankParams]] = []
     reason = ""
-    for looked, one in enumerate(good, start=1):
+    for looked, one in _stepped(good, rooms, wanted, rejected):
         key, said = one.broken(limits)
         if key:
             rejected.because(f"path.{key.replace('_', '-')}", said)
@@ -140,13 +151,15 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Sli
             rejected.because("slider-crank.not-buildable", why)
             reason = reason or why
             continue
-        candidates.append(Candidate(params, Scalar(one.mean, "mm"), _figures(one)))
-        progress(SEARCH + (1 - SEARCH) * len(candidates) / wanted.designs, "designs")
-        if len(candidates) == wanted.designs:
+        designs.append((one, params))
+        progress(SEARCH + (1 - SEARCH) * len(designs) / wanted.designs, "designs")
+        if len(designs) == wanted.designs:
             rejected.beyond(wanted.designs, len(good) - looked)
             break
-    if not candidates:
+    if not designs:
         return Synthesis((), (_refusal(result, good, reason, rooms, wanted),), rejected.reasons)
+    designs.sort(key=lambda design: _rank(design[0], met))
+    candidates = [Candidate(params, Scalar(one.mean, "mm"), _figures(one)) for one, params in designs]
     said_of = (*wrong, _count(result, len(good)), *_missed(wanted, candidates[0].residual.value))
     return Synthesis(tuple(candidates), said_of, rejected.reasons)
 
@@ -169,6 +182,52 @@ def rooms_of(wanted: PathRequirement, limits: Limits) -> list[SliderRoom]:
     ]
 
 
+def _stepped(
+    good: Sequence[Drawn], rooms: Sequence[SliderRoom], wanted: PathRequirement, rejected: Rejected
+) -> Iterator[tuple[int, Drawn]]:
+    """The designs, their lengths in the steps that are asked for, and their numbers.
+
+    Those that are one then are counted.
+    """
+    if not wanted.length_step:
+        yield from enumerate(good, start=1)
+        return
+    kept: list[Drawn] = []
+    for number, exact in enumerate(good, start=1):
+        room = rooms[exact.trace.room]
+        one = rounded(exact, room, wanted.length_step)
+        if one is None:
+            rejected.because("path.length-step", f"no multiples of {wanted.length_step:g} mm keep the limits")
+        elif any(_same(one, other, [np.asarray], ALIKE * max(room.size, one.crank)) for other in kept):
+            rejected.same()
+        else:
+            kept.append(one)
+            yield number, one
+
+
+def rounded(one: Drawn, room: SliderRoom, step: float) -> Drawn | None:
+    """The design with lengths and coupler point in multiples of ``step``, mm, all else fitted; or None."""
+
+    def exactly(values: Sequence[float], end: Trace) -> Drawn:
+        again = drawn(room, end)
+        rest: list[float] = room.dimensions(room.made(end.x))[len(values) :].tolist()
+        crank, rod, offset, x, y = (*values, *rest)
+        again = replace(again, crank=crank, rod=rod, offset=offset, point=complex(x, y))
+        off = again.path - (room.centre + room.size * room.targets)
+        return replace(again, mean=float(np.sqrt(np.mean(np.abs(off) ** 2))))
+
+    def fitted(values: tuple[float, ...], before: Trace | None) -> tuple[Trace, float, Array] | None:
+        begin = before or one.trace
+        for end in followed(Held(room, values, room.size), begin.room, begin.x[None], begin.theta[None]):
+            again = exactly(values, end)
+            if end.kept and not again.broken(room.limits)[0] and again.crank + abs(again.offset) < again.rod:
+                return end, again.mean, room.dimensions(room.made(end.x))
+        return None
+
+    found = stepped(room.dimensions(room.made(one.trace.x)), (3, 2), step, fitted)
+    return None if found is None else exactly(*found)
+
+
 def drawn(room: SliderRoom, one: Trace) -> Drawn:
     """A linkage of the search in millimetres."""
     made = room.made(one.x)
@@ -184,6 +243,7 @@ def drawn(room: SliderRoom, one: Trace) -> Drawn:
         complex(made.q / made.s) * rod,
         theta + direction,
         one.mean * room.size,
+        one,
     )
 
 
@@ -199,7 +259,7 @@ def distinct(
     for one in found:
         if len(kept) == MORE * wanted.designs:
             break
-        near = SAME * max(room.size, one.crank)
+        near = ALIKE * max(room.size, one.crank)
         if any(_same(one, other, images, near) for other in kept):
             rejected.same()
         else:
@@ -268,6 +328,14 @@ def _missed(wanted: PathRequirement, residual: float) -> list[Finding]:
 def _refusal(
     result: Traces, good: Sequence[Drawn], reason: str, rooms: Sequence[SliderRoom], wanted: PathRequirement
 ) -> Finding:
+    if good and wanted.length_step and not reason:
+        return Finding.error(
+            "path.length-step",
+            "length_step",
+            f"slider-cranks keep the limits, but none with lengths in multiples of {wanted.length_step:g} mm",
+            wanted.length_step,
+            remedy="make length_step smaller",
+        )
     if good:
         return Finding.error(
             "path.unbuildable",

@@ -11,11 +11,10 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.synthesis import Candidate, Progress, Rejected, Synthesis
+from mechwright.contracts.synthesis import ALIKE, Candidate, Progress, Rejected, Synthesis
 from mechwright.mechanics.adjustable.counts import Moves
-from mechwright.mechanics.adjustable.machine import SAME, Machine, count_note, machines, missed, refusal
+from mechwright.mechanics.adjustable.machine import Machine, count_note, machines, missed, refusal, rounded
 from mechwright.mechanics.adjustable.requirement import PhasedPath
-from mechwright.mechanics.multistart import distinct
 
 W = TypeVar("W", bound=PhasedPath)
 P = TypeVar("P", bound=Parameters)
@@ -112,7 +111,7 @@ class Phased(ABC, Generic[W, P]):
 def designs_of(family: Phased[W, P], progress: Progress) -> Synthesis[P]:
     """Machines whose coupler point follows all paths, each as one design per phase; the best first."""
     wanted = family.wanted
-    size, found = machines(
+    task, size, found = machines(
         wanted, family.bars, family.moves, family.ratio, lambda part: progress(0.9 * part, "linkages")
     )
     rejected = Rejected()
@@ -123,9 +122,21 @@ def designs_of(family: Phased[W, P], progress: Progress) -> Synthesis[P]:
     candidates: list[Candidate[P]] = []
     given: list[np.ndarray] = []
     reason = ""
-    for looked, one in enumerate(kept, start=1):
-        row = np.array(family.all_lengths(one)) / size
-        if given and distinct(np.array([*given, row]), SAME).size <= len(given):
+    for looked, exact in enumerate(kept, start=1):
+        one = exact
+        if wanted.length_step:
+            again = rounded(exact, task, size, wanted.length_step)
+            if again is None:
+                why = f"no multiples of {wanted.length_step:g} mm keep the limits"
+                rejected.because("path.length-step", why)
+                reason = reason or why
+                continue
+            if not _keeps(family, again, rejected):
+                continue
+            one = again
+        row = np.array(family.all_lengths(one))
+        near = ALIKE * max(size, row.min())
+        if any(np.abs(row - other).max() < near for other in given):
             rejected.same()
             continue
         designs = _designs(family, one, rejected)

@@ -33,14 +33,14 @@ class Fit:
 
 def fit(task: Task, x: Array, theta: Array, steps: int, weights: tuple[float, ...] = WEIGHTS) -> Fit:
     """Fit from starts (s, k) and (s, n); ``steps`` for each of the weights."""
-    sense = _senses(task, theta)
+    sense = senses(task, theta)
     for weight in weights:
         x, theta = descend(task, x, theta, sense, weight, steps, fine=True)
     squares = (task.misses(x, theta) ** 2).sum(axis=(-1, -2))
     return Fit(x, theta, squares, task.excess(x, theta).max(axis=-1))
 
 
-def _senses(task: Task, theta: Array) -> Array:
+def senses(task: Task, theta: Array) -> Array:
     """Sense (s, n) in which the crank goes through each point's phase, from the last one's angle."""
     last = np.array([np.flatnonzero(task.phase == k)[-1] for k in range(task.unknowns.phases)])
     return np.where(theta[:, last][:, task.phase] >= 0, 1.0, -1.0)

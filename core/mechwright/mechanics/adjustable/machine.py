@@ -8,11 +8,15 @@ import numpy as np
 
 from mechwright.contracts.finding import Finding
 from mechwright.mechanics.adjustable.counts import Moves, exact_number
+from mechwright.mechanics.adjustable.fit import senses
 from mechwright.mechanics.adjustable.mechanism import Pins, Unknowns
 from mechwright.mechanics.adjustable.requirement import PhasedPath
 from mechwright.mechanics.adjustable.search import Path, search
 from mechwright.mechanics.adjustable.space import PlaneSpace
 from mechwright.mechanics.adjustable.task import Limits, Task
+from mechwright.mechanics.tracing.descent import excess, settle, squares
+from mechwright.mechanics.tracing.search import BROKEN, SETTLED
+from mechwright.mechanics.tracing.stepped import Held, stepped
 
 INSIDE = 0.002
 """Share by which limits are tightened in the search, where they are held by penalties: what it gives keeps
@@ -21,8 +25,11 @@ them strictly."""
 MARGIN = math.radians(0.5)
 """The same of the transmission angle, which the search looks at in a few places."""
 
-SAME = 1e-3
-"""Linkages whose lengths agree to this share of the paths' size are one."""
+DIGITS = 9
+"""Decimals of lengths in design files, mm: what is rounded to steps has no tail of a double."""
+
+Rows = tuple[np.ndarray, np.ndarray]
+"""Unknowns (1, k) and crank angles (1, n), rad."""
 
 TINY = 1e-9
 """Distance, in sizes of the path, below which points are met: a millionth of what can be made."""
@@ -42,12 +49,15 @@ class Machine:
         Distances (n,) of the points, one array per phase, mm.
     moves
         Which pivots are set.
+    x
+        Its unknowns (k,).
     """
 
     pins: Pins
     theta: tuple[np.ndarray, ...]
     misses: tuple[np.ndarray, ...]
     moves: Moves
+    x: np.ndarray
 
     @property
     def rms(self) -> float:
@@ -79,8 +89,8 @@ class Machine:
 
 def machines(
     wanted: PhasedPath, bars: int, moves: Moves, ratio: float, progress: Callable[[float], None]
-) -> tuple[float, list[Machine]]:
-    """Size of the paths, mm, and what the search gives for them, the nearest first; several may be the same.
+) -> tuple[Task, float, list[Machine]]:
+    """The task, the paths' size, mm, and what the search gives, the nearest first; several may be the same.
 
     ``ratio`` is that of a five-bar's gears, 0 for a four-bar.
     """
@@ -98,7 +108,7 @@ def machines(
     )
     found = search(path, unknowns, limits, wanted.starts, wanted.seed, progress)
     task = path.task(unknowns, limits)
-    return size, [_machine(task, size, *row) for row in zip(found.x, found.theta, strict=True)]
+    return task, size, [_machine(task, size, *row) for row in zip(found.x, found.theta, strict=True)]
 
 
 def _machine(task: Task, size: float, x: np.ndarray, theta: np.ndarray) -> Machine:
@@ -110,7 +120,47 @@ def _machine(task: Task, size: float, x: np.ndarray, theta: np.ndarray) -> Machi
         tuple(np.concatenate([[0.0], theta[task.phase == k]]) for k in phases),
         tuple(np.concatenate([[0.0], off[task.phase == k]]) for k in phases),
         task.unknowns.moves,
+        x,
     )
+
+
+def rounded(one: Machine, task: Task, size: float, step: float) -> Machine | None:
+    """The machine with the lengths of all phases in multiples of ``step``, mm, all else fitted; or None.
+
+    ``size`` is that of the paths, mm, in which the task counts.
+    """
+
+    def fitted(values: tuple[float, ...], before: Rows | None) -> tuple[Rows, float, np.ndarray] | None:
+        x, theta = before or (one.x[None], angles)
+        held = Held(task, tuple(value / size for value in values), 1.0)
+        x, theta = settle(held, x, theta, senses(task, theta), SETTLED)
+        if not excess(held, x, theta)[0] <= BROKEN:
+            return None
+        return (x, theta), float(squares(held, x, theta)[0]), _lengths(task, x) * size
+
+    # The pose of setting itself is none of the task's points.
+    angles = np.concatenate([theta[1:] for theta in one.theta])[None]
+    exact = _lengths(task, one.x[None]) * size
+    found = stepped(exact, (exact.size,), step, fitted)
+    if found is None:
+        return None
+    values, (x, theta) = found
+    return _machine(task, size, _with_lengths(task.unknowns, x[0], np.array(values) / size), theta[0])
+
+
+def _lengths(task: Task, x: np.ndarray) -> np.ndarray:
+    lengths: np.ndarray = task.dimensions(task.unknowns.pins(x))[0]
+    return lengths
+
+
+def _with_lengths(unknowns: Unknowns, x: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The unknowns (k,) with these very lengths, which they have but for rounding."""
+    x, links = x.copy(), unknowns.bars - 2
+    x[:links] = np.log(values[:links])
+    if values.size > links:
+        near, far = x[links : links + 2], x[links + 2 : links + 4]
+        x[links + 2 : links + 4] = near + (far - near) * values[links] / np.linalg.norm(far - near)
+    return x
 
 
 def count_note(wanted: PhasedPath, bars: int, moves: Moves) -> Finding:

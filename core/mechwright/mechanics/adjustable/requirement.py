@@ -45,6 +45,13 @@ class PhasedPath(Parameters):
         description="Least distance of the places of one pivot in two phases: bore and rim for holes; 0 for "
         "any, set in slots.",
     )
+    length_step: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=50,
+        description="Lengths that all phases have in common are multiples of it, the rest fitted again; "
+        "0 for any lengths.",
+    )
     starts: int = Field(2000, ge=100, le=100_000, description="Random linkages to try for the first phase.")
     designs: int = Field(3, ge=1, le=20, description="Most machines to give; each has a design per phase.")
     seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")

@@ -120,6 +120,18 @@ class Task:
         ]  # fmt: skip
         return found + ([apart(pins.b0, pins.b1)] if self.unknowns.bars == 5 else [])
 
+    def dimensions(self, pins: Pins) -> Array:
+        """Lengths that all phases have in common, (..., m): see ``mechwright.mechanics.tracing.stepped``.
+
+        Crank, follower or rocker, and the arm; with moving pivots the ground, with fixed ones the coupler.
+        """
+        apart, unknowns = self.unknowns.space.apart, self.unknowns
+        found = [apart(pins.a0, pins.a), apart(pins.b1, pins.c)]
+        found += [apart(pins.b0, pins.b1)] if unknowns.bars == 5 else []
+        found += [apart(pins.a0, pins.b0)] if unknowns.moves == "moving" else []
+        found += [apart(pins.a, pins.c)] if unknowns.moves == "fixed" else []
+        return np.stack([one[..., 0] for one in found], axis=-1)
+
     def chords(self, pins: Pins) -> list[Array]:
         """Distances (..., pairs) between the places of each pivot that is set."""
         pairs = list(combinations(range(self.unknowns.phases), 2))

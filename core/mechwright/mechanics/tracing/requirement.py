@@ -76,6 +76,13 @@ class PlanePath(Parameters):
         description="Rectangle [least x, least y, greatest x, greatest y] in which the crank's fixed pivot "
         "stands; left out, anywhere.",
     )
+    length_step: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=50,
+        description="Lengths of links and the coupler point's coordinates are multiples of it, the rest "
+        "fitted again; 0 for any lengths.",
+    )
     starts: int = Field(
         100_000, ge=100, le=MOST_STARTS, description="Most random shapes to try for each branch and sense."
     )
