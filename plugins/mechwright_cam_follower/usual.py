@@ -1,10 +1,12 @@
-"""Sizes of a lever that a design leaves out: they follow from its cam.
+"""Sizes that a design leaves out: they follow from its cam.
 
+The bore of a small cam and the stud of a small roller are the largest usual ones that leave walls.
 With a roller, axis and arm grow with the prime circle, and where one of them is given the other makes the
 same triangle: the arm stands next to square to the line from the cam to its roller. With a flat face the
 axis stands so near that the usual swing does not undercut the cam, and so far that it passes the lever's hub.
 """
 
+from collections.abc import Container, Iterator
 from typing import Any, Protocol
 
 import numpy as np
@@ -19,6 +21,15 @@ SQUARE = ARM**2 + 1
 
 FLAT, BESIDE = 1.7, 1.36
 """Least distance of the axis of a lever with a flat face: of the base circle, and of that and the face."""
+
+SHAFTS = (15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
+"""Bores, mm: the usual one, and those of smaller shafts that are sold."""
+
+STUDS = SHAFTS[3:]
+"""The same of studs of rollers."""
+
+DECIDES = {"bore": {"base_radius", "least_wall"}, "pin_diameter": {"roller_radius", "least_wall"}}
+"""Fields that are fitted, and those that they follow from."""
 
 STEPS = 2
 """Of a millimetre: what follows is rounded to halves."""
@@ -37,6 +48,10 @@ class Lever(Sized[Any], Protocol):
     @property
     def arm_length(self) -> Any:
         """The same of the arm."""
+
+    @property
+    def least_wall(self) -> Any:
+        """Thinnest wall, mm."""
 
 
 def followed(lever: Lever, name: str) -> Any:
@@ -58,3 +73,20 @@ def followed(lever: Lever, name: str) -> Any:
         square = other**2 * SQUARE / AXIS**2 - prime**2
         found = np.where(square > 0, np.sqrt(np.maximum(square, 0.0)), usual)
     return np.round(found * STEPS) / STEPS
+
+
+def fitted(lever: Lever, name: str) -> Any:
+    """The bore or the diameter of the studs, mm: (n, 1) of many designs; the usual one where none fits."""
+    sizes: tuple[float, ...] = SHAFTS if name == "bore" else STUDS
+    least = lever.base_radius - lever.least_wall
+    if name != "bore":
+        least = lever.value("roller_radius") - lever.least_wall / 2
+    return np.select([np.asarray(one <= 2 * least) for one in sizes], sizes, sizes[0])
+
+
+def left_out(given: Container[str], keyed: bool, contact: str) -> Iterator[str]:
+    """The fields that are fitted where ``given`` has them not; a keyway belongs to its bore."""
+    if "bore" not in given and not keyed:
+        yield "bore"
+    if "pin_diameter" not in given and contact == "roller":
+        yield "pin_diameter"

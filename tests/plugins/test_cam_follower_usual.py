@@ -39,3 +39,14 @@ def test_many_follow_as_each_does_by_itself(kind: dict[str, object]) -> None:
     for name in ("centre_distance", "arm_length") if "contact" not in kind else ("centre_distance",):
         alone = [CamParams.model_validate({**kind, "base_radius": one}).value(name) for one in base]
         assert np.broadcast_to(cams.value(name), (7, 1))[:, 0].tolist() == alone
+
+
+@pytest.mark.parametrize("kind", [{}, LEVER, {"conjugate": True}])
+@pytest.mark.parametrize(("base", "roller", "bore", "pin"), [(4, 8, 4, 8), (8, 3, 12, 4), (40, 8, 15, 8)])
+def test_small_cams_and_rollers_have_bores_and_studs_that_fit(kind, base, roller, bore, pin) -> None:
+    """They had the usual bore, which left no wall."""
+    params = CamParams.model_validate({**kind, "base_radius": base, "roller_radius": roller})
+    assert (params.bore, params.pin_diameter) == (bore, pin)
+    assert "follower.wall" not in [one.code for one in FAMILY.check(params)]
+    given = CamParams.model_validate({**kind, "base_radius": base, "bore": 15, "pin_diameter": 8})
+    assert (given.bore, given.pin_diameter) == (15, 8)

@@ -126,7 +126,7 @@ def loaded(params: ChainParams, families: Families) -> tuple[Parameters, ...]:
     run, torques = finely(params, families), torques_of(params, families)
     found = []
     for place, (link, drive) in enumerate(zip(run.links, run.inputs, strict=True)):
-        own, changed = link.transmission, {}
+        own, changed = link.transmission, dict[str, float]()
         if place > 0:
             changed |= own.driven_fields(drive)
         if own.load_field and place + 1 < len(run.links):
