@@ -210,7 +210,8 @@ def rounded(one: Drawn, room: SliderRoom, step: float) -> Drawn | None:
 
     def exactly(values: Sequence[float], end: Trace) -> Drawn:
         again = drawn(room, end)
-        crank, rod, offset, x, y = (*values, *room.dimensions(room.made(end.x))[len(values) :].tolist())
+        rest: list[float] = room.dimensions(room.made(end.x))[len(values) :].tolist()
+        crank, rod, offset, x, y = (*values, *rest)
         again = replace(again, crank=crank, rod=rod, offset=offset, point=complex(x, y))
         off = again.path - (room.centre + room.size * room.targets)
         return replace(again, mean=float(np.sqrt(np.mean(np.abs(off) ** 2))))
