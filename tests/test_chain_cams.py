@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from test_chain import CIRCLES, D1, chain, last, linked
 
-from mechwright import Turning
+from mechwright import Stage, Turning
 from mechwright.designs.design import Design
 from mechwright.mechanics.chain import ChainParams
 from mechwright.mechanics.chain.assembly import assembly_of
@@ -86,3 +86,25 @@ def test_shafts_go_through_cams_and_levers(table: dict[str, object]) -> None:
     length = sum(step.length for step in shaft.turned.steps)
     assert shaft.instances[0].z + length == pytest.approx(max(tops))
     assert ("shaft-out" in parts) is (table.get("follower") == "oscillating")
+
+
+ROCKER = ("four-bar", {})
+"""A crank and a follower that swings."""
+
+
+@pytest.mark.parametrize(
+    "before", [[("cam-follower", LEVER)], [ROCKER], [("cam-follower", LEVER), GEARS], [GEARS, ROCKER, GEARS]]
+)
+def test_a_geneva_wheel_behind_what_swings_is_refused_by_name(before) -> None:
+    """It took the swing for turns: the wheel went there and back, and was told as if it indexed."""
+    design = chain(*before, ("geneva", {}))
+    found = [one for one in design.check() if one.code == "chain.swings"]
+    assert [one.parameter for one in found] == [f"stage.{len(before) + 1}.family"]
+    assert "turns all the way" in found[0].remedy
+    assert [one.code for one in design.check() if one.stage is Stage.MOTION] == ["chain.swings"]
+
+
+def test_what_follows_a_swing_follows_it_in_a_chain() -> None:
+    """A Geneva wheel turns on, so that it may drive a lever's cam; cranks behind a lever swing with it."""
+    for stages in ([("geneva", {}), ("cam-follower", LEVER)], [("cam-follower", LEVER), ROCKER]):
+        assert len(linked(chain(*stages))) == len(stages)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding, Severity, until_error
+from mechwright.contracts.finding import Change
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright_cam_follower.params import CamParams
 
@@ -24,9 +25,39 @@ def law_findings(params: CamParams) -> Iterator[Finding]:
     if params.table is not None:
         faults += [("table", fault) for fault in table_faults(params.table)]
     for name, fault in faults:
+        changes = tuple(_laws_instead(params, name))
         yield Finding.error(
-            f"follower.law-{fault.kind}", name, fault.message, fault.value, fault.limit, "", fault.remedy
+            f"follower.law-{fault.kind}",
+            name,
+            fault.message,
+            fault.value,
+            fault.limit,
+            "",
+            f"{fault.remedy}, or take the nearest law that is one, as proposed" if changes else fault.remedy,
+            proposed=changes,
         )
+
+
+def _laws_instead(params: CamParams, name: str) -> Iterator[Change]:
+    """Laws near to a table or polynomial that is none, the nearest first."""
+    from mechwright.mechanics.laws.mended import instead, rows_of
+
+    rows = params.table if name == "table" else rows_of(params.polynomial or ())
+    for law, table in instead(rows or ()):
+        laws = [law if one == name else one for one in params.laws]
+        if law != "table":
+            yield {f"parameters.{name}": None, "parameters.laws": laws}
+        elif params.table is None or name == "table":
+            change: Change = {"parameters.table": [list(row) for row in table or ()]}
+            yield (
+                change
+                if name == "table"
+                else {
+                    **change,
+                    f"parameters.{name}": None,
+                    "parameters.laws": laws,
+                }
+            )
 
 
 def _slide(params: CamParams) -> Iterator[Finding]:

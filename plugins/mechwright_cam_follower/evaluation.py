@@ -22,6 +22,7 @@ from mechwright_cam_follower.columns import give_extremes, give_figures
 from mechwright_cam_follower.extremes import regular_limit, regularity_of
 from mechwright_cam_follower.geometry import Contact, prime_radius, start_of
 from mechwright_cam_follower.many import Cams, Course, Measure, Seen
+from mechwright_cam_follower.masses import give_masses
 from mechwright_cam_follower.sizes import FREE
 from mechwright_cam_follower.walls import farthest_of
 
@@ -61,6 +62,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
         found.forbid("follower.undercut", undercut, left)
         _openings(found, cams)
         _walls(found, course, left)
+        give_masses(found, columns, course, left)
     give_figures(found, columns, course, left)
     give_extremes(found, columns, cams)
     return found

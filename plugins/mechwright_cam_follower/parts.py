@@ -51,7 +51,7 @@ from mechwright_cam_follower.sizes import (
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
 
-_BOSSES = 5
+BOSSES = 5
 """Along a curved slot, so that the lever goes round it."""
 
 
@@ -177,7 +177,7 @@ def _lever_loop(params: CamParams) -> Loop:
             first, last = swing(params)
             axis, room = params.value("centre_distance"), shaft_room(params) + params.least_wall
             bosses += [
-                Boss(cmath.rect(axis, turn), room) for turn in np.linspace(first, last, _BOSSES).tolist()
+                Boss(cmath.rect(axis, turn), room) for turn in np.linspace(first, last, BOSSES).tolist()
             ]
         return hull_link(bosses).outer
     low, high = face_of(params)

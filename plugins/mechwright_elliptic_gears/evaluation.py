@@ -14,8 +14,11 @@ from scipy.special import ellipe
 
 from mechwright import Array, Stage, material
 from mechwright.contracts.by_arrays import Answer, Designs
+from mechwright.contracts.mass import KILOGRAMS
+from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.geometry.keyway import LEAST_WIDTH
 from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_CLEARANCE, LEAST_RIM, LEAST_TIP
+from mechwright.mechanics.linkage.areas import circle_area
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
 from mechwright.tolerances import exceeds, falls_short
@@ -23,6 +26,7 @@ from mechwright_elliptic_gears.assembly import least_backlashes
 from mechwright_elliptic_gears.joint_load import TO_NM
 from mechwright_elliptic_gears.kinematics import alpha_peak
 from mechwright_elliptic_gears.many import ENDS, SHARES, Gears, least_regularity, tips_of
+from mechwright_elliptic_gears.many_areas import areas_of
 from mechwright_elliptic_gears.many_columns import columns_of
 from mechwright_elliptic_gears.params import LEAST_MODULE
 from mechwright_elliptic_gears.tip_reach import DOUBT
@@ -67,15 +71,27 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     if stage is not Stage.MOTION:
         _judge(designs, said)
     free = said.left
-    found = columns_of(designs.some(free), columns)
+    moving = [name for name in columns if not is_mass(name)]
+    found = columns_of(designs.some(free), moving)
     if found is None:
         return None
+    if stage is not Stage.MOTION and len(moving) < len(columns):
+        found |= _masses(designs.some(free))
     for name in columns:
-        said.give(name, found[name], free)
+        if name in found:
+            said.give(name, found[name], free)
     return said
 
 
-class _Sizes:
+def _masses(designs: Designs) -> dict[str, Array]:
+    """Of a gear, of which there are two, kg."""
+    sizes = Sizes(designs)
+    area = areas_of(sizes.gears()) * sizes.semi_major**2 - circle_area(designs["bore"])
+    mass = KILOGRAMS * material(designs.common.material).density * area * designs["thickness"]
+    return {f"{OF_PART}gear": mass, TOTAL: 2 * mass}
+
+
+class Sizes:
     """Sizes (n,) of designs; lengths in mm."""
 
     def __init__(self, designs: Designs) -> None:
@@ -109,7 +125,7 @@ class _Sizes:
 
 def _judge(designs: Designs, said: Answer) -> None:
     """As :func:`mechwright_elliptic_gears.checks.judged`."""
-    sizes = _Sizes(designs)
+    sizes = Sizes(designs)
     gears = sizes.gears()
     _rack(sizes, gears, said)
     _undercut(gears, said)
@@ -129,7 +145,7 @@ def _short(value: Any, limit: Any) -> NDArray[np.bool_]:
     return np.asarray(falls_short(value, limit))
 
 
-def _rack(sizes: _Sizes, gears: Gears, said: Answer) -> None:
+def _rack(sizes: Sizes, gears: Gears, said: Answer) -> None:
     said.forbid("gear.module", _short(sizes.module, LEAST_MODULE))
     said.forbid("gear.rack", sizes.tip_radius >= sizes.dedendum)
     clearance = sizes.dedendum - sizes.addendum
@@ -173,7 +189,7 @@ def _tips(gears: Gears, said: Answer) -> NDArray[np.bool_]:
     return collides
 
 
-def _may_break(designs: Designs, sizes: _Sizes) -> NDArray[np.bool_]:
+def _may_break(designs: Designs, sizes: Sizes) -> NDArray[np.bool_]:
     """Whether a tooth may break: not where it bears the greatest of all that goes into its stress at once.
 
     A gear is within its pitch ellipse grown in proportion; it has no bore, and no play of the load.
@@ -198,7 +214,7 @@ def _may_break(designs: Designs, sizes: _Sizes) -> NDArray[np.bool_]:
     return far
 
 
-def _greatest_form(sizes: _Sizes, least: Array, most: Array, varied: bool) -> Array:
+def _greatest_form(sizes: Sizes, least: Array, most: Array, varied: bool) -> Array:
     """What form and stress factors together are at most (n,) between two numbers of virtual teeth."""
     if varied:
         racks = sizes.angle, sizes.addendum, sizes.dedendum, sizes.tip_radius

@@ -3,7 +3,7 @@
 import math
 
 from mechwright import Outline, kept
-from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
+from mechwright.mechanics.gearing import Rack, Teeth, exact_fit, gear_loop
 from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.assembly import backlash_of
 from mechwright_elliptic_gears.ellipse import Ellipse, EllipticPair
@@ -93,7 +93,8 @@ def teeth_of(params: EllipticGearParams) -> Teeth:
 @kept
 def _teeth(ellipse: Ellipse, rack: Rack, teeth: int, offset: float) -> Teeth:
     """Those of all designs that differ in bores and plates only."""
-    return Teeth(ellipse, rack, teeth, offset)
+    fit = exact_fit(EllipticPair.of(ellipse), teeth, rack.pressure_angle)
+    return Teeth(ellipse, rack, teeth, offset, fit=fit)
 
 
 toothed = kept(gear_loop)

@@ -184,7 +184,7 @@ class Tips:
 def tips_of(gears: Gears) -> Tips:
     """Follow the flanks to their tips."""
     arcs, (middles, there) = Arcs(gears.eccentricity), gears.half
-    one, two = (_flank_end(gears, arcs, middles, side) for side in (-1.0, 1.0))
+    one, two = (flank_end(gears, arcs, middles, side) for side in (-1.0, 1.0))
     turn = np.angle(np.conj(one.tangent) * two.tangent)
     width = (two.foot - one.foot + gears.addendum * gears.module * turn) / gears.module
     deep = np.maximum(one.way, two.way) * np.sin(gears.angle) * np.cos(gears.angle) / gears.module
@@ -197,16 +197,21 @@ def tips_of(gears: Gears) -> Tips:
 
 
 @dataclass(frozen=True)
-class _End:
-    """Ends of flanks (m, k): arc below the tip, tangent there, arc to the pitch point, and residual."""
+class End:
+    """Ends of flanks (m, k): arc below the tip, tangent there, arc to the pitch point, and residual.
+
+    ``top`` and ``below`` are the eccentric angles v and w.
+    """
 
     foot: Array
     tangent: NDArray[np.complex128]
     way: Array
     off: Array
+    top: Array
+    below: Array
 
 
-def _flank_end(gears: Gears, arcs: Arcs, middles: Array, side: float) -> _End:
+def flank_end(gears: Gears, arcs: Arcs, middles: Array, side: float) -> End:
     """The flanks at the lesser or greater arc of each tooth; as ``tip_trim`` of one gear."""
     e, high = gears.eccentricity, gears.addendum * gears.module
     sin, cos = np.sin(gears.angle), np.cos(gears.angle)
@@ -238,4 +243,4 @@ def _flank_end(gears: Gears, arcs: Arcs, middles: Array, side: float) -> _End:
         cross = (np.conj(forth) * back).imag
         v = v - (np.conj(gap) * back).imag / cross
         w = w - (np.conj(gap) * forth).imag / cross
-    return _End(arcs.arc(beside, below, w), under, np.abs(way), off / arcs.mean)
+    return End(arcs.arc(beside, below, w), under, np.abs(way), off / arcs.mean, v, w)

@@ -18,6 +18,7 @@ from mechwright.contracts.evaluation import SAMPLES
 from mechwright.tolerances import falls_short
 from mechwright_five_bar import period_kernels as kernels
 from mechwright_five_bar.bounds import Bars, Gears, stands, teeth_bear
+from mechwright_five_bar.many_masses import give_masses
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import PEAK_SAMPLES
 from mechwright_five_bar.reach import PER_TURN, TURN_BACK, bar_of
@@ -65,7 +66,8 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     sense = np.where(designs.full("direction") == "ccw", 1.0, -1.0)
     omega = sense * designs.full("speed") * math.tau / 60
     if stage is not Stage.MOTION:
-        _parts(found, designs, bars, np.sin(least), omega)
+        bore = _parts(found, designs, bars, np.sin(least), omega)
+        give_masses(found, columns, designs, bore)
     simple: dict[str, Callable[[], Array]] = {
         "least_transmission_angle": lambda: np.degrees(least),
         "greatest_transmission_angle": lambda: np.degrees(greatest),
@@ -117,8 +119,8 @@ def _table(ratio: float, turns: int, samples: int) -> tuple[Array, Array]:
     return theta, np.ascontiguousarray([np.cos(theta), np.sin(theta), np.cos(arm), np.sin(arm)])
 
 
-def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Array) -> None:
-    """Errors of the parts, in the order of the check."""
+def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Array) -> Any:
+    """Errors of the parts, in the order of the check, and the diameter of what a pin turns in, mm."""
     pin, rim, wall = designs["pin_diameter"], designs["rim"], np.asarray(designs["bushing_wall"])
     bore = pin + np.where(wall > 0, 2 * wall, designs["running_fit"])
     crowded = _short(bars.crank, pin + rim) | _short(bars.arm, pin + rim)
@@ -131,6 +133,7 @@ def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Arra
     gears = Gears.of(designs)
     found.doubt(~stands(designs, bars, gears, bore, sine))
     found.doubt(~teeth_bear(designs, bars, gears, bore, sine, omega))
+    return bore
 
 
 def _short(value: Any, limit: Any) -> NDArray[np.bool_]:

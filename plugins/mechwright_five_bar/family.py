@@ -106,7 +106,7 @@ class FiveBars(Family[FiveBarParams]):
     def evaluate(
         self, batch: "Batch[FiveBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
     ) -> "Columns":
-        """Many at once, where the crank turns fully and gears stand in line; forces and masses one by one."""
+        """Many at once, where the crank turns fully and gears stand in line; forces one by one."""
         from mechwright.contracts.by_arrays import by_arrays
         from mechwright_five_bar.evaluation import answer
 

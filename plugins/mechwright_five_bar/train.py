@@ -17,7 +17,7 @@ from itertools import pairwise
 
 from mechwright import GeometryError, kept
 from mechwright.geometry import Loop
-from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop
+from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop, lever_fit
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.usual import DEDENDUM
 
@@ -136,9 +136,10 @@ def rack_of(params: FiveBarParams) -> Rack:
 def gear_outlines(params: FiveBarParams) -> dict[str, Loop]:
     """The toothed outside of each gear, in its frame."""
     train, rack = train_of(params), rack_of(params)
-    return {name: _outside(train.radius(name), rack, count) for name, count in train.teeth.items()}
+    fit = lever_fit(min(map(train.radius, train.teeth)) * math.cos(PRESSURE_ANGLE))
+    return {name: _outside(train.radius(name), rack, count, fit) for name, count in train.teeth.items()}
 
 
 @lru_cache(32)
-def _outside(radius: float, rack: Rack, count: int) -> Loop:
-    return gear_loop(Teeth(Round(radius), rack, count, 0.0))[0]
+def _outside(radius: float, rack: Rack, count: int, fit: float) -> Loop:
+    return gear_loop(Teeth(Round(radius), rack, count, 0.0, fit=fit))[0]

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding, Stage, kept, of_stage
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import Change, errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_geneva.driver import driver_of
@@ -51,8 +51,23 @@ def _law(params: GenevaParams) -> Iterator[Finding]:
             fault.message,
             fault.value,
             fault.limit,
-            remedy=fault.remedy,
+            remedy=f"{fault.remedy}, or take the nearest law that is one, as proposed",
+            proposed=tuple(_laws_instead(params)),
         )
+
+
+def _laws_instead(params: GenevaParams) -> Iterator[Change]:
+    """Laws near to a table or polynomial that is none, the nearest first."""
+    from mechwright.mechanics.laws.mended import instead, rows_of
+
+    rows = params.table if params.law == "table" else rows_of(params.polynomial or ())
+    for law, table in instead(rows or ()):
+        found = None if table is None else [list(row) for row in table]
+        yield {
+            f"parameters.{params.law}": None,
+            "parameters.law": law,
+            **({} if found is None else {"parameters.table": found}),
+        }
 
 
 def _driver(params: Sizes) -> Iterator[Finding]:

@@ -122,7 +122,9 @@ def _critical(frame: Frame, law: Law, side: Array, sampled: Array) -> Array:
     asked = np.isfinite(sampled)
     part, side = frame.rows(asked), side[asked]
     row = np.arange(side.size)
-    u, bend = np.broadcast_to(samples_of(law, _COARSE), (side.size, _COARSE)), bends(part, law, side)
+    # A law that is not its own mirror image is looked at over the whole stroke.
+    start = samples_of(law, _COARSE)
+    u, bend = np.broadcast_to(start, (side.size, start.size)), bends(part, law, side)
     best = np.zeros(side.size)
     for zoom in range(_ZOOMS + 1):
         top = np.argmax(bend, axis=-1)

@@ -40,13 +40,18 @@ from mechwright_noncircular_gears.law_checks import law_findings
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import mill_for_fillets
 from mechwright_noncircular_gears.profile import profile_of
-from mechwright_noncircular_gears.proof import prove
-from mechwright_noncircular_gears.ring_checks import rim_findings
+from mechwright_noncircular_gears.proof import collides, prove
+from mechwright_noncircular_gears.ring_checks import rim_findings, room_findings
 from mechwright_noncircular_gears.sector_checks import sector_findings
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings
-from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
+from mechwright_noncircular_gears.tip_checks import (
+    LEAST_ADDENDUM,
+    addendum_of,
+    cusp_findings,
+    fillet_findings,
+)
 
 LOCKED = 85.0
 """Degrees of pressure angle: at 90 the force of a tooth has no lever left about the shaft."""
@@ -59,7 +64,7 @@ ON_AXIS = 0.0005
 def findings(params: NoncircularParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     found = until_error(params, law_findings, _of_the_parts, _of_the_mesh, _backlash)
-    return tuple(cured(params, one, _makes_gears) for one in found)
+    return tuple(cured(params, one, _meshes) for one in found)
 
 
 @kept
@@ -73,8 +78,11 @@ def judged(params: NoncircularParams) -> tuple[Finding, ...]:
     return until_error(params, *_UNADVISED, _of_the_load, _backlash)
 
 
-def _makes_gears(params: NoncircularParams) -> bool:
-    return not errors(until_error(params, *_UNADVISED))
+def _meshes(params: NoncircularParams) -> bool:
+    """Whether gears can be made, and those in rings run: beside each other they do, but for few."""
+    if errors(until_error(params, *_UNADVISED)):
+        return False
+    return not (params.internal and collides(params))
 
 
 @kept
@@ -83,7 +91,7 @@ def _of_the_parts(params: NoncircularParams, *, advise: bool = True) -> tuple[Fi
         partial(one, advise=advise)
         for one in (convexity_findings, undercut_findings, cusp_findings, fillet_findings, _drive)
     )
-    teeth = (_size, _profile, hollow, sector_findings, _land, undercut)
+    teeth = (_size, _profile, hollow, room_findings, sector_findings, _land, undercut)
     tips = (cusp, _tip, fillet)
     return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, drive)))
 
@@ -198,10 +206,13 @@ def _mesh(params: NoncircularParams) -> Iterator[Finding]:
 
 
 def _lower(params: NoncircularParams) -> Iterator[Change]:
-    """Lower teeth, which may clear the fillets and tips of their mates."""
+    """Lower teeth that clear the fillets and tips of their mates, tried."""
+    heights = dict(addendum_of(params, gear) for gear in range(2))
     for less in (0.1, 0.2):
-        heights = dict(addendum_of(params, gear) for gear in range(2))
-        yield {f"parameters.{name}": round(value - less, 3) for name, value in heights.items()}
+        lower = {name: round(value - less, 3) for name, value in heights.items()}
+        if min(lower.values()) >= LEAST_ADDENDUM and not collides(params.model_copy(update=lower)):
+            yield {f"parameters.{name}": value for name, value in lower.items()}
+            return
 
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:

@@ -22,7 +22,7 @@ from mechwright_noncircular_gears.softer import nearest, said
 HARMONICS = 8
 """Of a formula with a corner: more bend the pitch curve more than teeth bear."""
 
-SOFTER = ("law.turns-back", "law.ring", "gear.convexity", "gear.undercut")
+SOFTER = ("law.turns-back", "law.ring", "gear.convexity", "gear.undercut", "gear.ring-room", "gear.mesh")
 """Findings that a softer law of the same kind does not have."""
 
 FAINT = 0.1
@@ -52,8 +52,12 @@ def cured(params: NoncircularParams, finding: Finding, works: Works) -> Finding:
         return finding
     if fields is None:
         return finding
-    _, changes = said(fields, "")
-    return replace(finding, proposed=(*finding.proposed, *changes))
+    words, changes = said(fields, "")
+    return replace(
+        finding,
+        remedy=finding.remedy if finding.proposed else words,
+        proposed=(*finding.proposed, *changes),
+    )
 
 
 def _faint(params: NoncircularParams, fields: dict[str, Any] | None) -> bool:

@@ -8,12 +8,12 @@ import numpy as np
 from mechwright import Array, Outline, kept
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import (
-    FIT,
     Rack,
     RolledCurve,
     RolledPair,
     SectorTeeth,
     Teeth,
+    exact_fit,
     gear_loop,
     sector_loop,
 )
@@ -110,20 +110,9 @@ def teeth_of(params: NoncircularParams) -> tuple[Teeth, Teeth]:
     )
 
 
-STEADY = 35.0
-"""Least pitch radius of the driven gear, mm, at which flanks within FIT turn it to 5 µrad."""
-
-
-FINEST = 0.2
-"""Of FIT: below a radius of 7 mm flanks of metal are no nearer than that to anything."""
-
-
 def fit_of(params: NoncircularParams) -> float:
-    """How near outlines come to the exact flanks, mm: a smaller gear is turned more by the same error."""
-    found = extremes_of(params)
-    ratio = found.slowest.value if params.internal else found.fastest.value
-    least = pair_of(params).distance / (1 + params.side * ratio)
-    return FIT * min(1.0, max(least / STEADY, FINEST))
+    """How near outlines come to the exact flanks, mm."""
+    return exact_fit(pair_of(params), params.teeth, math.radians(params.pressure_angle))
 
 
 def hub_of(params: NoncircularParams) -> float:

@@ -1,6 +1,6 @@
 """Many slider-cranks at once: what forbids them, and their figures.
 
-It covers what :func:`covered` says. Forces and masses are left to the motion of each.
+It covers what :func:`covered` says. Forces are left to the motion of each.
 """
 
 import math
@@ -20,7 +20,8 @@ from mechwright_slider_crank.checks import TURN_MARGIN
 from mechwright_slider_crank.course import TURN_BACK
 from mechwright_slider_crank.limit_motion import LIMIT
 from mechwright_slider_crank.many import Cranks
-from mechwright_slider_crank.rooms import forbid_layers
+from mechwright_slider_crank.masses import give_masses
+from mechwright_slider_crank.rooms import Rooms, forbid_layers
 from mechwright_slider_crank.sizes import LEAST_WEB, Sizes, filled_in
 
 _APART = {"swing_from", "swing_to", "crank_shape", "coupler_bore", "rod_width", "rod_bend", "screw_hole"}
@@ -56,7 +57,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     found = Answer(len(designs))
     many = moved(found, designs)
     if stage is not Stage.MOTION:
-        _parts(found, designs, many)
+        give_masses(found, columns, designs, many, _parts(found, designs, many))
     _figures(found, columns, many)
     _extremes(found, columns, designs, many)
     return found
@@ -94,8 +95,8 @@ def moved(found: Answer, designs: Designs) -> Cranks:
     )
 
 
-def _parts(found: Answer, designs: Designs, many: Cranks) -> None:
-    """Errors of the parts, in the order of the check."""
+def _parts(found: Answer, designs: Designs, many: Cranks) -> Rooms:
+    """Errors of the parts, in the order of the check, and the rooms between their plates."""
     a, c, e = many.bars[:, 0], many.bars[:, 1], many.bars[:, 2]
     limit = (a + np.abs(e)) * (1 + TURN_MARGIN)
     found.forbid("slider-crank.crank-turn", _short(c, limit) & ~many.rocks)
@@ -109,9 +110,10 @@ def _parts(found: Answer, designs: Designs, many: Cranks) -> None:
     ):
         found.forbid(code, _short(web, LEAST_WEB))
     found.doubt(_base(sizes) < _LEAST_BASE)
-    forbid_layers(found, designs, many, sizes)
+    rooms = forbid_layers(found, designs, many, sizes)
     left = found.left
     found.doubt(~bears(designs.some(left), many.some(left), filled_in(designs.some(left).__getitem__)), left)
+    return rooms
 
 
 def _base(sizes: Sizes) -> Any:

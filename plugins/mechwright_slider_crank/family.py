@@ -103,7 +103,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     def evaluate(
         self, batch: "Batch[SliderCrankParams]", columns: Collection[str], stage: Stage = Stage.PARTS
     ) -> "Columns":
-        """Many at once, where they have a disc and a straight rod; forces and masses one by one."""
+        """Many at once, where they have a disc and a straight rod; forces one by one."""
         from mechwright.contracts.by_arrays import by_arrays
         from mechwright_slider_crank.evaluation import answer
 

@@ -19,6 +19,9 @@ from mechwright.mechanics.compiled import compiled
 ) = range(13)  # fmt: skip
 """Spindle and plate, or two plates."""
 
+HEAD_SLIDER, HEAD_RAIL, HEAD_CRANK, ALL_ROOMS = range(ROOMS, ROOMS + 4)
+"""Of the heads of pins."""
+
 BEND = 1.1
 """A path between two samples is at most so much longer than its chord, as for the layers."""
 

@@ -33,7 +33,7 @@ from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_guide.view import View
 from mechwright_cad.assembly_guide.words import Words
-from mechwright_cad.assembly_order.layers import frame_of
+from mechwright_cad.assembly_order.layers import frame_of, mesh_points
 from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.plan import Plan, plan_of
 from mechwright_cad.bill.page import order_of
@@ -318,3 +318,16 @@ def test_both_bores_of_a_coupling_are_seen_and_a_bush_is_pressed_in():
 def bodies_of_one(part):
     (body,) = standing(part)
     return body
+
+
+def test_the_bore_of_a_small_plate_is_drawn_round():
+    """Its corners stand so close that a chord is a hundredth of the plate at most; a large one needs no more."""
+    counts = []
+    for half in (4.0, 60.0):
+        rim = Loop.polygon([(-half, -half), (half, -half), (half, half), (-half, half)])
+        outline = Outline(rim, (Loop((circle((0, 0), half / 8, clockwise=True),)),))
+        body = bodies_of_one(Part("small", outline, 2.0, "aluminium", (Instance("a", 0.0),)))
+        points, _ = mesh_points(body, 0)
+        counts.append(int((np.hypot(*points[:, :2].T) < half / 4).sum()) // 2)
+    assert min(counts) >= 12
+    assert max(counts) <= 48

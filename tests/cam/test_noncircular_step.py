@@ -1,4 +1,4 @@
-"""Non-circular pairs from their STEP files, all examples among them: the exact motion to 5 µrad."""
+"""Pairs from their STEP files, all examples of any law among them: the exact motion to 5 µrad."""
 
 import sys
 from pathlib import Path
@@ -13,6 +13,9 @@ from mechwright import host
 from mechwright.designs.design import load
 from mechwright.mechanics.chain import ChainParams
 from mechwright_cad.exporters import StepExporter
+from mechwright_elliptic_gears.gear_parts import parts_of as elliptic_parts
+from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.proof import prove_outlines as prove_elliptic
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import parts_of
 from mechwright_noncircular_gears.proof import prove_outlines
@@ -64,4 +67,15 @@ def test_transmission_error_of_the_file(name):
     outlines = [np.asarray(ring.coords)[:-1] for ring in (one.exterior, wall)]
     proof = prove_outlines(params, *outlines, 1e-3)
     assert not proof.collides
+    assert proof.error < 5e-6, proof.error
+
+
+@by_night
+@pytest.mark.parametrize(
+    ("e", "teeth", "distance"), [(0.3, 33, 80), (0.1, 41, 80), (0.3, 25, 100), (0.2, 19, 30)]
+)
+def test_transmission_error_of_elliptic_pairs(e, teeth, distance):
+    params = EllipticGearParams(eccentricity=e, teeth=teeth, semi_major=distance / 2, bore=4.0)
+    gear = read_step_outline(StepExporter().part(elliptic_parts(params)[0]), CHORDS)[0]
+    proof = prove_elliptic(params, np.asarray(gear.exterior.coords)[:-1], 1e-3)
     assert proof.error < 5e-6, proof.error

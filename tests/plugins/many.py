@@ -33,9 +33,10 @@ class Many:
         self.alone = 0
         with patch.object(by_arrays, "one_by_one", self._counted):
             found = self.family.evaluate(batch, columns, stage)
-        assert_same(found, one_by_one(self.family.judge, self.family.solve, batch, columns, stage))
+        alone = one_by_one(self.family.judge, self.family.solve, batch, columns, stage, self.family.parts)
+        assert_same(found, alone)
         return found
 
-    def _counted(self, judge, solve, batch, columns, stage):
+    def _counted(self, judge, solve, batch, columns, stage, parts):
         self.alone += len(batch)
-        return one_by_one(judge, solve, batch, columns, stage)
+        return one_by_one(judge, solve, batch, columns, stage, parts)

@@ -19,8 +19,6 @@ from mechwright_cam_follower.geometry import geometry_of
 from mechwright_cam_follower.motion import contacts_at, figures, motion_of
 from mechwright_cam_follower.outline import FIT, outline_of
 from mechwright_cam_follower.params import CamParams
-from mechwright_cam_follower.requirement import SizeRequirement
-from mechwright_cam_follower.synthesis import smallest
 
 TURN = np.linspace(0.0, math.tau, 721)
 LAWS = ["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7", "simple-harmonic"]
@@ -136,68 +134,6 @@ def test_eccentric_circle():
     low, high = face_of(params)
     assert (low, high) == pytest.approx((-25, 25), abs=1e-9)
     assert outline_of(params)[0].area == pytest.approx(math.pi * 2500, rel=1e-6)
-
-
-def test_sizes_that_another_program_prints():
-    """The README of the Python package ``mechanism`` (G. Morris), section Cams, which follows Norton.
-
-    Rise and fall of 1 in over 90 degrees each, dwells of 90 degrees, cycloidal, a flat face, ρ at least 0.25 in:
-    it prints a base radius of 1.893 in and a face of 2.55 in. In mm times ten here.
-    """
-    scale = 10.0
-    wanted = SizeRequirement(
-        contact="flat",
-        angles=(90, 90, 90, 90),
-        lifts=(scale, scale, 0, 0),
-        least_curvature_radius=0.25 * scale,
-        bore=0,
-    )
-    (best,) = smallest(wanted, lambda done, what: None).candidates
-    assert best.params.base_radius / scale == pytest.approx(1.893, abs=0.001)
-    low, high = face_of(best.params)
-    assert round((high - low) / scale, 2) == 2.55
-
-
-def test_pressure_angle_that_another_program_prints():
-    """The same README and cam with a roller of 0.5 in, in its plot of the pressure angle: R_b = 1.25091 in for 30°.
-
-    The angle there is the greatest of its samples, so that the radius is good to five digits.
-    """
-    scale = 10.0
-    table = {"angles": (90, 90, 90, 90), "lifts": (0, scale, scale, 0), "roller_radius": scale / 2, "bore": 0}
-    printed = extremes_of(cam(base_radius=1.25091 * scale, **table), False)
-    assert round(math.degrees(printed.pressure.value), 2) == 30.0
-    wanted = SizeRequirement(**table, greatest_pressure_angle=30, offset=0.0)
-    (best,) = smallest(wanted, lambda done, what: None).candidates
-    assert best.params.base_radius / scale == pytest.approx(1.2509, abs=1e-4)
-
-
-PRINTED = (
-    # lift in mm, rise, rest and return in degrees, rev/min, accelerations of rise and return in m/s²
-    (40, (60, 45, 90), 300, (177.6, 78.9)),
-    (50, (120, 30, 60), 100, (6.2, 24.7)),
-)
-"""Illustrations 2 and 3 of chapter 9, pages 247 and 249, of B. K. Sarkar, Theory of Machines.
-
-The digits are those of the textbook companion of FOSSEE, which has them with π = 3.141.
-"""
-
-
-@pytest.mark.parametrize(("lift", "angles", "speed", "printed"), PRINTED)
-def test_accelerations_that_a_textbook_prints(lift, angles, speed, printed):
-    """Harmonic motion: the greatest accelerations of rise and return."""
-    valve = cam(
-        angles=(*angles, 360 - sum(angles)),
-        lifts=(lift, lift, 0, 0),
-        laws=["simple-harmonic"],
-        base_radius=25,
-        roller_radius=10,
-        speed=speed,
-        bore=0,
-    )
-    for segment, acceleration in zip((0, 2), printed, strict=True):
-        rates = cycle_of(valve).segments[segment].at(np.linspace(0, 1, 1001))
-        assert np.abs(rates.a).max() * valve.omega**2 / 1e3 == pytest.approx(acceleration, abs=0.06, rel=1e-3)
 
 
 def test_flat_face_radius():

@@ -95,7 +95,7 @@ def columns(study):
 def test_they_are_what_each_is_by_itself(study):
     one = STUDIES[study]
     found = FAMILY.evaluate(one, columns(one))
-    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, columns(one), Stage.PARTS))
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, columns(one), Stage.PARTS, FAMILY.parts))
     assert (found.forbidden == 0).sum() >= 2
     assert len(found.counts) >= 2
 

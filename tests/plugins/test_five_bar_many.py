@@ -11,6 +11,7 @@ from mechwright.contracts.refusals import refusals
 from mechwright.testing.evaluation import assert_same
 from mechwright_five_bar.evaluation import answer
 from mechwright_five_bar.family import FiveBars
+from mechwright_five_bar.many_masses import BODIES
 
 pytestmark = in_ci
 
@@ -55,6 +56,45 @@ def test_it_says_what_the_check_and_the_motion_say(content):
     chosen = Batch(batch.model, content, {name: values[places] for name, values in batch.varied.items()})
     one = family.evaluate(chosen, COLUMNS, Stage.PARTS)
     assert_same(one, one_by_one(family.judge, family.solve, chosen, COLUMNS, Stage.PARTS))
+
+
+PARTS = (
+    "ground", "crank", "arm", "rocker", "coupler", "pinion", "idler", "wheel", "shaft-a0", "shaft-b0", "pin-a",
+    "pin-b1", "pin-c", "pin-idler", "bushing", "bushing-2", "bushing-3", "post",
+)  # fmt: skip
+MASSES = ("mass", *(f"mass.{part}" for part in PARTS), *BODIES)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {},
+        {"idler_teeth": 0, "crank_teeth": 30, "arm_teeth": 20, "screw_hole": 5, "bushing_wall": 0},
+        {"material": "steel", "thickness": 6, "ground_thickness": 6, "web_width": 9, "post_offset": 4},
+    ],
+)
+def test_masses_are_those_of_the_parts(content):
+    family = FiveBars()
+    rng = np.random.default_rng(2)
+    ranges = {
+        "crank": (14, 30),
+        "arm": (14, 30),
+        "coupler": (70, 120),
+        "rocker": (70, 120),
+        "ground": (95, 130),
+    }
+    varied = {name: rng.uniform(*ends, 60) for name, ends in ranges.items()}
+    varied |= {"coupler_point_x": rng.uniform(-10, 90, 60), "gear_thickness": rng.choice([4.0, 6.0], 60)}
+    designs = Designs(FiveBars.Params.model_validate(content), varied)
+    with np.errstate(all="ignore"):
+        said = answer(designs, MASSES, Stage.PARTS)
+    assert said is not None
+    allowed = said.left[: examples(6, 30)]
+    assert allowed.size == examples(6, 30)
+    some = Batch(FiveBars.Params, content, {name: values[allowed] for name, values in varied.items()})
+    single = one_by_one(family.judge, family.solve, some, MASSES, Stage.PARTS, family.parts)
+    assert_same(family.evaluate(some, MASSES), single)
+    assert not set(MASSES) - set(said.values) - {"mass.idler", "mass.pin-idler", "mass.post", "mass_idler"}
 
 
 def test_what_it_has_no_way_for_is_left_to_the_check():

@@ -86,7 +86,8 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
 ) -> None:
     """A fit across the ends of the ramp rippled: 2,000 segments for 40 teeth, of which no solid was made.
 
-    Each of six curves of a tooth is a segment or two, and one more for each jump that it crosses.
+    Each of six curves of a tooth is a segment or two, finer ones where the lever is short, and one more for each
+    jump that it crosses.
     """
     params = NoncircularParams(law="geneva", slots=slots, window=window, teeth=teeth, ramp=ramp)
     for teeth_of_one, outline in zip(teeth_of(params), outlines_of(params), strict=True):
@@ -94,7 +95,7 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
         assert curve.breaks.size == 2
         beside = 1 / curve.frame(curve.breaks[:, None] + np.array([-1e-5, 1e-5])).radius
         assert np.abs(np.diff(beside)).min() > 1e-4
-        assert len(outline.outer.segments) < 7 * teeth
+        assert len(outline.outer.segments) < 10 * teeth
         assert outline.deviation < FIT
         for one, two in pairwise(outline.outer.segments):
             if one.tag == two.tag:

@@ -15,6 +15,7 @@ from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.motion import motion_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import mill_for_fillets, parts_of
+from mechwright_noncircular_gears.proof import collides
 
 FAMILY = NoncircularGears()
 SMALL = {"teeth": 16, "mate_lobes": 2, "addendum": 0.5, "tip_radius": 0.05, "shaper_radius": 6, "bore": 4}
@@ -175,3 +176,38 @@ def test_a_ring_is_in_balance_and_the_gear_in_it_is_not():
     gear, outer = (one for one in FAMILY.check(ring()) if one.code == "gear.balance")
     assert "mm of unbalance" in gear.message
     assert outer.message.endswith("about its axis, its middle on it")
+
+
+def test_a_driver_without_room_in_its_ring_is_told_by_the_pitch_curves_with_the_nearest_law():
+    """Its teeth were run against the ring's for minutes until a remedy was found."""
+    wide = NoncircularParams(
+        law="ratio",
+        ratio="exp(-0.37*cos(phi) + 0.11*sin(2*phi))",
+        teeth=36,
+        mate_lobes=2,
+        internal=True,
+        bore=4,
+    )
+    assert collides(wide)
+    (found,) = errors(FAMILY.check(wide), Stage.PARTS)
+    assert found.code == "gear.ring-room"
+    assert found.value > 10 * found.limit
+    (change,) = found.proposed
+    mended = wide.model_copy(update={"ratio": change["parameters.ratio"]})
+    assert mended.ratio in found.remedy
+    assert not collides(mended)
+    assert not errors(FAMILY.judge(mended), Stage.PARTS)
+
+
+def test_a_collision_ends_the_proof_where_it_is_seen():
+    params = ring()
+    one, two = outlines_of(params)
+    outlines = one.outer.flatten(1e-3), two.inner[0].moved(0.0, 0.0, 0.05).flatten(1e-3)
+    whole, first = (
+        mesh(*outlines, pair_of(params), params.teeth, allowance=1e-3, stop=stop) for stop in (False, True)
+    )
+    assert 10 < first.arc.size < whole.arc.size / 5
+    assert 1e-3 < first.depth.max() <= whole.depth.max()
+    seen = np.searchsorted(whole.arc, first.arc)
+    for name in ("arc", "ahead", "behind", "depth"):
+        assert getattr(whole, name)[seen] == pytest.approx(getattr(first, name), abs=1e-12)

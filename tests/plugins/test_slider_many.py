@@ -8,8 +8,10 @@ from many import Many
 from mechwright import Stage
 from mechwright.contracts import by_arrays
 from mechwright_slider_crank.bounds import bears
+from mechwright_slider_crank.dealing import ORDER
 from mechwright_slider_crank.evaluation import moved
 from mechwright_slider_crank.family import SliderCrankFamily
+from mechwright_slider_crank.masses import BALANCES, BODIES
 from mechwright_slider_crank.rooms import bounds_of, decided, measure
 from mechwright_slider_crank.sizes import filled_in
 
@@ -29,6 +31,33 @@ FIGURES = [
     "time.greatest", "omega_a.least", "alpha_a.greatest", "swing_from", "swing_to", "input_range", "toggle_low",
     "toggle_high",
 ]  # fmt: skip
+
+PARTS = (
+    "base", "rail", "crank", "rod", "slider", "shaft", "crank-pin", "wrist-pin", "dowel", "spacer", "bushing",
+    "shaft-bushing",
+)  # fmt: skip
+MASSES = ["mass", *(f"mass.{part}" for part in PARTS), *BODIES, *BALANCES]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {},
+        {"rail_overhang": 25, "bushing": 0, "pin": 5},
+        {"thickness": 6, "gap": 1, "clearance": 3, "material": "steel"},
+        {"clearance": 0.2, "slider_width": 30, "shaft": 9, "rail": 16},
+    ],
+)
+def test_masses_are_those_of_the_parts(content):
+    """Crank and slider in one layer, or not, with heads on the pins or without, on usual rails or longer ones."""
+    batch = MANY.drawn(16, content, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
+    found = MANY.same(batch, MASSES, Stage.PARTS)
+    assert (found.forbidden == 0).sum() > 5
+    assert not MANY.alone
+
+
+def test_the_order_of_dealings_is_that_of_the_layers():
+    assert ORDER == ((1, 2, 1), (2, 1, 2), (2, 3, 1), (3, 2, 1), (1, 3, 2), (3, 1, 2), (1, 2, 3), (2, 1, 3))
 
 
 @pytest.mark.parametrize("content", [{}, {"rail_overhang": 12}])

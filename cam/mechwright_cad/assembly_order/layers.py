@@ -32,6 +32,9 @@ LEVEL = 0.02
 CHORD = 0.05
 """Largest distance of a mesh from its solid, mm."""
 
+FINE = 5e-4
+"""The same as a share of the size of a part, so that the bore of a small one is drawn round."""
+
 ROUND = 48
 """Corners in a quarter of a circle: 0.003 mm off one of 50 mm."""
 
@@ -152,13 +155,15 @@ def _coarse(part: Part) -> Surface:
     """A mesh of a part in its own coordinates, a few hundredths off its solid."""
     own = own_layers(part)
     if own is not None:
-        return Surface(
-            *triangles_of([Slab(p, one.low, one.high) for one in own for p in _pieces(one.shape)], CHORD)
-        )
+        slabs = [Slab(piece, one.low, one.high) for one in own for piece in _pieces(one.shape)]
+        left, front, right, rear = shapely.total_bounds([slab.polygon for slab in slabs])
+        return Surface(*triangles_of(slabs, min(CHORD, FINE * float(np.hypot(right - left, rear - front)))))
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
-    mesh = mesh_of(part_solid(part), ruled=False, tolerance=CHORD)
+    solid = part_solid(part)
+    tolerance = min(CHORD, FINE * solid.BoundingBox().DiagonalLength)
+    mesh = mesh_of(solid, ruled=False, tolerance=tolerance)
     return Surface(mesh.points, mesh.triangles)
 
 

@@ -162,11 +162,21 @@ def by_arrays(
             found.take(some, said)
             if missing := [name for name in columns if name not in said.values]:
                 solved = some[said.open]
-                found.merge(solved, one_by_one(_allowed, family.solve, _some(batch, solved), missing, stage))
+                found.merge(solved, _slow(family, _allowed, _some(batch, solved), missing, stage))
     if slow.any():
         rest = np.flatnonzero(slow)
-        found.merge(rest, one_by_one(family.judge, family.solve, _some(batch, rest), columns, stage))
+        found.merge(rest, _slow(family, family.judge, _some(batch, rest), columns, stage))
     return Columns(found.values, found.forbidden, tuple(found.codes))
+
+
+def _slow(
+    family: "Family[Any]",
+    judge: Callable[[Any], Sequence[Finding]],
+    batch: Batch[Any],
+    columns: Collection[str],
+    stage: Stage,
+) -> Columns:
+    return one_by_one(judge, family.solve, batch, columns, stage, family.parts)
 
 
 def _alike(

@@ -12,11 +12,13 @@ from pydantic import ValidationError
 
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.masses import is_mass, masses_of
 from mechwright.contracts.parameters import Parameters
 from mechwright.errors import MechwrightError, PluginFaultError
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
 
 P = TypeVar("P", bound=Parameters)
 V = TypeVar("V", float, Array)
@@ -137,38 +139,55 @@ def one_by_one(
     batch: Batch[P],
     columns: Collection[str],
     stage: Stage,
+    parts: "Callable[[P], Sequence[Part]] | None" = None,
 ) -> Columns:
-    """What :meth:`Family.evaluate` says, from ``judge`` and ``solve`` of one design after the other."""
+    """What :meth:`Family.evaluate` says, from ``judge`` and ``solve`` of one design after the other.
+
+    Masses are those of ``parts``; without it, and up to the stage ``motion``, there are none.
+    """
     size = len(batch)
     values = {name: np.full(size, np.nan) for name in columns}
     forbidden = np.zeros(size, dtype=np.int32)
     codes: dict[str, int] = {"": 0}
+    weighs = stage is not Stage.MOTION and any(map(is_mass, columns))
+    moves = any(not is_mass(name) for name in columns)
+    asked = _Asked(judge, solve if moves else None, parts if weighs else None, stage)
     for place in range(size):
-        code, found = _one(judge, solve if columns else None, batch, place, stage)
+        code, found = _one(asked, batch, place)
         forbidden[place] = codes.setdefault(code, len(codes))
         for name in values.keys() & found.keys():
-            values[name][place] = found[name][0]
+            values[name][place] = found[name]
     return Columns(values, forbidden, tuple(codes))
 
 
-def _one(
-    judge: Callable[[P], Sequence[Finding]],
-    solve: "Callable[[P, int], Motion] | None",
-    batch: Batch[P],
-    place: int,
-    stage: Stage,
-) -> tuple[str, dict[str, tuple[float, str]]]:
+@dataclass(frozen=True)
+class _Asked(Generic[P]):
+    """How a design is judged, solved and weighed; None where that is not asked for."""
+
+    judge: Callable[[P], Sequence[Finding]]
+    solve: "Callable[[P, int], Motion] | None"
+    parts: "Callable[[P], Sequence[Part]] | None"
+    stage: Stage
+
+    def found(self, params: P) -> dict[str, float]:
+        """Column to its value; raises MechwrightError where the design does not move."""
+        motion = {} if self.solve is None else figures(self.solve(params, SAMPLES))
+        found = {name: value for name, (value, _) in motion.items()}
+        return found if self.parts is None else found | masses_of(self.parts(params))
+
+
+def _one(asked: _Asked[P], batch: Batch[P], place: int) -> tuple[str, dict[str, float]]:
     """What forbids a design, and its figures if nothing does."""
     try:
         params = batch.one(place)
     except ValidationError as error:
         keys = ".".join(str(step) for step in error.errors(include_url=False)[0]["loc"])
         return f"{PARAMETERS}.{keys}" if keys else PARAMETERS, {}
-    stopping = errors(judge(params), stage)
+    stopping = errors(asked.judge(params), asked.stage)
     if stopping:
         return stopping[0].code, {}
     try:
-        return "", {} if solve is None else figures(solve(params, SAMPLES))
+        return "", asked.found(params)
     except PluginFaultError as error:  # no figure of the family's can be trusted then
         values = ", ".join(f"{name} = {values[place]}" for name, values in batch.varied.items())
         raise PluginFaultError(f"{error}; it was asked for {values}") from error

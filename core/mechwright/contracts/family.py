@@ -274,7 +274,7 @@ class Family(Plugin, Generic[P]):
     def measures(self, params: P) -> Mapping[str, str]:
         """The columns that a study around this design can have, name to unit; angles are in degrees.
 
-        The default are the figures of its motion, and the extremes of its channels.
+        The default are the figures of its motion, the extremes of its channels, and the masses of its parts.
 
         Raises
         ------
@@ -282,8 +282,13 @@ class Family(Plugin, Generic[P]):
             The design does not move.
         """
         from mechwright.contracts.evaluation import SAMPLES, figures
+        from mechwright.contracts.finding import errors
+        from mechwright.contracts.masses import UNIT, names_of
 
-        return {name: unit for name, (_, unit) in figures(self.solve(params, SAMPLES)).items()}
+        found = {name: unit for name, (_, unit) in figures(self.solve(params, SAMPLES)).items()}
+        if errors(self.judge(params), Stage.PARTS):
+            return found
+        return found | dict.fromkeys(names_of(self.parts(params)), UNIT)
 
     def evaluate(self, batch: "Batch[P]", columns: Collection[str], stage: Stage = Stage.PARTS) -> "Columns":
         """Many designs at once: their figures, and what forbids those that cannot be.
@@ -300,12 +305,12 @@ class Family(Plugin, Generic[P]):
         Returns
         -------
         columns
-            The same numbers as ``solve`` gives for each of them, and the code of the first error that
-            ``judge`` finds. The default asks these two, one design after the other.
+            The same numbers as ``solve`` and ``parts`` give for each of them, and the code of the first error
+            that ``judge`` finds. The default asks these three, one design after the other.
         """
         from mechwright.contracts.evaluation import one_by_one
 
-        return one_by_one(self.judge, self.solve, batch, columns, stage)
+        return one_by_one(self.judge, self.solve, batch, columns, stage, self.parts)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
         """The places that a requirement asks for, which ``mechwright live`` lets one drag.

@@ -83,6 +83,8 @@ class Transmission(ABC):
     own_drive: ClassVar[tuple[str, ...]] = ()
     """Fields of the table that say how the input turns by itself: none of them belongs to a stage that
     another one drives; the first of them is its speed."""
+    turns_on: ClassVar[bool] = False
+    """Whether its input has to turn on all the way: what swings there and back would undo what it does."""
     mounting: "Mounting | None" = None
     """Where its shafts stand in a chain; None where that is the family's own mounting for a frame."""
     load_field: ClassVar[str] = ""

@@ -16,8 +16,6 @@ MOST = 50_000
 """Entities of a drawing: a plate has hundreds. Blocks within blocks can make more of a small file."""
 DEEPEST = 16
 """Blocks within blocks."""
-FARTHEST = 1e6
-"""Coordinates beyond a kilometre, mm, are no plate's."""
 
 _TOLD = """
 TEXT MTEXT ATTRIB ATTDEF DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION LEADER MULTILEADER MLEADER TOLERANCE
@@ -98,7 +96,7 @@ def _add(found: list[Stroke], heights: set[float], entity: Any, look: _Look, sca
     try:
         read, height = curves(entity, scale)
     except NoCurveError as error:
-        told.fault("entity", f"{name} {error}", error.remedy)
+        told.fault("entity", f"{name} {error}", error.remedy, error.key)
         return 0
     except GeometryError as error:
         told.fault("entity", f"{name} cannot be read: {error}", "draw it again")
@@ -106,15 +104,7 @@ def _add(found: list[Stroke], heights: set[float], entity: Any, look: _Look, sca
     heights.add(height)
     for segments in read:
         kept = tuple(one for one in segments if _long(one))
-        reach = max((abs(value) for one in kept for value in (*one.start, *one.end)), default=0.0)
-        if reach > FARTHEST:
-            told.fault(
-                "entity",
-                f"{name} stands {reach:.4g} mm from the drawing's origin; the limit is {FARTHEST:g} mm",
-                "move the part to the origin, or say other units",
-                "units",
-            )
-        elif kept:
+        if kept:
             found.append(Stroke(kept, look.layer, look.colour, kind, look.handle))
     return 0 if any(_long(one) for segments in read for one in segments) else 1
 
@@ -233,7 +223,8 @@ def _hidden(document: "Drawing", entity: Any, look: _Look, named: Callable[[str,
 
 
 def _nothing(document: "Drawing", told: Told) -> None:
-    papers = [layout for layout in document.layouts if not layout.is_modelspace]
+    whole = (layout for layout in document.layouts if layout.block_record.is_alive)
+    papers = [layout for layout in whole if not layout.is_modelspace]
     on_paper = sum(1 for layout in papers for one in layout if one.dxftype() != "VIEWPORT")
     if on_paper:
         said = f"the model space shows no curve, and the paper space has {on_paper} entities"

@@ -29,14 +29,23 @@ LEVEL = 0.01
 """Heights of one entity that differ by less, mm, are one height."""
 HIGHEST_DEGREE = 25
 """Of a spline that is taken as it is: what the CAD kernel takes."""
+FARTHEST = 1e6
+"""Coordinates beyond a kilometre, mm, are no plate's."""
+FULLEST = 1e9
+"""Bulges from here on are whole circles, whose place they do not tell."""
+MOST_UNEVEN = 1e9
+"""The greatest weight of a rational spline over its least one: beyond it the curve is all but cornered."""
 
 
 class NoCurveError(GeometryError):
-    """An entity is no curve of a plane; the message says what it is, and the remedy what to do."""
+    """An entity is no curve of a plane; the message says what it is, and the remedy what to do.
 
-    def __init__(self, message: str, remedy: str) -> None:
+    ``key`` is the key of the design that may have made it so.
+    """
+
+    def __init__(self, message: str, remedy: str, key: str = "drawing") -> None:
         super().__init__(message)
-        self.remedy = remedy
+        self.remedy, self.key = remedy, key
 
 
 @dataclass(frozen=True)
@@ -71,16 +80,21 @@ def curves(entity: Any, scale: float) -> tuple[list[tuple[Segment, ...]], float]
     Raises
     ------
     NoCurveError
-        It is drawn in space: it is tilted, or its ends stand at different heights.
+        It is drawn in space: it is tilted, or its ends stand at different heights; or its coordinates are no
+        numbers, or lie farther than :data:`FARTHEST` from the origin.
     """
     from ezdxf.upright import upright
 
     if entity.dxf.hasattr("extrusion"):
         _flat_extrusion(entity)
         upright(entity)
-    found, heights = _READERS[entity.dxftype()](entity, scale)
-    if not all(map(math.isfinite, heights)):
-        raise NoCurveError("has coordinates that are no numbers", "draw it again")
+    with np.errstate(over="ignore", invalid="ignore"):
+        found, heights = _READERS[entity.dxftype()](entity, scale)
+        _placed(heights)
+        for segment in (one for segments in found for one in segments):
+            _placed((*segment.start, *segment.end))
+            if isinstance(segment, Arc):
+                _placed(segment.at(_QUARTERS).ravel())
     low, high = (min(heights), max(heights)) if heights else (0.0, 0.0)
     if high - low > LEVEL:
         raise NoCurveError(
@@ -88,6 +102,23 @@ def curves(entity: Any, scale: float) -> tuple[list[tuple[Segment, ...]], float]
             "draw the plate flat, or export it as a view from above",
         )
     return found, low
+
+
+_QUARTERS = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""Places of an arc: none of it is much farther from the origin than the farthest of them."""
+
+
+def _placed(values: "Iterable[float] | Array") -> None:
+    """Raise where coordinates, mm, are no numbers or too far from the origin."""
+    reach = float(np.abs(np.fromiter(values, dtype=float)).max(initial=0.0))
+    if not math.isfinite(reach):
+        raise NoCurveError("has coordinates that are no numbers", "draw it again")
+    if reach > FARTHEST:
+        raise NoCurveError(
+            f"stands {reach:.4g} mm from the drawing's origin; the limit is {FARTHEST:g} mm",
+            "move the part to the origin, or say other units",
+            "units",
+        )
 
 
 def _flat_extrusion(entity: Any) -> None:
@@ -145,6 +176,9 @@ def _polyline(entity: Any, scale: float) -> Found:
 
 
 def _bulged(rows: list[tuple[float, float, float]], *, closed: bool) -> list[tuple[Segment, ...]]:
+    _placed(value for x, y, _ in rows for value in (x, y))
+    if not all(abs(bulge) < FULLEST for _, _, bulge in rows):
+        raise NoCurveError("has a bulge that no arc has", "draw it again")
     pairs = [*pairwise(rows), *([(rows[-1], rows[0])] if closed and len(rows) > 1 else [])]
     found = [bulged(a[:2], b[:2], a[2]) for a, b in pairs if math.dist(a[:2], b[:2]) > TOLERANCES.closure]
     return [tuple(found)] if found else []
@@ -174,6 +208,7 @@ def _ellipse(entity: Any, scale: float) -> Found:
     )
     heights = [float(entity.dxf.center[2]) * scale]
     heights.append(heights[0] + float(entity.dxf.major_axis[2]) * scale)
+    _placed((*centre, *major, *minor))
     first = float(entity.dxf.start_param)
     sweep = (float(entity.dxf.end_param) - first) % math.tau
     sweep = sweep if sweep > TOLERANCES.angle_rad else math.tau
@@ -195,11 +230,13 @@ def _spline(entity: Any, scale: float) -> Found:
     net = np.array([tuple(point) for point in tool.control_points], dtype=float) * scale
     if len(net) < 2 or not np.isfinite(net).all():
         raise NoCurveError("has no control points", "draw it again")
+    _placed(net.ravel())
     heights = [float(net[:, 2].min()), float(net[:, 2].max())]
     degree, knots = int(tool.order) - 1, np.asarray(tool.knots(), dtype=float)
     weights = np.asarray(tool.weights() or np.ones(len(net)), dtype=float)
     low, high = knots[degree], knots[len(net)]
-    if not high > low or not 1 <= degree <= HIGHEST_DEGREE or not (weights > 0).all():
+    even = (weights > 0).all() and weights.max() <= MOST_UNEVEN * weights.min()
+    if not 0 < high - low < math.inf or not 1 <= degree <= HIGHEST_DEGREE or not even:
         raise NoCurveError("has knots or weights that are none", "draw it again")
     if degree == 1:
         points = [(float(x), float(y)) for x, y in net[:, :2]]

@@ -39,6 +39,7 @@ from pydantic import Field
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.inputs import input_files
+from mechwright.contracts.masses import is_mass
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
@@ -213,6 +214,12 @@ def study_of(content: Mapping[str, Any], path: Path, host: Host) -> Study:
         _require(column, known, f"{path}: {TABLE}.columns")
     wanted = dict.fromkeys([*(axis.name for axis in axes), *(one.column for one in bounds), *objectives])
     units = {column: known[column] for column in dict.fromkeys([*wanted, *asked.columns])}
+    weighed = next(filter(is_mass, units), None)
+    if weighed and asked.stage == "motion":
+        raise DesignError(
+            f'{path}: {TABLE}.stage: is "motion", and {weighed} is of parts, which are not looked at then; '
+            'take stage = "parts"'
+        )
     if asked.refine and not objectives:
         raise DesignError(f"{path}: {TABLE}.refine: needs objectives; there is no best without one")
     rest = read_tables(content, path, host)

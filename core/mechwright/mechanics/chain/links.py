@@ -110,7 +110,7 @@ def _joined(params: ChainParams, families: Families) -> tuple[tuple[Link, ...], 
         faults += _no_output(number, family, transmission, last=last)
         found.append(Link(number, family, table, transmission))
     if not faults:
-        faults += _never_back(found)
+        faults += (*_turned_back(found), *_never_back(found))
     return tuple(found), tuple(faults)
 
 
@@ -159,6 +159,22 @@ def _no_output(
             f"stage {number}, {family.name}: no shaft comes out of it that could turn stage {number + 1}",
             remedy="make it the last stage",
         )
+
+
+def _turned_back(links: Sequence[Link]) -> Iterator[Finding]:
+    """Stages that have to be turned on, behind one whose output swings."""
+    for place, link in enumerate(links):
+        swinging = next((one for one in links[:place] if one.transmission.advance == 0), None)
+        if link.transmission.turns_on and swinging is not None:
+            yield Finding.error(
+                "chain.swings",
+                f"stage.{link.number}.family",
+                f"stage {link.number}, {link.family.name}: its input has to turn on, and what comes out of "
+                f"stage {swinging.number}, {swinging.family.name}, swings there and back: its output would "
+                "go back too",
+                remedy=f"make stage {swinging.number} one whose output turns all the way, such as a double "
+                f"crank or gears, or put stage {link.number} before it",
+            )
 
 
 def turns_of(links: Sequence[Link]) -> Fraction:

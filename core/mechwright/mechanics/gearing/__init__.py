@@ -11,6 +11,7 @@ driver, driven gear
 """
 
 from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
+from mechwright.mechanics.gearing.exactness import exact_fit, lever_fit
 from mechwright.mechanics.gearing.mesh import Mesh, first_depth, mesh, swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
@@ -43,8 +44,10 @@ __all__ = [
     "SectorTeeth",
     "Shaper",
     "Teeth",
+    "exact_fit",
     "first_depth",
     "gear_loop",
+    "lever_fit",
     "mesh",
     "prove_mesh",
     "sector_loop",

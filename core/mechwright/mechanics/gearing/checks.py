@@ -215,7 +215,7 @@ def mesh_findings(
     """What the mesh proof of a design says; ``clearing`` gives changes that may end a collision."""
     depth = float(proof.mesh.depth.max())
     if proof.collides:
-        said = f"{depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap"
+        said = f"{depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap, or more"
         yield collision(depth, proof.allowance, said, clearing)
         return
     if exceeds(proof.flank_error, FLANK_ERROR):

@@ -10,6 +10,9 @@ from mechwright.mechanics.gearing.crossings import turns_to_edges
 from mechwright.mechanics.gearing.zone import Near
 from mechwright.tolerances import TOLERANCES
 
+_PAIRS = 1 << 18
+"""Points and edges whose distances are found at a time: a few MB, which stay near the processor."""
+
 _SIGHT = 0.5
 """Pitches: half the least arc on both sides of a point in which it looks for edges."""
 
@@ -93,8 +96,10 @@ def depths(points: Array, group: Ints, starts: Array, ends: Array, edge_group: I
     result = np.full(len(points), -np.inf)
     for number in np.unique(group):
         own, edges = np.flatnonzero(group == number), np.flatnonzero(edge_group == number)
-        if edges.size:
-            result[own] = _signed(points[own], starts[edges], ends[edges])
+        if not edges.size:
+            continue
+        for some in np.array_split(own, -(-own.size * edges.size // _PAIRS)):
+            result[some] = _signed(points[some], starts[edges], ends[edges])
     return result
 
 

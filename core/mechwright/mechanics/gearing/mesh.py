@@ -34,7 +34,7 @@ EDGES_PER_PITCH = 16
 """Longer edges are cut, so that an edge is a short piece of one flank."""
 
 _CHUNK = 32
-"""Positions at a time: bounds the memory, a few ten MB."""
+"""Positions at a time, at most: bounds the memory, a few ten MB."""
 
 _REACH = 0.1
 """Pitches by which a gear's envelope is widened: what lies within it is looked at."""
@@ -97,6 +97,7 @@ def mesh(
     *,
     positions: int | None = None,
     allowance: float,
+    stop: bool = False,
 ) -> Mesh:
     """Run two outlines against each other until the same teeth meet again.
 
@@ -113,12 +114,23 @@ def mesh(
         Number of positions, as in :meth:`Pair.run`.
     allowance
         Depth that counts as contact, mm: what fitting and flattening may put on both outlines.
+    stop
+        Whether to look no further once outlines meet more deeply: what is found then is of some positions.
     """
     arc = pair.run(teeth, positions)
     theta1, theta2 = pair.angles(arc)
-    chunks = (slice(i, i + _CHUNK) for i in range(0, arc.size, _CHUNK))
-    parts = _contacts(driver, driven, pair, teeth, allowance, ((theta1[at], theta2[at]) for at in chunks))
-    ahead, behind, depth, gap = (np.concatenate(column) for column in zip(*parts, strict=True))
+    chunks = list(_spread(0, arc.size))
+    parts = []
+    for part in _contacts(
+        driver, driven, pair, teeth, allowance, ((theta1[at], theta2[at]) for at in chunks)
+    ):
+        parts.append(part)
+        if stop and part[2].max() > allowance:
+            break
+    seen = np.concatenate([np.arange(arc.size)[at] for at in chunks[: len(parts)]])
+    order = np.argsort(seen)
+    arc, theta1, theta2 = (values[seen[order]] for values in (arc, theta1, theta2))
+    ahead, behind, depth, gap = (np.concatenate(column)[order] for column in zip(*parts, strict=True))
     deepest = np.argsort(-depth, kind="stable")[:_AREAS]
     some = deepest[depth[deepest] > allowance]
     overlap = _overlap(driver, driven, theta1[some], theta2[some], pair) if some.size else 0.0
@@ -137,12 +149,15 @@ def first_depth(
     """
     arc = pair.run(teeth)
     theta1, theta2 = pair.angles(arc)
-    low, high = (round(share * arc.size) for share in span)
-    step = max(1, math.ceil((high - low) / _CHUNK))
-    spread = (slice(low + number, high, step) for number in range(step))
-    places = ((theta1[at], theta2[at]) for at in spread)
+    places = ((theta1[at], theta2[at]) for at in _spread(*(round(share * arc.size) for share in span)))
     depths = (found[2].max() for found in _contacts(driver, driven, pair, teeth, allowance, places))
     return next((float(depth) for depth in depths if depth > allowance), 0.0)
+
+
+def _spread(low: int, high: int) -> Iterator[slice]:
+    """Positions in portions, each spread over all of them: a collision shows in the first ones."""
+    step = max(1, math.ceil((high - low) / _CHUNK))
+    yield from (slice(low + number, high, step) for number in range(step))
 
 
 def _contacts(

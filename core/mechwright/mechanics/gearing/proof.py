@@ -39,14 +39,20 @@ class MeshProof:
 
 
 def prove_mesh(
-    pair: Pair, rack: Rack, teeth: int, outlines: tuple[Array, Array], allowance: float
+    pair: Pair,
+    rack: Rack,
+    teeth: int,
+    outlines: tuple[Array, Array],
+    allowance: float,
+    *,
+    stop: bool = False,
 ) -> MeshProof:
     """Run the outlines of driver and driven gear, (n, 2) and (m, 2), mm, as :func:`mesh` takes them.
 
     ``teeth`` are those of the driver. ``allowance`` is the depth, mm, that the making of the outlines
-    itself can cause.
+    itself can cause; ``stop`` is that of :func:`mesh`.
     """
-    result = mesh(*outlines, pair, teeth, allowance=allowance)
+    result = mesh(*outlines, pair, teeth, allowance=allowance, stop=stop)
     normal = rack.backlash / 2 * math.cos(rack.pressure_angle)
     levers = pair.levers(result.arc, rack.pressure_angle)
     flanks = list(zip((result.ahead, result.behind), levers, strict=True))

@@ -12,8 +12,8 @@ from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 from mechwright.mechanics.gearing.rack import SIDES, Rack
 
 FIT = 0.0001
-"""Deviation of an outline from the exact curves, mm: a tenth of what an outline may have, for one degree
-more. Errors of a flank turn the driven gear; this one turns it by a few microradians."""
+"""Greatest deviation of an outline from the exact curves, mm: a tenth of what an outline may have, for one
+degree more. Flanks of smaller gears come nearer, as the angle asks that they turn their mates by."""
 
 _TRIM = 1e-13
 """Residual of the tip trim in units of the mean radius: rounding, ten times."""

@@ -11,7 +11,7 @@ from mechwright.geometry import Arc, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 
-_SAME_DIRECTION = 1e-9
+SAME_DIRECTION = 1e-9
 """Tangents closer in direction than this, rad, are one line along three bosses of a row."""
 
 
@@ -107,11 +107,11 @@ def _next_tangent(bosses: Sequence[Boss], current: int, heading: float) -> tuple
         between = other.centre - one.centre
         normal = cmath.phase(between) - math.acos((one.radius - other.radius) / abs(between))
         advance = (normal - heading) % math.tau
-        found.append((0.0 if advance > math.tau - _SAME_DIRECTION else advance, abs(between), number))
+        found.append((0.0 if advance > math.tau - SAME_DIRECTION else advance, abs(between), number))
     least = min(advance for advance, _, _ in found)
     # Of several on one tangent the farthest.
     advance, _, following = max(
-        (item for item in found if item[0] <= least + _SAME_DIRECTION), key=lambda item: item[1]
+        (item for item in found if item[0] <= least + SAME_DIRECTION), key=lambda item: item[1]
     )
     return advance, following
 
@@ -123,7 +123,7 @@ def _wrapped(bosses: Sequence[Boss], corners: Sequence[tuple[int, float, int]]) 
         arrive = corners[place - 1][1]
         boss, other, normal = bosses[current], bosses[following], cmath.exp(1j * leave)
         sweep = (leave - arrive) % math.tau
-        if sweep > _SAME_DIRECTION:
+        if sweep > SAME_DIRECTION:
             segments.append(Arc(_point(boss.centre), boss.radius, leave - sweep, sweep, "boss"))
         segments.append(
             Line(
