@@ -1,5 +1,7 @@
 """Designs a second and core of each family that evaluates many at once, on the study of its example.
 
+Where a family has masses by arrays, the same is measured with them besides.
+
     python benchmarks/bench_evaluate.py [DESIGNS]
 
 The anchor of each is a plain numpy evaluation of its motion: the closed form of the output's angle and of one
@@ -118,6 +120,17 @@ PLAIN: dict[str, Plain] = {
 }
 
 
+WEIGHED: dict[str, tuple[str, ...]] = {
+    "geneva": ("mass",),
+    "four-bar": ("mass.crank", "mass.coupler"),
+    "slider-crank": ("mass", "mass_slider"),
+    "elliptic-gears": ("mass",),
+    "five-bar": ("mass", "mass_coupler"),
+    "cam-follower": ("mass",),
+}
+"""Masses that families have by arrays."""
+
+
 def plain(figure: Plain, size: int) -> Array:
     """Least and greatest value of a figure of so many designs."""
     theta, found = np.linspace(0, 2 * np.pi, SAMPLES), np.empty((size, 2))
@@ -141,15 +154,25 @@ def measured(name: str, study: Study, size: int) -> bool:
     batch = Batch(whole.model, whole.content, {key: values[:size] for key, values in whole.varied.items()})
     size = len(batch)
 
+    columns = (*study.measured, *WEIGHED.get(name, ()))
+
     def evaluate() -> Columns:
         return study.family.evaluate(batch, study.measured, study.stage)
 
+    def weighed() -> Columns:
+        return study.family.evaluate(batch, columns, study.stage)
+
     found = evaluate()
-    times = [(timed(evaluate), timed(lambda: plain(PLAIN[name], size))) for _ in range(ROUNDS)]
-    own, anchor = median(one for one, _ in times), median(two for _, two in times)
+    weighed()
+    times = [
+        (timed(evaluate), timed(lambda: plain(PLAIN[name], size)), timed(weighed)) for _ in range(ROUNDS)
+    ]
+    own, anchor, heavy = (median(column) for column in zip(*times, strict=True))
     allowed = float((found.forbidden == 0).mean())
     print(f"\n{name}: {size:,} designs, {100 * allowed:.0f} % allowed, columns {', '.join(study.measured)}")
     print(f"  {size / own:9,.0f} designs a second and core, {own / anchor:5.2f} times a plain motion")
+    if name in WEIGHED:
+        print(f"  {size / heavy:9,.0f} with {', '.join(WEIGHED[name])} besides")
     return require(f"{LEAST_RATE:,} over the rate", LEAST_RATE * own / size, 1.0)
 
 

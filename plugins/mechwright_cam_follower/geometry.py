@@ -79,7 +79,7 @@ class Contact:
     @property
     def share(self) -> Array:
         """Work of one newton of the contact for each unit of lift: lever × cos α, mm or 1."""
-        found: Array = self.lever * np.cos(self.pressure_angle)
+        found: Array = self.lever * (self.outward * np.conj(self.direction)).real
         return found
 
 
@@ -105,6 +105,8 @@ class Geometry(Generic[V]):
         if self.params.contact == "flat":
             return self._flat(rates)
         sigma, radius = self.params.sense, self.params.value("roller_radius")
+        if rates.s.ndim > 1:
+            return self._many(rates, radius, second)
         centre, first, after, direction, lever = self.roller(rates, second)
         velocity = first - 1j * sigma * centre
         acceleration = after - 2j * sigma * first - centre
@@ -115,6 +117,20 @@ class Geometry(Generic[V]):
             pitch = -sigma / way_curvature(velocity, acceleration, speed)
         point = touched(centre, left, radius, -sigma)
         return Contact(centre, point, sigma * left, direction, lever, pitch, pitch - radius)
+
+    def _many(self, rates: Rates, radius: V, second: bool) -> Contact:
+        """The same of many cams."""
+        from mechwright_cam_follower.contact_kernels import contacts
+
+        params, slides = self.params, self.params.translating
+        place = params.value("offset" if slides else "centre_distance")
+        arm = 1.0 if slides else params.value("arm_length")
+        start = self.start - self.apart if second else self.start
+        sign = -1.0 if second else 1.0
+        found = contacts(slides, params.sense, sign, place, arm, start, radius, rates)
+        centre, point, outward, direction, pitch = found
+        lever = np.broadcast_to(np.asarray(arm, dtype=float), pitch.shape)
+        return Contact(centre, point, outward, direction, lever, pitch, pitch - radius)
 
     def roller(self, rates: Rates, second: bool = False) -> tuple[Points, Points, Points, Points, Array]:
         """Centre of a roller, its first two derivatives, its direction as it nears or leaves, its lever.
