@@ -87,3 +87,16 @@ def test_every_plate_of_a_chain_has_a_proven_program(path: Path) -> None:
     chain = mechwright.load(path)
     made = {program.job.part.name for program in chain.programs}
     assert made == {part.name for part in chain.parts if part.outline is not None and part.bought is None}
+
+
+def test_sectors_turn_the_other_way_by_their_law_and_rest_with_the_lever() -> None:
+    """Within 0.8 to 1.1 of the lever's speed, over the middle 24 of their 30 degrees."""
+    params, motion = moved("sectors-behind-lever", 721)
+    driver, out = np.degrees(motion["2.theta1"]), np.degrees(motion["2.theta2"])
+    assert [driver.min(), driver.max()] == pytest.approx([3.0, 27.0], abs=0.01)
+    assert 24 * 0.8 < np.ptp(out) < 24 * 1.1
+    ratio = motion["2.ratio"]
+    assert 0.8 < ratio.min() < ratio.max() < 1.1
+    assert params.stage[1].start == pytest.approx(27.0, abs=0.01)
+    rests = np.abs(motion["2.omega2"]) < 1e-9
+    assert rests.mean() == pytest.approx(1 / 3, abs=0.01)
