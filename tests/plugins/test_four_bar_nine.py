@@ -19,7 +19,7 @@ from mechwright_four_bar.nine.make_start import any_linkage, looped, moved
 from mechwright_four_bar.nine.precise import certificate, followed, points_of
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.nine.solving import Triples, all_triples
-from mechwright_four_bar.nine.special import special
+from mechwright_four_bar.nine.special import CIRCLE, infinite, special
 from mechwright_four_bar.nine.start import any_points, start
 from mechwright_four_bar.nine.synthesis import drawn, through_nine
 from mechwright_four_bar.nine.triples import TRIPLES, fingerprints, members, new_ones
@@ -224,7 +224,7 @@ HALF = [22 + 13j, 5 + 17j, -11 + 19j, -27 + 8j]
         ([*GENERAL, -5.04 + 26.88j, 5.7 + 35.74j], ""),
         ([k * (1 + 0.25j) for k in range(9)], "all points lie in one line"),
         ([*GENERAL[:5], *(60 + k * (3 - 1j) for k in range(4))], "points 6, 7, 8 and 9 lie in one line"),
-        (30 * np.exp(1j * np.array([0, 1, 1.3, 2, 2.2, 3, 4, 5, 5.5])), "all points lie on one circle"),
+        (30 * np.exp(1j * np.array([0, 1, 1.3, 2, 2.2, 3, 4, 5, 5.5])), CIRCLE),
         (
             [*(70 + 10 * np.exp(1j * np.arange(5))), *GENERAL[:4]],
             "points 1, 2, 3, 4 and 5 lie on one circle",
@@ -234,7 +234,9 @@ HALF = [22 + 13j, 5 + 17j, -11 + 19j, -27 + 8j]
     ],
 )
 def test_what_is_special_about_points_is_said(points, said):
-    assert special(np.array(points) * np.exp(0.3j) + 5 - 2j) == said
+    moved_ = np.array(points) * np.exp(0.3j) + 5 - 2j
+    assert special(moved_) == said
+    assert infinite(moved_) == (said == CIRCLE)
 
 
 @in_ci

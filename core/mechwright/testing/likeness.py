@@ -6,6 +6,7 @@ is driven the other way and in one that stands elsewhere.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
@@ -21,6 +22,9 @@ from mechwright.scripting.buildable import machines
 SAMPLES = 361
 """Instants of a motion that are compared: extremes are then known to a ten-thousandth of a length."""
 
+NOTHING = 1e-6
+"""mm, rad and the like: figures below this are rounding."""
+
 SAME_CURVE = 2e-4
 """Share of its size within which two curves are one: what instants half a degree apart miss of a curve."""
 
@@ -34,44 +38,62 @@ def repeated(family: Family[Any], candidates: Sequence[Candidate[Any]]) -> list[
     Of a machine that is set to several paths, which is several designs, the first stands for it.
     """
     motions = [family.solve(machine[0].params, SAMPLES) for machine in machines(candidates)]
-    sizes = [figures(motion) for motion in motions]
+    sizes = [likeness(motion) for motion in motions]
     said = []
     for (i, one), (k, other) in combinations(enumerate(sizes), 2):
         if alike(one, other):
             said.append(f"designs {i + 1} and {k + 1} are one, or mirror images of each other")
-        elif draw_one_curve(motions[i], motions[k]):
+        elif not one.figures and draw_one_curve(motions[i], motions[k]):
             said.append(f"designs {i + 1} and {k + 1} are cognates of each other")
     return said
 
 
-def alike(one: Mapping[str, float], other: Mapping[str, float]) -> bool:
-    """Whether two designs have the same figures but for a share :data:`ALIKE` of the least of them.
+@dataclass(frozen=True)
+class Likeness:
+    """What two designs are compared by.
 
-    >>> alike({"crank": 20.0, "rod": 80.0}, {"crank": 20.1, "rod": 79.8})
+    Parameters
+    ----------
+    distances
+        Least and greatest distance of each two joints and traced points in the motion, mm; where axes meet,
+        arcs, rad.
+    figures
+        Sizes of the figures that the motion tells, where teeth, flanks or cams drive and not links alone.
+    """
+
+    distances: Mapping[str, float]
+    figures: Mapping[str, float]
+
+
+def alike(one: Likeness, other: Likeness) -> bool:
+    """Whether distances agree to a share :data:`ALIKE` of the least of them, and figures to one of each.
+
+    >>> one = Likeness({"crank": 20.0, "rod": 80.0}, {"speed": 3.0})
+    >>> alike(one, Likeness({"crank": 20.1, "rod": 79.8}, {"speed": 3.01}))
     True
-    >>> alike({"crank": 20.0, "rod": 80.0}, {"crank": 21.0, "rod": 80.0})
+    >>> alike(one, Likeness({"crank": 20.0, "rod": 80.6}, {"speed": 3.0}))
     False
     """
-    if one.keys() != other.keys():
+    if one.distances.keys() != other.distances.keys() or one.figures.keys() != other.figures.keys():
         return False
-    lengths = [value for value in (*one.values(), *other.values()) if abs(value) > PARALLEL]
-    near = ALIKE * min(map(abs, lengths), default=0.0)
-    return all(abs(value - other[name]) <= near for name, value in one.items())
+    lengths = [value for value in (*one.distances.values(), *other.distances.values()) if value > NOTHING]
+    near = ALIKE * min(lengths, default=0.0)
+    return all(abs(value - other.distances[name]) <= near for name, value in one.distances.items()) and all(
+        abs(value - other.figures[name]) <= ALIKE * max(value, NOTHING) for name, value in one.figures.items()
+    )
 
 
-def figures(motion: Motion) -> dict[str, float]:
-    """Least and greatest distance of each two joints and traced points, mm, or arc where axes meet, rad.
-
-    Of a mechanism whose bodies all turn in the ground, such as a pair of gears, these say nothing: its
-    figures are the sizes of those that its motion tells.
-    """
+def likeness(motion: Motion) -> Likeness:
+    """What a design is compared by, from its motion."""
     still = Poses(np.zeros((motion.samples, 3)), np.tile(np.eye(3), (motion.samples, 1, 1)))
     poses = {**motion.poses, GROUND: still}
     held = {name: one for name, one in motion.joints.items() if one.kind in ("revolute", "prismatic")}
     places = {name: _at(poses[one.one], one.point) for name, one in held.items()}
     axes = {name: poses[one.one].rotation @ np.array(one.axis) for name, one in held.items()}
-    if not any(_moves(motion, one.one) for one in held.values()):
-        return {name: abs(one.value) for name, one in motion.scalars.items()}
+    chained = any(one.one in motion.poses and _moves(motion.poses[one.one]) for one in held.values())
+    meshes = any(
+        one.kind == "contact" or (one.kind == "gear" and one.ratio is None) for one in motion.joints.values()
+    )
     turning = {name: axes[name] for name, one in held.items() if one.kind == "revolute"}
     normal = next(iter(turning.values()))
     planar = all(
@@ -92,7 +114,12 @@ def figures(motion: Motion) -> dict[str, float]:
             float(apart.min()),
             float(apart.max()),
         )
-    return found
+    told = {} if chained and not meshes else {name: abs(one.value) for name, one in motion.scalars.items()}
+    return Likeness(found, told)
+
+
+def _moves(poses: Poses) -> bool:
+    return bool(np.ptp(poses.rotation, axis=0).max() > PARALLEL or np.ptp(poses.position, axis=0).max() > 0)
 
 
 def draw_one_curve(one: Motion, other: Motion) -> bool:
@@ -107,16 +134,6 @@ def draw_one_curve(one: Motion, other: Motion) -> bool:
         if size == 0 or any(_off(*pair) > SAME_CURVE * size for pair in (curves, curves[::-1])):
             return False
     return True
-
-
-def _moves(motion: Motion, body: str) -> bool:
-    if body == GROUND:
-        return False
-    poses = motion.poses[body]
-    return (
-        float(np.ptp(poses.rotation, axis=0).max()) > PARALLEL
-        or float(np.ptp(poses.position, axis=0).max()) > 0
-    )
 
 
 def _at(poses: Poses, point: Sequence[float]) -> Array:

@@ -14,6 +14,15 @@ FEW = 4
 """Points in one line, or on one circle with one more, that are worth a word: any three lie on a circle."""
 
 
+CIRCLE = "all points lie on one circle, which a crank's pin draws with any coupler and follower"
+"""Then infinitely many linkages pass through the points, whatever isolated ones there are."""
+
+
+def infinite(points: Plane) -> bool:
+    """Whether infinitely many four-bars certainly pass through points (9,): one circle holds them all."""
+    return special(points).startswith(CIRCLE)
+
+
 def special(points: Plane) -> str:
     """What is special about points (9,), x + i y; empty where nothing is.
 
@@ -27,7 +36,7 @@ def special(points: Plane) -> str:
     said = []
     round_ = _most(unit, 3)
     if len(round_) == unit.size:
-        said.append("all points lie on one circle")
+        said.append(CIRCLE)
     if len(lined) >= FEW:
         said.append(f"points {_listed(lined)} lie in one line")
     if len(round_) > FEW and len(round_) < unit.size:

@@ -14,7 +14,7 @@ from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.nine.solving import Triples, all_triples
-from mechwright_four_bar.nine.special import special
+from mechwright_four_bar.nine.special import infinite, special
 from mechwright_four_bar.nine.triples import TRIPLES, members
 from mechwright_four_bar.params import FourBarParams
 
@@ -135,7 +135,8 @@ def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis
         dict(defects),
         wanted,
         lambda: (
-            f"{_count(triples)}; {len(triples.real)} of them are real, with {len(bars)} four-bars, driven "
+            f"{_count(triples, infinite(points))}; {len(triples.real)} of them are real, with {len(bars)} "
+            "four-bars, driven "
             f"without a defect in {len(options)} ways, in {full} of them by a crank that turns fully"
         ),
         lambda part: progress(SOLVED + (1 - SOLVED) * part, "designs"),
@@ -143,9 +144,10 @@ def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis
     return Synthesis(result.candidates, (*result.findings, *_doubts(triples, points)), result.rejected)
 
 
-def _count(triples: Triples) -> str:
+def _count(triples: Triples, infinite_: bool) -> str:
+    """How many were found; all only where nothing else is known to be there."""
     found = len(triples.certified)
-    said = "all of them" if triples.complete else "at least these"
+    said = "all of them" if triples.complete and not infinite_ else "at least these"
     return f"{found} found of {TRIPLES} triples of cognates, {said}, each certified"
 
 
@@ -158,15 +160,16 @@ def _doubts(triples: Triples, points: Plane) -> Iterator[Finding]:
             "points",
             f"of {open_ones} triples it is not decided whether they are real",
         )
-    if triples.complete:
-        return
     why = special(points)
+    if triples.complete and not infinite(points):
+        return
     yield Finding.warning(
         "nine-points.incomplete",
         "points",
         (f"{why}: " if why else "")
-        + f"{len(triples.certified)} found of {TRIPLES} triples: {triples.far} run to infinity, "
-        f"{triples.singular} end in singular solutions, which have no certificate, {triples.lost} are lost",
+        + f"{len(triples.certified)} found of {TRIPLES} triples: as far as can be seen {triples.far} run to "
+        f"infinity and {triples.singular} end in singular solutions, which have no certificate; "
+        f"{triples.lost} are lost",
         float(len(triples.certified)),
         float(TRIPLES),
         "",
