@@ -94,9 +94,12 @@ class Ellipse(PitchCurve):
         weights = self._terms[1:] / (2 * np.arange(1, self._terms.size))
         # Clenshaw's recurrence for a sine series in 2 u.
         twice = 2 * np.cos(2 * u)
-        one, two = np.zeros_like(u), np.zeros_like(u)
+        one, two, free = np.zeros_like(u), np.zeros_like(u), np.empty_like(u)
         for weight in weights[::-1]:
-            one, two = weight + twice * one - two, one
+            np.multiply(twice, one, out=free)
+            free += weight
+            free -= two
+            one, two, free = free, one, two
         result: Array = self.semi_major * (self._terms[0] * u + one * np.sin(2 * u))
         return result
 

@@ -46,7 +46,7 @@ from mechwright_noncircular_gears.ring_checks import rim_findings, room_findings
 from mechwright_noncircular_gears.sector_checks import sector_findings
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
-from mechwright_noncircular_gears.strength_checks import strength_findings
+from mechwright_noncircular_gears.strength_checks import strength_findings, strength_judged
 from mechwright_noncircular_gears.tip_checks import (
     LEAST_ADDENDUM,
     addendum_of,
@@ -108,7 +108,7 @@ def _of_the_mesh(params: NoncircularParams) -> tuple[Finding, ...]:
 
 @of_stage(Stage.PARTS)
 def _of_the_load(params: NoncircularParams) -> Iterator[Finding]:
-    yield from strength_findings(params, advise=False)
+    yield from strength_judged(params)
 
 
 def _size(params: NoncircularParams) -> Iterator[Finding]:

@@ -68,6 +68,13 @@ class Rim:
         return tuple((self.circle * math.cos(turn), self.circle * math.sin(turn)) for turn in turns)
 
     @property
+    def moment(self) -> float:
+        """Polar moment about the axis, mm⁴, of all within the outside but the holes, teeth filled."""
+        full, hole = self.outside / 2, self.hole / 2
+        away = self.holes * math.pi * hole**2 * (hole**2 / 2 + self.circle**2)
+        return math.pi / 2 * full**4 - away
+
+    @property
     def bridge(self) -> float:
         """What stays between two holes; infinite where there are not two."""
         return 2 * self.circle * math.sin(math.pi / self.holes) - self.hole if self.holes > 1 else math.inf

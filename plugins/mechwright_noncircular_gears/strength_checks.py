@@ -6,12 +6,12 @@ point, where one pair carries all.
 
 import math
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
 from mechwright import Array, Finding, kept, material
-from mechwright.mechanics.gearing import Rolling, body, driven_torque, turned_back
+from mechwright.mechanics.gearing import Rolling, driven_torque, turned_back
+from mechwright.mechanics.gearing.inertia import UNSURE, near_moment
 from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import (
     PIN_SHEAR,
@@ -22,9 +22,9 @@ from mechwright.mechanics.strength.allowed import (
 )
 from mechwright.mechanics.strength.fastening import LONGEST_KEY, key_pressure, key_shear
 from mechwright.mechanics.strength.hertz import contact_modulus, flank_radius, line_pressure, relative_radius
-from mechwright.mechanics.strength.judging import Stress, Way, judged
+from mechwright.mechanics.strength.judging import Stress, Way, judged, judged_between
 from mechwright.mechanics.strength.tooth_bending import Rack, root_stress, tangential_force, virtual_teeth
-from mechwright_noncircular_gears.gear import outlines_of, pair_of, rack_of
+from mechwright_noncircular_gears.gear import outlines_of, pair_of, rack_of, rim_of, teeth_of
 from mechwright_noncircular_gears.law import GRID, law_of
 from mechwright_noncircular_gears.laws.sector import swung
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -34,25 +34,57 @@ KEY_STEEL = "steel"
 """Of keys."""
 
 
+Loads = tuple[Array, Array, Array, Array]
+"""Torque on the driven gear, N m, force along the pitch tangent, N, both radii of curvature, mm: (n,)."""
+
+
 def strength_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
     """Teeth, their flanks, then the keys; values that help only to ``advise``."""
-    told = partial(judged, advise=advise)
+    stresses = root_stresses, flank_pressures, key_stresses
+    for (code, ways), of in zip(_ways(params).items(), stresses, strict=True):
+        yield from judged(code, params, of, ways, advise=advise)
+
+
+def strength_judged(params: NoncircularParams) -> Iterator[Finding]:
+    """The same without advice and notes: teeth are drawn only where their inertia is near what matters."""
+    if params.sector is not None:
+        yield from strength_findings(params, advise=False)
+        return
+    teeth, opening = teeth_of(params)[1], opening_of(params)
+    moment = near_moment(teeth.curve, teeth.rack)
+    if params.internal:
+        rest = rim_of(params).moment
+    else:
+        rest = 0.0 if opening is None else float(opening.loop().moments[3:5].sum())
+    either = [_loads(params, rest + share * moment) for share in UNSURE]
+    stresses = (_roots, root_stresses), (_flanks, flank_pressures), (_keys, key_stresses)
+    for (code, ways), (under, exact) in zip(_ways(params).items(), stresses, strict=True):
+        yield from judged_between(code, params, [under(params, one) for one in either], exact, ways)
+
+
+def _ways(params: NoncircularParams) -> dict[str, list[Way]]:
+    """What helps against each finding."""
     wider = Way("thickness", params.thickness)
     size = "module" if params.module is not None else "centre_distance"
     larger = Way(size, params.module or params.centre_distance or 0.0)
     less = [Way("load_torque", params.load_torque, up=False), Way("speed", params.speed, up=False)]
-    yield from told("gear.root", params, root_stresses, [wider, larger, *less])
-    yield from told("gear.flank", params, flank_pressures, [wider, larger, *less])
-    yield from told("gear.key", params, key_stresses, [wider, Way("bore", params.bore), *less])
+    teeth = [wider, larger, *less]
+    return {"gear.root": teeth, "gear.flank": teeth, "gear.key": [wider, Way("bore", params.bore), *less]}
 
 
 @kept
-def loads(params: NoncircularParams) -> tuple[Array, Array, Array, Array]:
-    """Torque on the driven gear, N m, force along the pitch tangent, N, both radii of curvature, mm: (n,)."""
+def loads(params: NoncircularParams) -> Loads:
+    """Under inertia and load."""
+    return _loads(params, outlines_of(params)[1].polar_moment)
+
+
+def _loads(params: NoncircularParams, moment: float) -> Loads:
+    """The same with a polar moment of the driven gear, mm⁴."""
     law, a = law_of(params), pair_of(params).distance
     phi = law.grid(GRID)
     first = law.rates(phi)[1]
-    _, inertia = body(outlines_of(params)[1], params.thickness, params.material)
+    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
+    inertia = moment * params.thickness * density
     angular = first if params.sector is None else swung(law, phi, math.radians(params.sector))[1]
     torque = driven_torque(inertia, angular * params.omega**2, params.load_torque)
     now = Rolling.of(law, phi, params.side)
@@ -68,10 +100,14 @@ def root_stresses(params: NoncircularParams) -> tuple[Stress, ...]:
 
     The tooth of a circular gear of the pitch curve's curvature, loaded at its tip, carries alone.
     """
+    return _roots(params, loads(params))
+
+
+def _roots(params: NoncircularParams, loaded: Loads) -> tuple[Stress, ...]:
     cutter = profile_of(params)
     own = Rack(math.radians(cutter.pressure_angle), cutter.addendum, cutter.dedendum, cutter.tip_radius)
     module, bears = rack_of(params).module, allowed(params.material).root
-    torque, force, *radii = loads(params)
+    torque, force, *radii = loaded
     limit = bears * (REVERSING_ROOT if turned_back(torque) else 1.0)
     found = []
     for number, radius in enumerate(radii, start=1):
@@ -87,9 +123,13 @@ def root_stresses(params: NoncircularParams) -> tuple[Stress, ...]:
 @kept
 def flank_pressures(params: NoncircularParams) -> tuple[Stress, ...]:
     """Hertz pressure of the flanks at the pitch point; more than is allowed wears them."""
+    return _flanks(params, loads(params))
+
+
+def _flanks(params: NoncircularParams, loaded: Loads) -> tuple[Stress, ...]:
     alpha, own = math.radians(params.pressure_angle), material(params.material)
     modulus = contact_modulus(own, own)
-    _, force, one, two = loads(params)
+    _, force, one, two = loaded
     radius = relative_radius(flank_radius(one, alpha), flank_radius(two, alpha))
     pressure = line_pressure(force / math.cos(alpha), params.thickness, radius, modulus)
     return (
@@ -101,9 +141,13 @@ def flank_pressures(params: NoncircularParams) -> tuple[Stress, ...]:
 def key_stresses(params: NoncircularParams) -> tuple[Stress, ...]:
     """Pressure on the hubs and shear of the keys; none without keys."""
     opening = opening_of(params)
+    return () if opening is None or not opening.has_keyway else _keys(params, loads(params))
+
+
+def _keys(params: NoncircularParams, loaded: Loads) -> tuple[Stress, ...]:
+    opening, torque = opening_of(params), loaded[0]
     if opening is None or not opening.has_keyway:
         return ()
-    torque = loads(params)[0]
     law = law_of(params)
     ratio = law.rates(law.grid(GRID))[0]
     most = max(float(np.abs(torque).max()), float(np.abs(torque * ratio).max()))

@@ -27,7 +27,7 @@ from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.outlines import rod_outline
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of
-from mechwright_slider_crank.sizes import LEAST_WEB, sizes_of
+from mechwright_slider_crank.sizes import LEAST_WEB, MAX_PRESSURE, sizes_of
 from mechwright_slider_crank.strength_checks import strength_findings, strength_judged
 
 TURN_MARGIN = 5e-4
@@ -37,9 +37,6 @@ the slide, where the least friction blocks it."""
 LEAST_TRANSMISSION = 25.0
 """Degrees between rod and normal of the slide: there the guide bears 2.1 times the force along it, and with a
 friction coefficient of 0.2 takes 43 % of that. Machines that carry a load stay above 40°."""
-
-MAX_PRESSURE = 20.0
-"""Pressure of a pin on the plate it turns in, MPa: usual for greased bronze at low speed."""
 
 SLOWEST = 1.0
 """rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""

@@ -107,7 +107,7 @@ class SliderCrankParams(Parameters):
     pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
         description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20, or for short "
-        "ones 1.5 or 1.",
+        "ones 1.5 or 1; thicker where the load asks for it and the crank has room.",
     )
     shaft: Annotated[float, Field(ge=1, le=300), Unit("mm")] | None = Field(
         None, description="Diameter of the crank's shaft; left out, one and a half pins."

@@ -103,7 +103,10 @@ class Layout:
 
 def unloaded(params: SliderCrankParams) -> SliderCrankParams:
     """The same plates, at one load and speed: what is kept of them serves all loads and speeds."""
-    return params.model_copy(update={"load": 0.0, "speed": 60.0})
+    plain = params.model_copy(update={"load": 0.0, "speed": 60.0})
+    pin = sizes_of(params).pin
+    # A pin that is left out may be thicker for the load.
+    return plain if sizes_of(plain).pin == pin else plain.model_copy(update={"pin": pin})
 
 
 def layout_of(params: SliderCrankParams) -> Layout:

@@ -1,5 +1,6 @@
 """Sizes of the plates that a design leaves open, and those that follow from others."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -7,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.mechanics.strength.allowed import PIN_BENDING
 from mechwright_slider_crank.params import SliderCrankParams
 
 PIN_SHARE = 0.125
@@ -29,6 +31,10 @@ LEAST_WALL = 2.0
 """mm, so that the wall of a small bore survives clamping."""
 LEAST_DOWEL = 1.5
 """mm, the thinnest dowel whose hole a usual drill or end mill makes."""
+MAX_PRESSURE = 20.0
+"""Pressure of a pin on the plate it turns in, MPa: usual for greased bronze at low speed."""
+_STEEPEST = 0.95
+"""Sine of the rod's angle beyond which a pin is not sized for it: there the slider jams."""
 CORNER = 2.0
 """Corner radius of slider, rails and base, mm: sharp enough to look square, blunt enough to handle."""
 HEAD_SHARE = 1.6
@@ -138,6 +144,7 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
     for fine in FINE_PINS:
         beside = SHAFT_SHARE * usual if shaft is None else shaft
         usual = _smaller(usual, _where(crank - (usual + beside) / 2 < LEAST_WEB, fine, most))
+    usual = _larger(usual, _bearing(table, most))
     pin = given("pin", usual)
     wall = given("wall", _larger(LEAST_WALL, WALL_SHARE * pin))
     width = given("slider_width", pin + 4 * wall)
@@ -152,6 +159,23 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
         rail,
         given("rail_overhang", rail),
     )
+
+
+def _bearing(table: Callable[[str], Any], most: float) -> Any:
+    """The pin that bears the load, whole mm, as far as crank and shaft leave it room; 0 without a load.
+
+    It is bent between the middles of crank and rod, which are side by side, and presses on the rod's bore.
+    """
+    crank, load, thickness, shaft = (table(name) for name in ("crank", "load", "thickness", "shaft"))
+    sine = np.minimum((crank + np.abs(table("offset"))) / table("rod"), _STEEPEST)
+    force = np.abs(load) / np.sqrt(1 - sine * sine)
+    arm = thickness / 2 + table("gap")
+    bent = np.cbrt(32 * force * arm / (math.pi * PIN_BENDING))
+    room = 2 * (crank - LEAST_WEB)
+    room = room / (1 + SHAFT_SHARE) if shaft is None else room - shaft
+    found = np.minimum(np.ceil(np.maximum(bent, force / (MAX_PRESSURE * thickness))), np.floor(room))
+    found = np.where(np.asarray(load) == 0, 0.0, np.minimum(found, most))
+    return found if found.ndim else float(found)
 
 
 def clear_overhang(sizes: Sizes, crank: Any, ends: tuple[Any, Any], clearance: Any) -> Any:

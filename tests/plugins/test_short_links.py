@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mechwright as mw
 from mechwright import Stage
 from mechwright.contracts.evaluation import Batch
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.refusals import refusals
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_five_bar.family import FiveBars
@@ -16,6 +16,8 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 from mechwright_geneva.sizes import sized
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.sizes import filled_in, sizes_of
 
 SHORT = {
     "four-bar of 20 mm": ("four-bar", {"crank": 5, "coupler": 18, "follower": 15, "ground": 20}),
@@ -107,6 +109,32 @@ def test_many_at_once_have_the_sizes_of_each(family, content, varied):
         said = family.check(family.Params(**{**content, varied: float(value)}))
         alone.append(next((one.code for one in errors(said, Stage.PARTS)), ""))
     assert codes == alone
+
+
+def thin_pins(made):
+    """What is found of pins that do not bear their load."""
+    found = (one for one in made.findings if one.severity is not Severity.NOTE)
+    return [one.code for one in found if one.code.startswith("slider-crank.pin")]
+
+
+@pytest.mark.parametrize("load", [300, -500, 1500])
+def test_a_slider_crank_has_the_pin_that_its_load_asks_for(load):
+    """Where the file leaves it out; the plates are those of that pin, whatever else is asked of them."""
+    press = mw.design("slider-crank", crank=30, rod=120, offset=0, thickness=12, load=load)
+    assert not thin_pins(press)
+    (bore, *_) = [one for one in press.parts["rod"].features if one.name.startswith("bore")]
+    assert bore.diameter == sizes_of(press.design.params).pin + 2
+    thin = press.with_(pin=2)
+    assert thin_pins(thin)
+
+
+def test_loads_of_many_slider_cranks_give_each_its_pin():
+    loads = np.array([0.0, 100.0, -500.0, 1500.0, 9000.0])
+    table = {"crank": 30.0, "rod": 120.0, "offset": 5.0, "thickness": 12.0, "gap": 0.3, "bushing": 1.0}
+    many = filled_in(lambda name: loads if name == "load" else table.get(name)).pin
+    each = [sizes_of(SliderCrankParams(**{**table, "load": float(load)})).pin for load in loads]
+    assert many.tolist() == each
+    assert each == sorted(each)
 
 
 @pytest.mark.parametrize(("law", "wheel"), [("straight", 12), ("straight", 20), ("cycloidal", 20)])

@@ -175,6 +175,7 @@ def test_warnings():
     assert set(codes(heavy, Severity.WARNING)) == {
         "slider-crank.pin-pressure",
         "slider-crank.pin",
+        "slider-crank.eye",
         "slider-crank.bushing",
     }
 
@@ -236,7 +237,8 @@ def test_short_cranks_have_fine_pins(crank, pin):
     params = SliderCrankParams(crank=crank, rod=4 * crank, offset=0)
     assert sizes_of(params).pin == pin
     assert errors(findings(params)) == []
-    assert filled_in({"crank": np.array([crank, 40.0]), "bushing": 1.0}.get).pin.tolist() == [pin, 5.0]
+    plain = {"rod": 160.0, "offset": 0.0, "load": 0.0, "thickness": 6.0, "gap": 0.3, "bushing": 1.0}
+    assert filled_in({**plain, "crank": np.array([crank, 40.0])}.get).pin.tolist() == [pin, 5.0]
 
 
 def test_a_shaft_that_is_said_leaves_room_for_the_pin():

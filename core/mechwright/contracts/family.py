@@ -77,7 +77,8 @@ class Family(Plugin, Generic[P]):
     def judge(self, params: P) -> Sequence[Finding]:
         """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
 
-        What it finds has codes and messages of ``check``. Remedies that take long to find may be missing,
+        What it finds has codes and severities of ``check``, and its messages where figures are not taken from
+        a coarser look. Remedies that take long to find may be missing,
         and notes, and errors whose search takes far longer than that of the others: ``check`` is asked
         about every remedy before it is told.
         """

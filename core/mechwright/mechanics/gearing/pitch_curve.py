@@ -26,6 +26,9 @@ make rounding."""
 NEWTON_STEPS = 3
 """One more than the table's error needs."""
 
+LAST_STEP = 1e-9
+"""Step of Newton's method, rad, whose square is rounding: none after it changes anything."""
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -116,10 +119,17 @@ class PitchCurve(ABC):
         """Parameter t (...), rad, at arc lengths (...), mm: Newton's method on :meth:`arc`."""
         turns, rest = np.divmod(np.asarray(arc, dtype=float), self.perimeter)
         t = np.interp(rest, *self._table)
-        for _ in range(NEWTON_STEPS):
-            t = t - (self.arc(t) - rest) / self.arc_rate(t)
-        result: Array = t + math.tau * turns
+        result: Array = self._inverted(t, rest) + math.tau * turns
         return result
+
+    def _inverted(self, t: Array, arc: Array) -> Array:
+        """Parameters (...), rad, at arc lengths (...), mm, from others near them."""
+        for _ in range(NEWTON_STEPS):
+            step = (self.arc(t) - arc) / self.arc_rate(t)
+            t = t - step
+            if not step.size or np.abs(step).max() < LAST_STEP:
+                break
+        return t
 
     def frame_at(self, arc: Array) -> Frame:
         """The moving frame at arc lengths (...), mm."""

@@ -109,8 +109,12 @@ class Primitive:
         panel = np.clip(np.searchsorted(self.edges, rest, "right") - 1, 0, self.values.size - 1)
         low, high = self.edges[panel], self.edges[panel + 1]
         twice = 2 * (2 * rest - low - high) / (high - low)
-        one, two = np.zeros_like(rest), np.zeros_like(rest)
-        for k in range(self.terms.shape[1] - 1, 0, -1):
-            one, two = self.terms[panel, k] + twice * one - two, one
-        result: Array = self.values[panel] + self.terms[panel, 0] + twice / 2 * one - two + turns * self.total
+        one, two, free = np.zeros_like(rest), np.zeros_like(rest), np.empty_like(rest)
+        first, *others = np.ascontiguousarray(self.terms.T)
+        for terms in others[::-1]:
+            np.multiply(twice, one, out=free)
+            free += terms[panel]
+            free -= two
+            one, two, free = free, one, two
+        result: Array = self.values[panel] + first[panel] + twice / 2 * one - two + turns * self.total
         return result

@@ -19,7 +19,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.mechanics.gearing.pair import POSITIONS_PER_TOOTH, Pair
-from mechwright.mechanics.gearing.pitch_curve import GUESSES, NEWTON_STEPS, Frame, PitchCurve
+from mechwright.mechanics.gearing.pitch_curve import GUESSES, Frame, PitchCurve
 from mechwright.mechanics.gearing.primitive import Primitive
 from mechwright.mechanics.gearing.ratio import BEYOND, RatioLaw
 
@@ -140,11 +140,8 @@ class RolledCurve(PitchCurve):
         """As of any curve; that of a sector goes on beyond its travel and comes never round."""
         if self.law.travel is None:
             return super().parameter(arc)
-        t = np.interp(np.asarray(arc, dtype=float), *self._table)
-        for _ in range(NEWTON_STEPS):
-            t = t - (self.arc(t) - arc) / self.arc_rate(t)
-        result: Array = t
-        return result
+        arc = np.asarray(arc, dtype=float)
+        return self._inverted(np.interp(arc, *self._table), arc)
 
     def _at(self, phi: Array) -> Rolling:
         return Rolling.of(self.law, phi, self.side)
