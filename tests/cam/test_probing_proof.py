@@ -84,6 +84,13 @@ FAULTS = {
     ("G38.2 X-37", "G38.2 X-40"): "ends 1.999 mm before a stock that lies 3 mm off",
     ("G38.2 X-37", "G38.2 X-30"): "goes on more than 1 mm behind the last place of the stock",
     ("F25", "F250"): "touches with 250 mm/min, 25 at most",
+    (
+        "G38.3 Z-4 F150",
+        "G38.3 X-44 F150",
+    ): "goes down beside the stock, by G38.3, behind the touch of its top",
+    ("G38.2 Z-4 F150", "G38.3 Z-4 F150"): "goes down beside the stock, by G38.3, behind the touch of its top",
+    ("G38.2 Z-4 F25\n", ""): "writes Z without two touches along it",
+    ("G0 X-26 Y-16", "G0 X-36 Y-16"): "may miss the stock: X is -39 to -33",
     ("G38.3 Z-4", "G38.3 Z-5.9"): "nearer to the table than 0.5 mm",
     ("G38.3 Z-4", "G38.3 Z-1"): "the ball's middle less than 0.3 mm below the top",
     ("G10 L20 P1 X", "G10 L20 P2 X"): "is no entry of G54 along one axis",

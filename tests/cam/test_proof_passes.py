@@ -1,0 +1,64 @@
+"""Places along a way, cuts that last, feeds of an edge in a hole: closed forms of what bounds a pass."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from test_proof_parts import paths_of
+
+from mechwright_cam.proof import depth_of_cut
+from mechwright_cam.proof.depth_of_cut import MOVES_BETWEEN
+from mechwright_cam.proof.rubbing import at_the_edge
+
+
+def test_places_are_evenly_apart_around_corners() -> None:
+    first, last = (
+        np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 4.0]]),
+        np.array([[10.0, 0.0], [10.0, 4.0], [7.0, 4.0]]),
+    )
+    places, owner = depth_of_cut._places(first, last, np.array([5, 6, 8]), np.array([5, 6, 8]), 2.0)
+    wanted = [[1, 0], [3, 0], [5, 0], [7, 0], [9, 0], [10, 1], [10, 3], [9, 4]]
+    np.testing.assert_allclose(places, wanted, atol=1e-9)
+    assert owner.tolist() == [5, 5, 5, 5, 5, 6, 6, 8]
+    places, owner = depth_of_cut._places(first, last, np.array([5, 6, 8]), np.array([6]), 3.0)
+    np.testing.assert_allclose(places, [[10, 1.5]], atol=1e-9)
+    assert owner.tolist() == [6]
+
+
+def test_cuts_last_if_they_are_long_enough_on_end() -> None:
+    near, far = MOVES_BETWEEN, MOVES_BETWEEN + 1
+    assert list(depth_of_cut._lasting([3, 3 + near], [5.0, 7.0], 12.0)) == [(3, 5.0), (3 + near, 7.0)]
+    assert list(depth_of_cut._lasting([3, 3 + near], [5.0, 7.0], 12.1)) == []
+    assert list(depth_of_cut._lasting([3, 3 + far], [5.0, 7.0], 12.0)) == []
+    assert list(depth_of_cut._lasting([3, 3 + far], [5.0, 7.0], 7.0)) == [(3 + far, 7.0)]
+    assert list(depth_of_cut._lasting([], [], 1.0)) == []
+
+
+def test_a_window_is_on_end_if_the_one_before_is_large_as_well() -> None:
+    loads = SimpleNamespace(step=np.array([4, 4, 5, 7, 8, 9]))
+    large = np.array([True, True, True, True, False, True])
+    assert depth_of_cut._on_end(loads, large).tolist() == [1, 2]  # type: ignore[arg-type]
+    assert depth_of_cut._on_end(loads, np.ones(6, dtype=np.bool_)).tolist() == [1, 2, 4, 5]  # type: ignore[arg-type]
+    assert depth_of_cut._on_end(loads, np.zeros(6, dtype=np.bool_)).size == 0  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("lines", "down", "times"),
+    [
+        ("G1 X20 F100", False, 1.0),
+        ("G1 X3 F100", False, 1.0),
+        ("G1 X2.99 F100", False, math.inf),  # chords in a hole that is no wider than two cutters
+        ("G1 X2 Y3 F100", False, 1.0),
+        ("G1 Z-2 F100", True, 1.0),
+        ("G3 I-2 F100", False, 1 + 3 / 2),
+        ("G3 I-2 F100\nG3 I-6\nG1 X50", False, 1 + 3 / 2),
+        ("G3 I-6 F100\nG3 I-2", True, 1 + 3 / 2),
+        ("G3 I-12 F100", False, 1 + 3 / 12),
+    ],
+)
+def test_the_edge_is_faster_than_the_axis_as_its_way_is_longer(lines: str, down: bool, times: float) -> None:
+    paths = paths_of(lines)
+    first, last = int(paths.cuts[0]), int(paths.cuts[-1])
+    loads = SimpleNamespace(first=[first], last=[last], radius=[3.0], down=[down])
+    assert at_the_edge(loads, paths, 0) == pytest.approx(times)  # type: ignore[arg-type]
