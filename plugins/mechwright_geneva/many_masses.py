@@ -28,8 +28,9 @@ from mechwright_geneva.relief import Half
 NODES = 24
 """Of a piece of a wall or relief: what is left is 1e-9 of a plate, for all laws by name."""
 
-_GRID, _NEWTON = 129, 6
-"""Samples of half a stroke among which a wall passes the rim, and steps to rounding from there."""
+_GRID, _SECANTS = 129, 4
+"""Samples of half a stroke among which a wall passes the rim, and steps from there: each gains the square of
+a sample's distance, and areas feel the square of what is left."""
 
 _CUTS = (0.25, 0.5, 0.75)
 
@@ -195,6 +196,8 @@ def _along(m: Mechanisms, curve: Callable[[Array], Points], first: Any, last: An
     """Half the integral (m, 1) of Im(z̄ dz) along a curve from one share (m, 1) up to another one."""
     found: Any = 0.0
     for a, b in _pieces(m, first, last):
+        if not (b > a).any():
+            continue
         z = curve(a + (b - a) * (1 + _RULE[0]) / 2)
         found = found + ((np.conj(z) * (z @ _SLOPES.T)).imag @ _RULE[1])[..., None] / 2
     return found
@@ -209,18 +212,24 @@ def _enclosed(m: Mechanisms, side: int) -> Array:
     radius = m.crank + side * m.groove
     cosine = (m.axes**2 + radius**2 - m.rim**2) / (2 * m.axes * radius)
     phi = np.arccos(np.clip(cosine, -1.0, 1.0))
-    ends = np.abs(m.stroke(np.array([0.0, 1.0])).wall(m.groove, side))
-    inside = ends < m.rim
-    first, last = (_mouth(m, side, end, inside[:, end : end + 1]) for end in (0, 1))
+    inside = np.abs(m.stroke(np.array([0.0, 1.0])).wall(m.groove, side)) < m.rim
+    lead, turn = m.axes - radius * np.exp(1j * phi), m.crank_half - phi
+    arc = (radius**2 * turn - radius * m.axes * (np.sin(m.crank_half) - np.sin(phi))) / 2
     mirror = np.exp(-2j * m.wheel_half)
-    lead = m.axes - radius * np.exp(1j * phi)
-    one = np.where(inside[:, :1], lead, m.stroke(first).wall(m.groove, side))
-    two = np.where(inside[:, 1:], np.conj(lead) * mirror, m.stroke(last).wall(m.groove, side))
-    turn = m.crank_half - phi
-    chord = -m.axes * (np.sin(m.crank_half) - np.sin(phi))
-    arc = (radius**2 * turn + radius * chord) / 2
-    found = np.where(inside[:, :1], arc, 0.0) + np.where(inside[:, 1:], arc, 0.0)
-    found = found + _along(m, lambda u: m.stroke(u).wall(m.groove, side), first, last)
+
+    def wall(u: Array) -> Points:
+        return m.stroke(u).wall(m.groove, side)
+
+    first = _mouth(m, side, 0, inside[:, :1])
+    one = np.where(inside[:, :1], lead, wall(first))
+    found = np.where(inside[:, :1], arc, 0.0)
+    if m.law.symmetric:  # the way out is the way in, mirrored about the slot's axis
+        two = np.conj(one) * mirror
+        found = 2 * (found + _along(m, wall, first, np.full_like(first, 0.5)))
+    else:
+        last = _mouth(m, side, 1, inside[:, 1:])
+        two = np.where(inside[:, 1:], np.conj(lead) * mirror, wall(last))
+        found = found + np.where(inside[:, 1:], arc, 0.0) + _along(m, wall, first, last)
     return np.asarray(np.abs(found + m.rim**2 / 2 * np.angle(one * np.conj(two))))
 
 
@@ -239,12 +248,12 @@ def _mouth(m: Mechanisms, side: int, end: int, inside: NDArray[np.bool_]) -> Arr
     place = np.maximum(np.argmax(away(grid) <= 0, axis=1), 1)[:, None]
     outer, inner = grid[place - 1], grid[place]
     far, near = away(outer), away(inner)
-    for _ in range(_NEWTON):  # a secant that keeps the bracket, twice a step
-        for u in (outer + (inner - outer) * far / (far - near), (outer + inner) / 2):
-            value = away(u)
-            out = value > 0
-            outer, far = np.where(out, u, outer), np.where(out, value, far)
-            inner, near = np.where(out, inner, u), np.where(out, near, value)
+    for _ in range(_SECANTS):
+        u = outer + (inner - outer) * far / (far - near)
+        value = away(u)
+        out = value > 0
+        outer, far = np.where(out, u, outer), np.where(out, value, far)
+        inner, near = np.where(out, inner, u), np.where(out, near, value)
     found[rows] = outer + (inner - outer) * far / (far - near)
     return found
 
