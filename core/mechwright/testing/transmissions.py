@@ -54,8 +54,8 @@ class TransmissionTests:
             with pytest.raises(KinematicsError):
                 stage.move(Turning.of(np.zeros(1), 1.0))
             return
-        low, high = stage.travel or (0.1, 0.1 + math.tau * float(stage.period))
-        angle = np.linspace(low + 2 * _STEP, high - 2 * _STEP, 41)
+        first, last = stage.travel or (0.1, 0.1 + math.tau * float(stage.period))
+        angle = np.linspace(first + 2 * _STEP, last - 2 * _STEP, 41)
         here = stage.move(Turning.of(angle, 1.0))
         before, after = (stage.move(Turning.of(angle + way, 1.0)) for way in (-_STEP, _STEP))
         smooth = np.ones(angle.size, dtype=bool)
