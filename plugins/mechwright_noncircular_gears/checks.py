@@ -43,7 +43,7 @@ from mechwright_noncircular_gears.parts import mill_for_fillets
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.proof import collides, prove
 from mechwright_noncircular_gears.ring_checks import rim_findings, room_findings
-from mechwright_noncircular_gears.sector_checks import sector_findings
+from mechwright_noncircular_gears.sector_checks import sector_findings, stop_notes
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings, strength_judged
@@ -217,6 +217,7 @@ def _lower(params: NoncircularParams) -> Iterator[Change]:
 
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:
+    yield from stop_notes(params)
     a, m = pair_of(params).distance, rack_of(params).module
     yield Finding.note(
         "gear.size",

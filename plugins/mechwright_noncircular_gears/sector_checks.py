@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from mechwright import Finding
-from mechwright.mechanics.gearing import SectorTeeth
+from mechwright.mechanics.gearing import Rolling, SectorTeeth
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_noncircular_gears.fields import MOST_SECTOR
 from mechwright_noncircular_gears.formula_checks import GRID, corner_finding, finite_finding
-from mechwright_noncircular_gears.gear import NAMES, teeth_of
+from mechwright_noncircular_gears.gear import NAMES, pair_of, teeth_of
 from mechwright_noncircular_gears.laws.sector import SectorLaw
 from mechwright_noncircular_gears.params import NoncircularParams
 
@@ -110,6 +110,24 @@ def sector_findings(params: NoncircularParams) -> Iterator[Finding]:
             remedy=f"make sector_hub at least {least}",
             proposed=({"parameters.sector_hub": float(least)},),
         )
+
+
+def stop_notes(params: NoncircularParams) -> Iterator[Finding]:
+    """That nothing stops sectors, and how far they may pass the ends of their travel: half a pitch."""
+    if params.sector is None:
+        return
+    pair = pair_of(params)
+    ends = np.array([0.0, math.radians(params.sector)])
+    rate = pair.distance * Rolling.of(pair.ratio, ends, params.side).speed
+    beyond = np.degrees(pair.pitch(params.teeth) / 2 / rate)
+    yield Finding.note(
+        "sector.stops",
+        f"no stops are made at the ends of the travel, 0 and {params.sector:g} degrees of gear 1: what "
+        "swings it keeps to them, or stops that let it pass them by less than "
+        f"{beyond[0]:.1f} and {beyond[1]:.1f} degrees, half a pitch",
+        float(beyond.min()),
+        "deg",
+    )
 
 
 def _more(params: NoncircularParams, works: Callable[[SectorTeeth], bool]) -> int | None:

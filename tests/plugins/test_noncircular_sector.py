@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, Stage, errors
-from mechwright.errors import DesignError
 from mechwright.geometry.segments import Arc, Line
 from mechwright.mechanics.gearing import SectorTeeth, prove_mesh
 from mechwright_noncircular_gears.family import NoncircularGears
@@ -205,9 +204,14 @@ def test_findings_of_sectors(changes: dict[str, object], code: str) -> None:
     assert any(passed)
 
 
-def test_sectors_are_no_stage() -> None:
-    with pytest.raises(DesignError, match="swing there and back"):
-        FAMILY.transmission(design(SPIRAL))
+def test_sectors_are_a_stage_that_swings() -> None:
+    """A driven swing loads them as their own that is as fast and speeds up as much."""
+    stage = FAMILY.transmission(design(SPIRAL, speed=30))
+    half = math.radians(60)
+    assert stage.travel == pytest.approx((0, 2 * half))
+    _, own = stage.at(np.linspace(0, math.tau, 721))
+    assert [own.theta.min(), own.theta.max()] == pytest.approx([0, 2 * half], abs=1e-12)
+    assert stage.driven_fields(own)["speed"] == pytest.approx(30, rel=1e-6)
 
 
 def test_tabs_stand_apart() -> None:
@@ -221,3 +225,14 @@ def test_tabs_stand_apart() -> None:
         assert (len(places) == 4) is on_sides
         apart = max(math.dist(one, two) for one in places for two in places)
         assert apart > 60
+
+
+def test_how_far_sectors_may_pass_their_ends_is_told() -> None:
+    """Half a pitch of arc: from the end of the travel on, the arc over that angle is found again."""
+    params = design(SPIRAL)
+    (told,) = (one for one in FAMILY.check(params) if one.code == "sector.stops")
+    driver, end = curves_of(params)[0], math.radians(120)
+    half = math.radians(told.value)
+    arcs = [driver.arc(-np.array([at, at + step])) for at, step in ((0, -half), (end, half))]
+    farthest = max(abs(float(np.diff(one)[0])) for one in arcs)
+    assert farthest == pytest.approx(pair_of(params).pitch(20) / 2, rel=0.05)

@@ -127,7 +127,8 @@ class Transmission(ABC):
     def at(self, angle: Array) -> tuple[Array, Turning]:
         """Times (n,), s, from its start on, and the input at angles (n,) where nothing stands before it.
 
-        By default it turns at constant speed. Raises DesignError where its own law repeats no turn.
+        By default it turns at constant speed. Of an input that swings they are phases of its swing, which a
+        period brings back, in rad. Raises DesignError where its own law repeats no turn.
         """
         return (angle - self.start) / self.speed, Turning.of(angle, self.speed)
 

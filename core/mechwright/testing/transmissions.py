@@ -54,7 +54,8 @@ class TransmissionTests:
             with pytest.raises(KinematicsError):
                 stage.move(Turning.of(np.zeros(1), 1.0))
             return
-        angle = np.linspace(0.1, 0.1 + math.tau * float(stage.period), 41)
+        first, last = stage.travel or (0.1, 0.1 + math.tau * float(stage.period))
+        angle = np.linspace(first + 2 * _STEP, last - 2 * _STEP, 41)
         here = stage.move(Turning.of(angle, 1.0))
         before, after = (stage.move(Turning.of(angle + way, 1.0)) for way in (-_STEP, _STEP))
         smooth = np.ones(angle.size, dtype=bool)
@@ -69,12 +70,17 @@ class TransmissionTests:
             assert not wrong.any(), f"{rate} is not the slope of {name}"
 
     def test_stage_comes_back_after_its_period(self, design: Mapping[str, Any]) -> None:
-        """Over a period the output goes on by the advance, and has the same rates."""
+        """Over a period the output goes on by the advance, with the same rates; a swing keeps its travel."""
         stage = self._stage(design)
         if stage.output is None:
             return
         angle = np.linspace(0.0, math.tau * float(stage.period), 1441)
-        out = stage.move(Turning.of(angle, 1.0))
+        drive = Turning.of(angle, 1.0)
+        if stage.travel is not None:
+            drive = stage.at(angle)[1]
+            assert stage.travel[0] - _CLOSED <= drive.theta.min()
+            assert drive.theta.max() <= stage.travel[1] + _CLOSED
+        out = stage.move(drive)
         way = math.tau * float(stage.advance)
         assert out.theta[-1] - out.theta[0] == pytest.approx(way, abs=_CLOSED)
         assert out.omega[-1] == pytest.approx(out.omega[0], abs=_CLOSED * max(1.0, np.abs(out.omega).max()))
@@ -84,6 +90,8 @@ class TransmissionTests:
         stage = self._stage(design)
         motion = self.family().solve(self.params(design), 37)
         angle = motion[motion.input_name]
+        if stage.travel is not None:
+            angle = stage.start + stage.speed * motion[TIME]
         try:
             time, drive = stage.at(angle)
         except DesignError:
