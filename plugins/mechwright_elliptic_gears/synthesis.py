@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Severity, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import ALIKE
 from mechwright_elliptic_gears.checks import findings
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill
@@ -40,7 +41,8 @@ SAMPLED_STEPS, EXACT_STEPS = (64, 16, 4), (8, 2, 1)
 as the ridge is known by then; samples miss it by a few grains."""
 
 NICHE = 0.04
-"""Around a design that is found, in parts of each range: the next one is sought elsewhere."""
+"""Around a design that is found, in parts of each range: the next one is sought elsewhere. Where that is less
+than the share by which designs differ at least, this share counts."""
 
 MOST_TRIES = 12
 """Numbers of teeth that are tried for a design, odd ones from the least without undercut on: gears with an
@@ -51,7 +53,7 @@ KINDS = {"least-acceleration": "acceleration", "least-jerk": "jerk"}
 
 
 @dataclass(frozen=True)
-class _Problem:
+class Problem:
     """One requirement as a search over the variables that are free."""
 
     kind: str
@@ -96,8 +98,17 @@ class _Problem:
         """Which of the points (n, free) are near a design that is found already."""
         near = np.zeros(len(points), dtype=np.bool_)
         for place in self.places:
-            near |= (np.abs(points - place) < NICHE).all(axis=1)
+            near |= (np.abs(points - place) < self.niche(place)).all(axis=1)
         return near
+
+    def niche(self, place: Array) -> Array:
+        """Half widths (free,) of what is near a place (free,), in parts of the ranges.
+
+        Where a range is narrow, values that differ by a part of it are one to everybody.
+        """
+        value = self.value(place)
+        bounds = [(value[name], *self.wanted.bounds(name)) for name in self.free]
+        return np.array([max(NICHE, ALIKE * abs(one) / (high - low)) for one, low, high in bounds])
 
     def sampled_score(self, points: Array) -> Array:
         """Score (n,) of points (n, free) of the unit cube, from samples."""
@@ -211,7 +222,7 @@ def _designs(value: Mapping[str, Array]) -> Designs:
 
 def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synthesis[EllipticGearParams]:
     """Designs that meet the requirement, best first."""
-    problem = _Problem(kind, wanted)
+    problem = Problem(kind, wanted)
     rng = np.random.default_rng(wanted.seed)
     distinct: list[tuple[float, dict[str, float]]] = []
     # Without a free variable there is one design.
@@ -249,7 +260,7 @@ def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synth
     return Synthesis(tuple(candidates), said, rejected.reasons)
 
 
-def _missed(problem: _Problem, value: Mapping[str, float]) -> Finding:
+def _missed(problem: Problem, value: Mapping[str, float]) -> Finding:
     most, wanted = math.degrees(point_window(problem.params(value)).length), math.degrees(problem.window)
     return Finding.error(
         "synthesis.window",
@@ -302,7 +313,7 @@ def _no_cutter(params: EllipticGearParams, mill: float, cutter: float) -> Findin
     )
 
 
-def _candidate(problem: _Problem, params: EllipticGearParams) -> Candidate[EllipticGearParams]:
+def _candidate(problem: Problem, params: EllipticGearParams) -> Candidate[EllipticGearParams]:
     window, tops = point_window(params), point_peaks(params)
     # What is wanted is a window, or else as much of the turn as can be.
     wanted = problem.window if problem.kind in KINDS else math.tau

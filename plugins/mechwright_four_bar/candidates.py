@@ -12,6 +12,9 @@ from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
+DIGITS = 9
+"""Decimals of lengths and angles in a design: a hundredth of an atom, and no tail of a double to read."""
+
 GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
 """Transmission angle from which a larger one is not worth longer links."""
 
@@ -38,6 +41,8 @@ class Found:
         Of the crank, per radian.
     swing
         Crank angles from X, rad, between which a lever swings; None for a crank that turns.
+    digits
+        Decimals of lengths, mm, and angles, degrees, in the design; None for all that a number has.
     """
 
     bar: FourBar
@@ -48,6 +53,7 @@ class Found:
     sense: int = 1
     acceleration_ratio: float = 0.0
     swing: tuple[float, float] | None = None
+    digits: int | None = DIGITS
 
     def table(self) -> dict[str, object]:
         """The table ``[parameters]``; what the synthesis does not say is left to its defaults."""
@@ -70,7 +76,12 @@ class Found:
             table |= {"pivot_x": self.pivot.real, "pivot_y": self.pivot.imag}
         if self.point is not None:
             table |= {"coupler_point_x": self.point.real, "coupler_point_y": self.point.imag}
-        return table
+        if self.digits is None:
+            return table
+        return {
+            key: round(value, self.digits) if isinstance(value, float) else value
+            for key, value in table.items()
+        }
 
 
 def buildable(

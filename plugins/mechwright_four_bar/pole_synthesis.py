@@ -79,7 +79,7 @@ def _found(one: PoleSolution, ratio: float) -> Found:
         },
         "double_crank": Scalar(float(one.bar.kind is Kind.DOUBLE_CRANK), ""),
     }
-    return Found(one.bar, Scalar(one.residual, "mm"), figures, acceleration_ratio=ratio)
+    return Found(one.bar, Scalar(one.residual, "mm"), figures, acceleration_ratio=ratio, digits=None)
 
 
 def _every(wanted: PolesRequirement) -> AllPoles | None:

@@ -13,6 +13,7 @@ from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill
 from mechwright_elliptic_gears.requirements import BOUNDED, REQUIREMENTS
 from mechwright_elliptic_gears.search import SAMPLES, Designs, evolve, longest, peaks, window_lengths
+from mechwright_elliptic_gears.synthesis import Problem
 from mechwright_elliptic_gears.window import near_constant
 
 FAMILY = EllipticGears()
@@ -162,3 +163,17 @@ def test_evolution_finds_the_lowest_place_and_the_same_one_again():
     every = np.stack(np.meshgrid(grid, grid, grid), axis=-1).reshape(-1, 3)
     assert score(one[None, :])[0] <= score(every).min() + 1e-3
     assert evolve(score, 0, np.random.default_rng(1)).size == 0
+
+
+def test_what_differs_by_less_than_anybody_would_see_is_one_design_however_narrow_the_range():
+    wanted = REQUIREMENTS["least-jerk"](semi_major_min=48.0, semi_major_max=52.0)
+    problem = Problem("least-jerk", wanted)
+    place = problem.point({**problem.value(np.full(len(problem.free), 0.5)), "semi_major": 48.0})
+    problem.places.append(place)
+    width = dict(zip(problem.free, problem.niche(place), strict=True))
+    assert width["semi_major"] == pytest.approx(0.02 * 48 / 4)
+    assert width["eccentricity"] == 0.04
+    near, far = place.copy(), place.copy()
+    at = problem.free.index("semi_major")
+    near[at], far[at] = 0.9 / 4, 1.0 / 4
+    assert problem.known(np.stack([near, far])).tolist() == [True, False]

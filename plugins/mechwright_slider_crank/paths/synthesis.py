@@ -31,6 +31,9 @@ MORE = 4
 GOOD_ANGLE = math.radians(40)
 """Transmission angle from which a larger one is not worth longer links."""
 
+DIGITS = 9
+"""Decimals of lengths and angles in a design: a hundredth of an atom, and no tail of a double to read."""
+
 EXACT = 1e-11
 """Mean distance, as a share of the path's size, that is rounding: the points are met."""
 
@@ -86,14 +89,14 @@ class Drawn:
     def table(self) -> dict[str, object]:
         """The table ``[parameters]``; its origin is the crank's pivot."""
         return {
-            "crank": self.crank,
-            "rod": self.rod,
-            "offset": self.offset,
-            "slide_direction": math.degrees(math.remainder(self.direction, math.tau)),
+            "crank": round(self.crank, DIGITS),
+            "rod": round(self.rod, DIGITS),
+            "offset": round(self.offset, DIGITS),
+            "slide_direction": round(math.degrees(math.remainder(self.direction, math.tau)), DIGITS),
             "assembly": "ahead" if self.branch > 0 else "behind",
             "clockwise": bool(self.phi[-1] < self.phi[0]),
-            "coupler_x": self.point.real,
-            "coupler_y": self.point.imag,
+            "coupler_x": round(self.point.real, DIGITS),
+            "coupler_y": round(self.point.imag, DIGITS),
         }
 
     def broken(self, limits: Limits) -> tuple[str, str]:
