@@ -8,7 +8,7 @@ between two looks is far below any clearance.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
@@ -33,6 +33,9 @@ _STEP = math.tau / (LOOKS - 1)
 
 _BACK = 1e-6
 """By how much a body that rocks may miss where it began, rad."""
+
+_KEPT = 256
+"""Bodies whose room is kept: most changes of a design leave the plan of most of them as it is."""
 
 _ROUND = 32
 """Chords of a quarter circle."""
@@ -120,7 +123,16 @@ def _turned(corners: Array, poses: Poses) -> shapely.Geometry:
 
 def _at_all(corners: Array, poses: Poses) -> shapely.Geometry:
     """The body as it stands at each pose, together."""
-    flat = np.column_stack((corners, np.zeros(len(corners))))
+    arrays = (np.asarray(one, dtype=float).tobytes() for one in (corners, poses.position, poses.rotation))
+    return _together(*arrays)
+
+
+@lru_cache(_KEPT)
+def _together(corners: bytes, position: bytes, rotation: bytes) -> shapely.Geometry:
+    """The same of the bytes of float arrays (k, 2), (n, 3) and (n, 3, 3)."""
+    plan = np.frombuffer(corners).reshape(-1, 2)
+    poses = Poses(np.frombuffer(position).reshape(-1, 3), np.frombuffer(rotation).reshape(-1, 3, 3))
+    flat = np.column_stack((plan, np.zeros(len(plan))))
     return shapely.union_all(shapely.polygons(poses.transform(flat)[..., :2]))
 
 
