@@ -1,11 +1,13 @@
 """Programs with their tabs elsewhere than planned: the tabs that they leave are found, and judged by their size."""
 
 import pytest
+import shapely
 from by_control import BY_NAME, prove
 from shop import plate_job, plate_program
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.proof import Scene
+from mechwright_cam.proof import found_tabs as module
 from mechwright_cam.proof.found_tabs import found_tabs
 from mechwright_cam.setup.job import Job
 
@@ -57,3 +59,20 @@ def test_without_tabs_the_part_is_loose() -> None:
     three = prove(CLEAN.replace(OVER, ""), asked(tab_places="found"))
     assert three.checks["tabs"].message == "3 tabs are found, and strong enough"
     assert three.ok
+
+
+@pytest.mark.parametrize(("x", "y"), [(30.05, 0.0), (-30.05, 0.0), (0.0, 20.05), (0.0, -20.05)])
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_tab_goes_outwards_whichever_way_its_line_runs(x: float, y: float, way: int) -> None:
+    scene = Scene(CLEAN, asked(), BY_NAME["linuxcnc"])
+    wall, (ox, oy) = shapely.box(-30.05, -20.05, 30.05, 20.05), ((x > 0) - (x < 0), (y > 0) - (y < 0))
+    ends = [(x - way * side * oy, y + way * side * ox) for side in (-3.0, 3.0)]
+    frame = shapely.LineString([(x, y), (x + 9 * ox, y + 9 * oy)]).buffer(1.5, cap_style="flat")
+    tab = module._tab(scene, wall, shapely.LineString(ends), frame)
+    assert tab is not None
+    assert tab.at == pytest.approx((x, y))
+    assert (tab.along[1], -tab.along[0]) == pytest.approx((ox, oy))
+    assert tab.width == pytest.approx(3.0 - 2 * module.BRIDGE)
+    assert tab.top == pytest.approx(-4.9)
+    outside = shapely.difference(tab.shape, wall)
+    assert outside.area == pytest.approx(tab.width * 6.0, rel=0.01)  # across the channel of the mill

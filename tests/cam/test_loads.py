@@ -5,8 +5,9 @@ from dataclasses import fields
 import pytest
 from by_control import asked, prove, scene_of
 from shop import plate_job
+from test_proof_parts import paths_of
 
-from mechwright_cam.proof.loads import Loads
+from mechwright_cam.proof.loads import Loads, Taken
 
 HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\nG0 X0 Y0\nG43 H3 Z5\n"
 TAIL = "\nG0 Z5\nM5 M9\nG53 G0 Z0\nM30\n"
@@ -68,3 +69,14 @@ def test_a_way_down_to_and_fro_excuses_itself_alone(
     text = finished(down(WALLS[0], *left), down(WALLS[1], *right))
     found = asked("climb", text, plate_job(climb=True))
     assert found.passed == passed, found.message
+
+
+def test_the_lowest_and_the_highest_place_of_short_moves_are_places() -> None:
+    """Moves of 0.14 mm down and up, of which the places are otherwise 0.5 mm apart."""
+    paths = paths_of(
+        "G1 Z-1 F100\nX0.1 Z-1.1\nX0.2 Z-1.2\nX0.3 Z-1.1\nX0.4 Z-1.05\nX0.5 Z-1.1\nX0.6 Z-1.15\nX0.7"
+    )
+    taken = Taken.along(paths, paths.cuts, 1.0)
+    assert {-1.2, -1.05, -1.15} <= set(taken.z.round(6).tolist())
+    assert taken.z.size < 2 * paths.cuts.size + 6
+    assert taken.length.sum() == pytest.approx(paths.length[paths.cuts].sum())

@@ -63,3 +63,10 @@ def test_one_floor_for_all_cells_of_a_large_plate_is_not_copied() -> None:
     tracemalloc.stop()
     assert heights.sum() == -9.0
     assert most < heights.nbytes / 10
+
+
+def test_numbers_keep_their_order_and_their_bits_as_whole_ones() -> None:
+    numbers = np.array([-np.inf, -3.0, -0.5, -1e-30, 0.0, 1e-30, 0.25, 7.0, np.inf], dtype=np.float32)
+    whole = lowering._whole(numbers)
+    assert (np.diff(whole) > 0).all()
+    assert lowering._single(whole).view(np.int32).tolist() == numbers.view(np.int32).tolist()

@@ -232,3 +232,16 @@ def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: f
     assert proof.unreachable_max_mm == pytest.approx(corner if reached else half, abs=0.005)
     run = interpret(text)
     assert bool((run.end[run.cutting, 0] < -long + 2.1).any()) == reached
+
+
+def test_moves_are_looked_at_in_lots_a_few_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten moves of two corners each: four first, and then as many as have ten corners together."""
+    paths = paths_of("G1 Z-1 F100\n" + "\n".join(f"X{k}" for k in range(1, 10)))
+    pieces = paths.below(-0.5, steps=paths.cuts)
+    assert paths.corners(pieces).tolist() == [2] * 10
+    monkeypatch.setattr(gouge, "MOST_CORNERS", 10)
+    for first, sizes in ((4, [4, 5, 1]), (2, [2, 2, 5, 1]), (100, [4, 5, 1])):
+        monkeypatch.setattr(gouge, "FIRST_ASKED", first)
+        lots = list(gouge.lots(paths, pieces))
+        assert [lot.size for lot in lots] == sizes
+        assert np.concatenate(lots).tolist() == list(range(10))

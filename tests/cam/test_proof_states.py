@@ -1,4 +1,4 @@
-"""What is said before the first move, how fast an edge runs, what is above a tool's flutes: limits on both sides."""
+"""What is said before the first move, how fast an edge runs, how far cuts go out: limits on both sides."""
 
 import math
 from dataclasses import replace
@@ -10,7 +10,7 @@ from shop import MILL, plate_job
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.cutting_rules import BEYOND
 from mechwright_cam.proof.held import bodies
-from mechwright_cam.shop.tool import CuttingData
+from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
 WORDS = ("G17", "G21", "G40", "G90")
 
@@ -59,3 +59,28 @@ def test_shanks_are_bodies_where_they_are_wider_than_the_cutter() -> None:
     assert told(shank_diameter=8.0) == [("shank", 12.0, 4.0)]
     assert told(stick_out=20.0, holder_diameter=30.0) == [("holder", 20.0, 15.0)]
     assert len(told(shank_diameter=8.0, stick_out=20.0)) == 2
+
+
+def test_a_cut_beside_the_stock_goes_out_by_three_diameters_and_three_millimetres() -> None:
+    """The stock ends at X39 and Y29, and the mill of 6 mm may go on by 21 mm."""
+    job = plate_job()
+    assert job.stock == (-39.0, -29.0, 39.0, 29.0)
+    for axis, end in (("X", 60.0), ("X", -60.0), ("Y", 50.0), ("Y", -50.0)):
+        far = math.copysign(0.01, end)
+        texts = [program(WORDS).replace("X0 F300", f"X0 F300\n{axis}{at:.2f}") for at in (end, end + far)]
+        assert asked("beside", texts[0], job).passed
+        found = asked("beside", texts[1], job)
+        assert not found.passed
+        assert (found.value, found.limit) == (pytest.approx(21.01), pytest.approx(21.0))
+
+
+@pytest.mark.parametrize("neck", [None, 3.0])
+def test_a_neck_in_material_is_told_with_its_width(neck: float | None) -> None:
+    mill = Tool(
+        name="thread-6", number=3, kind=ToolKind.THREAD_MILL, diameter=6, flute_length=12, neck_diameter=neck
+    )
+    wide = 4.2 if neck is None else neck
+    found = asked("edges", program(WORDS), replace(plate_job(), tools=(mill,)))
+    assert not found.passed
+    assert f"with its neck of {wide:g} mm" in found.message
+    assert found.value == pytest.approx(wide)

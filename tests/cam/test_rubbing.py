@@ -83,6 +83,16 @@ def test_a_drill_rubs_in_pecks_too(control: str, name: str, own: str, number: in
     )
 
 
+@pytest.mark.parametrize(("speed", "feed", "good"), [(1, 0.003, False), (1, 0.004, True), (50, 0.19, False)])
+def test_a_drill_that_hardly_turns_is_asked_as_well(speed: int, feed: float, good: bool) -> None:
+    """Two lips, and 2 µm for each of them."""
+    of = job_of("linuxcnc")
+    data = {"aluminium": CuttingData(cutting_speed=70, chip_load=0.05)}
+    of = replace(of, tools=tuple(t.model_copy(update={"cutting": data}) for t in of.tools if t.number == 2))
+    text = f"{HEAD}G1 Z-1 F{feed}{TAIL}".replace("T3", "T2").replace("H3", "H2").replace("S8000", f"S{speed}")
+    assert asked("chips", text, of).passed is good
+
+
 def test_a_drill_in_air_does_not() -> None:
     of = job_of("linuxcnc")
     data = {"aluminium": CuttingData(cutting_speed=70, chip_load=0.05)}

@@ -102,7 +102,7 @@ def depth(scene: Scene) -> Check:
 
 
 def lowest_cut(paths: Paths, pieces: Pieces, shape: Shape) -> float:
-    """Lowest z at which any piece cuts into a shape; 0 if none does."""
+    """Lowest z at which any piece, all of them below the top, cuts into a shape; 0 if none does."""
     order, some, begin = np.argsort(pieces.low, kind="stable"), AT_ONCE, 0
     while begin < order.size:  # the lowest first: one of them nearly always does
         few = pieces.only(order[begin : begin + some])
@@ -110,6 +110,6 @@ def lowest_cut(paths: Paths, pieces: Pieces, shape: Shape) -> float:
         radius = np.maximum(paths.radius[few.step] - NEAR, NEAR)
         near = np.flatnonzero(shapely.dwithin(shape, paths.lines(few), radius))
         if near.size:
-            return min(float(few.low[near[0]]), 0.0)
+            return float(few.low[near[0]])
         begin, some = begin + some, 4 * some
     return 0.0
