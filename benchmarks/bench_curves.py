@@ -133,12 +133,25 @@ def day() -> Rows:
     return np.stack([east, north, up], axis=-1).tolist()
 
 
+EIGHTEEN = (
+    (50, 110), (40, 110), (30, 110), (20, 100), (10, 90), (5, 75), (2, 60), (0, 50), (0, 40),
+    (3, 30), (10, 25), (15, 20), (20, 30), (30, 40), (40, 50), (50, 70), (60, 90), (60, 100),
+)  # fmt: skip
+"""Of a closed path in public benchmark code of path synthesis, times 100; the crank turns evenly there."""
+
+
+def eighteen() -> Rows:
+    """As they stand."""
+    return [[float(x), float(y)] for x, y in EIGHTEEN]
+
+
 LIMITS = {"least_transmission_angle": 30.0, "longest_link": 250.0, "shortest_link": 12.0}
 HOECKEN = {"least_transmission_angle": 23.0, "longest_link": 100.0, "shortest_link": 20.0}
 """Limits that Hoecken's linkage of the same stroke of 80 mm just keeps."""
 
 SPHERE = {"least_transmission": 30.0}
 EVENLY = [10.0 * k for k in range(13)]
+BY_TWENTY = [20.0 * k for k in range(18)]
 
 WANTED: dict[str, tuple[str, str, Callable[[], Rows], dict[str, object]]] = {
     "line": ("four-bar", "path", line, LIMITS),
@@ -146,6 +159,8 @@ WANTED: dict[str, tuple[str, str, Callable[[], Rows], dict[str, object]]] = {
     "line, Roberts's sizes": ("four-bar", "path", line, sizes("Roberts")),
     "line, Watt's sizes": ("four-bar", "path", line, sizes("Watt")),
     "arc, timed": ("four-bar", "path", arc, {**LIMITS, "crank_turns": EVENLY}),
+    "eighteen points": ("four-bar", "path", eighteen, {**LIMITS, "closed": True}),
+    "eighteen points, timed": ("four-bar", "path", eighteen, {**LIMITS, "crank_turns": BY_TWENTY}),
     "lip": ("four-bar", "path", lip, {**LIMITS, "closed": True}),
     "lip, slider-crank": ("slider-crank", "path", lip, {**LIMITS, "closed": True}),
     "wing": ("spherical", "four-bar-path", wing, SPHERE),

@@ -23,6 +23,7 @@ from mechwright_cam_follower.extremes import (
 from mechwright_cam_follower.loads import preload_needed, rate_needed, spring_of
 from mechwright_cam_follower.motion import loaded
 from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.usual import DECIDES
 from mechwright_cam_follower.walls import wall_findings
 
 
@@ -165,6 +166,15 @@ def _hertz(params: CamParams) -> Iterator[Finding]:
 
 
 def _figures(params: CamParams) -> Iterator[Finding]:
+    smaller = [
+        f"{name} = {getattr(params, name):g}"
+        for name, field in CamParams.model_fields.items()
+        if name in DECIDES and name not in params.model_fields_set and getattr(params, name) < field.default
+    ]
+    if smaller:
+        yield Finding.note(
+            "follower.fitted", f"left out, and smaller than usual so that walls stay: {', '.join(smaller)}"
+        )
     for name, found in seen(params):
         yield Finding.note(
             "follower.size",

@@ -24,6 +24,7 @@ from mechwright_cam_follower.geometry import Contact, prime_radius, start_of
 from mechwright_cam_follower.many import Cams, Course, Measure, Seen
 from mechwright_cam_follower.masses import give_masses
 from mechwright_cam_follower.sizes import FREE
+from mechwright_cam_follower.usual import DECIDES, fitted, left_out
 from mechwright_cam_follower.walls import farthest_of
 
 CHUNK = 2048
@@ -47,6 +48,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     """What is found of them; see :mod:`mechwright.contracts.by_arrays`."""
     if not covered(designs):
         return None
+    designs = _fitted(designs)
     found, cams = Answer(len(designs)), Cams(designs)
     _closure(found, cams)
     left = found.left
@@ -66,6 +68,15 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     give_figures(found, columns, course, left)
     give_extremes(found, columns, cams)
     return found
+
+
+def _fitted(designs: Designs) -> Designs:
+    """Designs of which each has the bore and the studs that it would have by itself."""
+    common, varied = designs.common, dict(designs.varied)
+    for name in left_out({*common.model_fields_set, *varied}, common.keyway_width > 0, common.contact):
+        if DECIDES[name] & set(designs.varied):
+            varied[name] = np.broadcast_to(fitted(Cams(designs), name)[:, 0], len(designs))
+    return Designs(common, varied)
 
 
 def _closure(found: Answer, cams: Cams) -> None:

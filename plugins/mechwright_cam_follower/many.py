@@ -18,6 +18,7 @@ from mechwright_cam_follower.extremes import GRID, HAIR, cams_of
 from mechwright_cam_follower.geometry import Contact, Geometry, geometry_of
 from mechwright_cam_follower.loads import Loads, loads_at
 from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.usual import FOLLOWS, followed
 
 SPARE = 2.0
 """How often the rise that a parabola through three samples of the grid promises is reckoned with."""
@@ -50,7 +51,11 @@ class Cams:
 
     def value(self, name: str) -> Any:
         """A field that belongs to one kind of follower, (n, 1) or one number."""
-        return self.one(name) if name in self.designs.varied else self.common.value(name)
+        if name in self.designs.varied:
+            return self.one(name)
+        if name in FOLLOWS and getattr(self.common, name) is None:
+            return followed(self, name)
+        return self.common.value(name)
 
     @property
     def face(self) -> Any:

@@ -145,6 +145,7 @@ class _Weights:
 
     def _slide(self) -> Any:
         cams, start = self.cams, self.geometry.start
+        low: Any
         if cams.contact == "flat":
             margin, (low, high) = cams.value("face_margin"), self._face
             width = high - low + 2 * margin

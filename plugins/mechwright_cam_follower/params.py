@@ -6,9 +6,10 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, GIVEN, MaterialName, Parameters
+from mechwright import FIRST, FITTED, GIVEN, MaterialName, Parameters
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.units import Millimetres, RevPerMin, Unit
+from mechwright_cam_follower.usual import FOLLOWS, fitted, followed, left_out
 
 MOST_SEGMENTS = 24
 """Of a turn: more are a table."""
@@ -38,8 +39,6 @@ USUAL: dict[str, Any] = {
     "swings": (20.0, 20.0, 0.0, 0.0),
     "roller_radius": 8.0,
     "offset": 0.0,
-    "centre_distance": 90.0,
-    "arm_length": 75.0,
     "face_margin": 2.0,
     "spring_preload": 60.0,
     "spring_rate": 4.0,
@@ -170,10 +169,19 @@ class CamParams(Parameters):
         json_schema_extra=FIRST,
     )
     centre_distance: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="From the cam's axis to the lever's; left out, 90.", json_schema_extra=FIRST
+        None,
+        description=(
+            "From the cam's axis to the lever's; left out, it grows with the cam: 90 for the usual one, "
+            "68 with a flat face."
+        ),
+        json_schema_extra=FIRST,
     )
     arm_length: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="From the lever's axis to its roller; left out, 75.", json_schema_extra=FIRST
+        None,
+        description=(
+            "From the lever's axis to its roller; left out, it grows with the cam: 75 for the usual one."
+        ),
+        json_schema_extra=FIRST,
     )
     face_offset: Annotated[float, Field(ge=2, le=300), Unit("mm")] | None = Field(
         None,
@@ -226,7 +234,11 @@ class CamParams(Parameters):
     follower_width: Millimetres = Field(20.0, ge=3, le=200, description="Width of bar or lever.")
     axial_gap: Millimetres = Field(1.0, ge=0.1, le=20, description="Between a cam and the follower over it.")
     pin_diameter: Millimetres = Field(
-        8.0, ge=1, le=100, description="Stud of a roller, and its hole in the follower."
+        8.0,
+        ge=1,
+        le=100,
+        description="Stud of a roller, and its hole in the follower; left out, 8, and less in small rollers.",
+        json_schema_extra=FITTED,
     )
     pivot_bore: Millimetres = Field(10.0, ge=2, le=100, description="Bore of a lever for its shaft.")
     guide_length: Millimetres = Field(
@@ -239,7 +251,11 @@ class CamParams(Parameters):
         5.5, ge=2, le=30, description="Diameter of the two holes of a rail, for its screws."
     )
     bore: Millimetres = Field(
-        15.0, ge=0, le=300, description="Shaft bore of the cam; 0 for none.", json_schema_extra=FIRST
+        15.0,
+        ge=0,
+        le=300,
+        description="Shaft bore of the cam; 0 for none; left out, 15, and less in small cams.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the cam's keyway, along +x at the start; 0 for none."
@@ -262,6 +278,11 @@ class CamParams(Parameters):
         "steel", description="Of the cam, and of what follows it.", json_schema_extra=FIRST
     )
     roller_material: MaterialName = Field("steel", description="Of the rollers.")
+
+    def fitted(self) -> Mapping[str, Any]:
+        """The bore of a small cam, and the stud of a small roller."""
+        names = left_out(self.model_fields_set, self.keyway_width > 0, self.contact)
+        return {name: float(fitted(self, name)) for name in names}
 
     @model_validator(mode="after")
     def _together(self) -> Self:
@@ -309,6 +330,8 @@ class CamParams(Parameters):
         given = getattr(self, name)
         if given is None and name in SPRINGS and self.conjugate:
             return 0.0
+        if given is None and name in FOLLOWS:
+            return float(followed(self, name))
         found: float = USUAL[name] if given is None else given
         return found
 

@@ -26,6 +26,9 @@ CARRIED = (
 )
 """Keys of a requirement that go into the design as they are, where they are given."""
 
+ARM_LENGTH = 75.0
+"""mm, of a lever whose cam is not known yet: a design's follows from its cam."""
+
 SMALLEST = 2.0
 """Base radius, mm, at which a search begins: as the design table has it."""
 
@@ -87,5 +90,7 @@ class SizeRequirement(Parameters):
         """The design of these sizes, and of what the requirement says."""
         table = {name: getattr(self, name) for name in CARRIED}
         given = {name: value for name, value in table.items() if value is not None}
+        if self.follower == "oscillating" and self.contact == "roller":
+            given.setdefault("arm_length", ARM_LENGTH)
         limit = self.greatest_pressure_angle
         return CamParams.model_validate({**given, "pressure_limit": limit, **sizes})

@@ -13,10 +13,10 @@ from mechwright import (
     Stage,
     at_stage,
     kept,
-    material,
     of_stage,
     until_error,
 )
+from mechwright.mechanics.gearing import body
 from mechwright.mechanics.gearing.checks import (
     SHAFT_PRESSURE_ANGLE,
     backlash_findings,
@@ -188,14 +188,12 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:
     rack, ellipse, outline = rack_of(params), ellipse_of(params), outline_of(params)
-    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
-    mass = outline.area * params.thickness * density
-    inertia = outline.polar_moment * params.thickness * density
+    whole, inertia = body(outline, params.thickness, params.material)
     yield Finding.note(
         "gear.size",
         f"module {rack.module:.4f} mm, semi-axes {ellipse.semi_major:.4f} and "
         f"{ellipse.semi_minor:.4f} mm, centre distance {2 * ellipse.semi_major:.4f} mm; each "
-        f"gear {mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
+        f"gear {whole.mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
         2 * ellipse.semi_major,
         "mm",
     )

@@ -17,13 +17,13 @@ from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.geometry.keyway import LEAST_WIDTH
+from mechwright.mechanics.gearing import driven_torque
 from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_CLEARANCE, LEAST_RIM, LEAST_TIP
 from mechwright.mechanics.linkage.areas import circle_area
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import least_backlashes
-from mechwright_elliptic_gears.joint_load import TO_NM
 from mechwright_elliptic_gears.kinematics import alpha_peak
 from mechwright_elliptic_gears.many import ENDS, SHARES, Gears, least_regularity, tips_of
 from mechwright_elliptic_gears.many_areas import areas_of
@@ -200,7 +200,7 @@ def _may_break(designs: Designs, sizes: Sizes) -> NDArray[np.bool_]:
     polar = math.pi * a * b * (grown**4 * (a * a + b * b) / 4 + grown**2 * (a * e) ** 2)
     inertia = polar * designs["thickness"] * own.density * 1e-6
     omega = designs["speed"] * math.tau / 60
-    torque = inertia * omega**2 * alpha_peak(e) * TO_NM + designs["load_torque"]
+    torque = driven_torque(inertia, omega**2 * alpha_peak(e), designs["load_torque"])
     slant = np.arcsin(e)
     reach = a * (1 - e) * np.cos(sizes.angle + slant) / np.cos(sizes.angle)
     force = torque * 1000 / reach

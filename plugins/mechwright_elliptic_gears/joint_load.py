@@ -11,19 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Loop, kept, material
-from mechwright.mechanics.openings import opening_of
+from mechwright import Array, kept
+from mechwright.mechanics.gearing import TO_NM, body
 from mechwright.mechanics.peak import Peak
-from mechwright_elliptic_gears.gear import ellipse_of, teeth_of, toothed
+from mechwright_elliptic_gears.gear import ellipse_of, outline_of
 from mechwright_elliptic_gears.kinematics import Turning, coupler, train
 from mechwright_elliptic_gears.layout import Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.peak import grid_of, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
-
-TO_NM = 1e-6
-"""From kg mm²/s² to N m."""
 
 
 @dataclass(frozen=True)
@@ -51,26 +48,16 @@ class Masses:
 @kept
 def masses_of(params: EllipticGearParams) -> Masses:
     """Of full plates: bores are part of them, holes of gears are not looked at."""
-    layout, density = Layout.of(params), material(params.material).density * 1e-6  # g/cm³ to kg/mm³
+    layout = Layout.of(params)
     link = coupler_part(params, layout)
     assert link.outline is not None  # noqa: S101 - it is a plate
-    area, x, y, xx, yy, _ = link.outline.moments
-    mass, length = float(area) * layout.coupler * density, 2 * layout.semi_major
-    polar = float(xx + yy - (x * x + y * y) / area) * layout.coupler * density
-    return Masses(gear_inertia(params), mass, polar, complex(x / area, y / area) / length)
+    own, _ = body(link.outline, layout.coupler, params.material)
+    return Masses(gear_inertia(params), own.mass, own.inertia, own.centre / (2 * layout.semi_major))
 
 
 def gear_inertia(params: EllipticGearParams) -> float:
     """Moment of inertia of a full gear about its axis, kg mm²."""
-    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
-    outside, opening = toothed(teeth_of(params))[0], opening_of(params)
-    inside = 0.0 if opening is None else _polar(opening.loop())
-    return (_polar(outside) - abs(inside)) * params.thickness * density
-
-
-def _polar(loop: Loop) -> float:
-    """Polar moment, mm⁴, of what a loop holds, about the origin; below 0 where it runs clockwise."""
-    return float(loop.moments[3] + loop.moments[4])
+    return body(outline_of(params), params.thickness, params.material)[1]
 
 
 def joint_torque(

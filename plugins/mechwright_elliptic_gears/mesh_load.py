@@ -11,19 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, kept
+from mechwright.mechanics.gearing import TO_NM, driven_torque, turned_back
 from mechwright.mechanics.peak import Peak
 from mechwright.mechanics.strength.tooth_bending import EllipticMesh, tangential_force
 from mechwright_elliptic_gears.gear import ellipse_of
-from mechwright_elliptic_gears.joint_load import TO_NM, gear_inertia, masses_of, torque_behind
+from mechwright_elliptic_gears.joint_load import gear_inertia, masses_of, torque_behind
 from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.peak import grid_of, peak
 
 _SAMPLES = 721
 """Angles of a turn at which the sign of a torque is asked for."""
-
-STEADY = 0.02
-"""Share of the greatest torque that has to be turned back before a tooth counts as loaded on both sides."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +48,8 @@ class Mesh:
         gear2 = Turning.of(theta2, params.speed * math.tau / 60)
         if params.stages == 1:
             follower = driven(gear2, e)
-            inertia = gear_inertia(params) * follower.alpha * TO_NM
-            own: Array = np.sign(follower.omega) * inertia + params.load_torque
-            return gear2, follower, own
+            faster = np.sign(follower.omega) * follower.alpha
+            return gear2, follower, driven_torque(gear_inertia(params), faster, params.load_torque)
         masses = masses_of(params)
         gear3, gear4, gear5 = train(gear2, e, params.phase_angle or 0.0)
         if self.names == ("2", "3"):
@@ -116,9 +113,7 @@ class Mesh:
     @property
     def reverses(self) -> bool:
         """Whether the torque changes its sign over a turn, so that both flanks of a tooth are loaded."""
-        torque = self.torque(np.linspace(0.0, math.tau, _SAMPLES))
-        most = float(np.abs(torque).max())
-        return bool(torque.min() < -STEADY * most and torque.max() > STEADY * most)
+        return turned_back(self.torque(np.linspace(0.0, math.tau, _SAMPLES)))
 
 
 @kept

@@ -5,10 +5,10 @@ list.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
-from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
+from mechwright import Finding, GeometryError, Scalar, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
@@ -17,7 +17,7 @@ from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.joints import bosses_of
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import JOINTS, peaks_of
+from mechwright_five_bar.peaks import JOINTS, loads_of, roughly_loaded
 from mechwright_five_bar.phases import phases_of
 from mechwright_five_bar.reach import (
     TURN_BACK,
@@ -53,20 +53,18 @@ def findings(params: FiveBarParams) -> tuple[Finding, ...]:
 
     No error among it means that the parts can be built.
     """
-    return until_error(params, _sound, teeth_bear, clamps_hold)
+    return until_error(params, _sound, _bearings, teeth_bear, clamps_hold)
 
 
 @kept
 def judged(params: FiveBarParams) -> tuple[Finding, ...]:
-    """The same without the sizes that would bear a load."""
-    return until_error(params, _sound, teeth_judged, clamps_hold)
+    """The same without the sizes that would bear a load, and with loads from fewer positions."""
+    return until_error(params, _sound, _bearings_judged, teeth_judged, clamps_hold)
 
 
 @kept
 def _sound(params: FiveBarParams) -> tuple[Finding, ...]:
-    return until_error(
-        params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures, _bearings
-    )
+    return until_error(params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures)
 
 
 def _joined(params: FiveBarParams) -> Iterator[Finding]:
@@ -268,7 +266,15 @@ def _figures(params: FiveBarParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _bearings(params: FiveBarParams) -> Iterator[Finding]:
-    peaks = peaks_of(params)
+    yield from _pressed(params, loads_of(params).peaks)
+
+
+@of_stage(Stage.PARTS)
+def _bearings_judged(params: FiveBarParams) -> Iterator[Finding]:
+    yield from _pressed(params, roughly_loaded(params).peaks)
+
+
+def _pressed(params: FiveBarParams, peaks: Mapping[str, Scalar]) -> Iterator[Finding]:
     widths = {"A0": params.ground_thickness, "B0": params.ground_thickness}
     joint, pressure = max(
         (

@@ -26,6 +26,9 @@ PER_TURN = 360
 HALVINGS = 60
 """Down to rounding."""
 
+_HAIR = 1e-9
+"""Share of a square within which whether the links can be joined is not told from lengths alone."""
+
 ROUGH = 30
 """Halvings of a place whose D² hardly changes beside it, or that only divides: 1e-11 rad."""
 
@@ -52,10 +55,23 @@ def square(bar: FiveBar, theta: Array) -> Array:
 
 
 def _slope(bar: FiveBar, theta: Array) -> Array:
-    """Derivative of D² (...) by the crank's angle."""
-    d, rate = bar.gap_and_rates(theta, 1)
-    slope: Array = 2 * (np.conj(d) * rate).real
+    """Half the derivative of D² (...) by the crank's angle.
+
+    D² = f² + r1² + r4² + 2 (f r4 cos(φ - γ) - f r1 cos(θ - γ) - r1 r4 cos(φ - θ)).
+    """
+    f, r1, r4, ratio = bar.ground, bar.crank, bar.arm, bar.ratio
+    one = theta - bar.ground_angle
+    two = ratio * theta + (bar.offset - bar.ground_angle)
+    slope: Array = (f * r1) * np.sin(one) - (f * r4 * ratio) * np.sin(two)
+    slope += (r1 * r4 * (ratio - 1)) * np.sin(two - one)
     return slope
+
+
+def _limits(bar: FiveBar) -> Interval:
+    """Squares of distances, mm², between which D² is at any angles of crank and arm."""
+    lengths = (bar.ground, bar.crank, bar.arm)
+    total = sum(lengths)
+    return max(0.0, 2 * max(lengths) - total) ** 2, total**2
 
 
 def turning_points(bar: FiveBar, one: float, two: float) -> Array:
@@ -74,7 +90,7 @@ def _halved(function: Callable[[Array], Array], low: Array, high: Array, halving
     """Roots (k,) of a function between two sides on which it has not the same sign."""
     low, high = low.copy(), high.copy()
     sign = function(low) > 0
-    for _ in range(halvings):
+    for _ in range(halvings if low.size else 0):
         middle = (low + high) / 2
         if not np.any((low < middle) & (middle < high)):
             break  # down to rounding: what follows changes nothing
@@ -104,6 +120,11 @@ def reach(bar: FiveBar, least: float = 0.0) -> tuple[Interval, ...]:
         at = square(bar, theta)
         return np.minimum(at - near, far - at)
 
+    low, high = _limits(bar)
+    if low > near + _HAIR * far and high < far * (1 - _HAIR):
+        return ((0.0, period),)
+    if high < near * (1 - _HAIR) or low > far * (1 + _HAIR):
+        return ()
     points = turning_points(bar, 0.0, period)
     # D² goes one way between two points, so halfway up to the middle of the range room has one root at most.
     middle = _middles(bar, points, (near + far) / 2)

@@ -31,7 +31,7 @@ def bears(designs: Designs, bar: FourBar, period: Period, least: Array) -> NDArr
 
     ``least`` is the least transmission angle (n,), rad; above 0.
     """
-    strength = _of_material(designs, "strength")
+    strength = of_material(designs, "strength")
     limit = strength * 2 * designs["rim"] * designs["thickness"]
     inertias = _inertias(designs, bar)
     sure = _rough(bar, period, inertias, np.sin(least)) * MILLI <= limit
@@ -45,7 +45,8 @@ def bears(designs: Designs, bar: FourBar, period: Period, least: Array) -> NDArr
     return np.asarray(sure)
 
 
-def _of_material(designs: Designs, figure: str) -> Array:
+def of_material(designs: Designs, figure: str) -> Array:
+    """A figure (n,) of the plates' material."""
     names, which = np.unique(designs.full("material").astype(str), return_inverse=True)
     return np.array([getattr(material(name), figure) for name in names.tolist()])[which]
 
@@ -60,7 +61,7 @@ def _inertias(designs: Designs, bar: FourBar) -> Array:
     pinned = heavy * (pin**2 * (high + HEAD_HEIGHT * pin) + (HEAD * pin) ** 2 * HEAD_HEIGHT * pin)
     shaft = pinned + heavy * pin**2 * SHAFT * pin
     bush = material(BUSHING_MATERIAL).density * 1e-6 * math.pi / 4 * turning**2 * thickness
-    sheet = _of_material(designs, "density") * 1e-6 * thickness
+    sheet = of_material(designs, "density") * 1e-6 * thickness
     half, turned = math.pi / 2 * radius**2, (HEAD * pin + turning) ** 2 / 8
 
     def link(length: Any, first: Any, last: Any) -> tuple[Array, Array, Array]:

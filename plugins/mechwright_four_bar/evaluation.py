@@ -2,7 +2,8 @@
 
 It covers what :func:`covered` says. There a layout always exists: with two ground plates the layers ground,
 crank, coupler, follower, second ground hold every pin between neighbours, and the posts stand outside of all
-that moves. Whether one plate is enough is asked for masses and forces alone, which the motion of each tells.
+that moves. Whether one plate is enough is asked for forces and for the masses of bodies and pins, which each
+tells by itself.
 """
 
 import math
@@ -18,6 +19,7 @@ from mechwright.tolerances import falls_short
 from mechwright_four_bar.bounds import bears
 from mechwright_four_bar.checks import LEAST_ROOM, LEAST_TRANSMISSION
 from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.many_masses import give_masses
 from mechwright_four_bar.period import Period, give_extremes
 from mechwright_four_bar.sizes import OF_BORE
 from mechwright_four_bar.swings import courses, toggles, transmission
@@ -50,6 +52,7 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     least, greatest = transmission(bar, course)
     if stage is not Stage.MOTION:
         _parts(found, designs, bar, course, least)
+        give_masses(found, columns, designs)
     found.doubt(least < _TOGGLE)
     _figures(found, columns, bar, course, least, greatest)
     give_extremes(found, columns, designs, bar, course)

@@ -7,9 +7,11 @@ import numpy as np
 
 from mechwright import Stage
 from mechwright.contracts.by_arrays import Answer, Designs
+from mechwright.contracts.masses import is_mass
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.many_checks import judge
 from mechwright_geneva.many_columns import columns_of
+from mechwright_geneva.many_masses import masses_of
 from mechwright_geneva.many_sizes import CONTINUOUS, completed
 from mechwright_geneva.params import GenevaParams
 
@@ -38,10 +40,14 @@ def _answered(
         said.doubt(np.ones(places.size, bool), places)
         return
     own = Answer(places.size)
-    judge(m, own, stage)
+    judged, left = judge(m, own, stage)
+    moving = [name for name in columns if not is_mass(name)]
+    if stage is not Stage.MOTION and len(moving) < len(columns) and left.size:
+        for name, values in masses_of(judged, columns).items():
+            said.give(name, values, places[left])
     free = own.left
-    if columns and free.size:
-        found = columns_of(m.rows(free), columns)
+    if moving and free.size:
+        found = columns_of(m.rows(free), moving)
         own.doubt(np.full(free.size, found is None), free)
         for name, values in (found or {}).items():
             said.give(name, values, places[free])

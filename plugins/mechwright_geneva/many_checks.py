@@ -53,17 +53,17 @@ class Verdicts:
         return left
 
 
-def judge(m: Mechanisms, answer: Answer, stage: Stage) -> None:
-    """What forbids designs up to a stage."""
+def judge(m: Mechanisms, answer: Answer, stage: Stage) -> tuple[Mechanisms, Places]:
+    """What forbids designs up to a stage; those of which all was asked, with discs, and their places."""
     told = Verdicts(answer, np.arange(len(m)))
     _feasibility(m, told, stage)
     if stage is Stage.MOTION:
-        return
+        return m, told.places
     for check in (_bottom, _mouths, _walls, _openings, _lock, _hub, _loads):
         left = np.flatnonzero(told.left)
         m, told = m.rows(left), Verdicts(answer, told.places[left])
         if not left.size:
-            return
+            return m, told.places
         m = check(m, told)
     if stage is Stage.MACHINING:
         for given, least in (
@@ -71,6 +71,8 @@ def judge(m: Mechanisms, answer: Answer, stage: Stage) -> None:
             (m.params.lock_clearance, LEAST_LOCK),
         ):
             told.forbid("clearance", np.asarray(falls_short(given, least)) & np.asarray(given < BINDING))
+    left = np.flatnonzero(told.left)
+    return m.rows(left), told.places[left]
 
 
 def _feasibility(m: Mechanisms, told: Verdicts, stage: Stage) -> None:

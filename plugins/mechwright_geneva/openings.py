@@ -57,6 +57,17 @@ def reaches(bore: Array, width: float, relief: float) -> Any:
     return np.where(bore > 0, np.hypot(bore / 2 + key.hub_depth, width / 2) + relief / math.sqrt(2) / 2, 0.0)
 
 
+def opening_area(bore: ArrayLike, width: float, relief: float) -> Array:
+    """Area (...) of openings with one keyway, mm²; each size of bore with a keyway is drawn once."""
+    bores = np.asarray(bore, dtype=float)
+    if key_of_width(width) is None:
+        return np.asarray(math.pi / 4 * bores**2)
+    sizes, which = np.unique(bores, return_inverse=True)
+    drawn = [_opening(size, width, relief) for size in sizes.tolist()]
+    areas = np.array([0.0 if one is None else abs(one.loop().area) for one in drawn])
+    return np.asarray(areas[which].reshape(bores.shape))
+
+
 def unfit(bore: Array, width: float, relief: float) -> list[tuple[str, NDArray[np.bool_]]]:
     """Codes of errors of openings with one keyway, in the order of :func:`opening_findings`, and of which."""
     small = np.asarray((bore > 0) & (bore < LEAST_WIDTH) | (0 < width < LEAST_WIDTH))

@@ -63,7 +63,7 @@ _SLIVER = 1e-9
 
 
 @dataclass(frozen=True)
-class _Half:
+class Half:
     """The bite that the disc leaves; ``leaving`` takes the stroke backwards, mirrored: the bite it enters."""
 
     mechanism: Mechanism
@@ -219,7 +219,7 @@ def drawn(mechanism: Mechanism) -> NDArray[np.int_]:
     jerk of a named law is bounded, so that a cubic is within the tolerance over a 256th of it. Where the horn
     does not clear the disc, or passes the very beginning of its arc, the edge has a gap.
     """
-    half = _Half(mechanism, leaving=False)
+    half = Half(mechanism, leaving=False)
     s, _, miss = half.crossing(half.passing())
     gap = (miss > _APART) & (np.isinf(miss) | (s < _SLIVER))
     found: NDArray[np.int_] = np.where(miss < _MET, 1, np.where(gap, -1, 0))[:, 0]
@@ -236,11 +236,11 @@ def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
     """
     m = mechanism
     deep = m.axes - m.rim - m.params.lock_clearance
-    entry, one = _Half(m, leaving=False).edge()
+    entry, one = Half(m, leaving=False).edge()
     if m.law.symmetric:
         out, two = [mirrored(segment, 0.0) for segment in entry[::-1]], one
     else:
-        leave, two = _Half(m, leaving=True).edge()
+        leave, two = Half(m, leaving=True).edge()
         out = [segment.reversed() for segment in leave[::-1]]
     start, end = math.atan2(*entry[-1].end[::-1]), math.atan2(*out[0].start[::-1])
     relief: list[Segment] = [*entry, Arc((0.0, 0.0), deep, start, end - start, "relief"), *out]

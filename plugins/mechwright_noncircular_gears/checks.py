@@ -8,8 +8,9 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from mechwright import Finding, Stage, at_stage, kept, material, of_stage, until_error
+from mechwright import Finding, Stage, at_stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change, errors
+from mechwright.mechanics.gearing import body
 from mechwright.mechanics.gearing.checks import (
     SHAFT_PRESSURE_ANGLE,
     backlash_findings,
@@ -216,7 +217,6 @@ def _lower(params: NoncircularParams) -> Iterator[Change]:
 
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:
-    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
     a, m = pair_of(params).distance, rack_of(params).module
     yield Finding.note(
         "gear.size",
@@ -232,10 +232,8 @@ def _figures(params: NoncircularParams) -> Iterator[Finding]:
         "mm",
     )
     for name, outline in zip(NAMES, outlines_of(params), strict=True):
-        mass = outline.area * params.thickness * density
-        inertia = outline.polar_moment * params.thickness * density
-        _, x, y, *_ = outline.moments
-        away = math.hypot(x, y) / outline.area
+        whole, inertia = body(outline, params.thickness, params.material)
+        mass, away = whole.mass, abs(whole.centre)
         unbalance = mass * away * 1e3
         middle = f"{away:.3f} mm from it: {unbalance:.4g} g·mm of unbalance" if away >= ON_AXIS else "on it"
         yield Finding.note(

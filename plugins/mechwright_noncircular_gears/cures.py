@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright import Finding
+from mechwright import Finding, Severity
 from mechwright_noncircular_gears.law import fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -38,7 +38,9 @@ Works = Callable[[NoncircularParams], bool]
 
 
 def cured(params: NoncircularParams, finding: Finding, works: Works) -> Finding:
-    """A finding that is the law's with the nearest law of which gears can be made as its last proposal."""
+    """An error that is the law's with the nearest law of which gears can be made as its last proposal."""
+    if finding.severity is not Severity.ERROR:
+        return finding
     if finding.code in SOFTER:
         fields = nearest(params, works, STEPS)
         if params.law in {"ratio", "angle"} and params.sector is None and _faint(params, fields):

@@ -1,21 +1,27 @@
 """The pair as a stage of a chain."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
 
-from mechwright import Array, DesignError, Motion, MountingError, Port, Transmission, Turning
+from mechwright import Array, DesignError, Motion, Port, Transmission, Turning
 from mechwright.contracts.finding import Change
 from mechwright_noncircular_gears.fields import LAW_FIELDS
 from mechwright_noncircular_gears.gear import NAMES, pair_of
-from mechwright_noncircular_gears.motion import driven, driven_by, turns_of
+from mechwright_noncircular_gears.motion import driven, driven_by, swinging, turns_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
 
 class PairStage(Transmission):
-    """Driver in, driven gear out, the other way round; a ring has no shaft, sectors swing (DesignError)."""
+    """Driver in, driven gear out, the other way round; a ring has no shaft (DesignError).
+
+    Sectors swing over their travel; where nothing stands before them they do so by their own drive, whose
+    phase is then the angle of the input.
+    """
 
     own_drive = ("speed",)
+    travel_field = "sector"
     load_field = "load_torque"
 
     def __init__(self, params: NoncircularParams) -> None:
@@ -24,18 +30,16 @@ class PairStage(Transmission):
                 "internal: a ring is screwed to what turns with it and has no shaft for the next stage; set "
                 "internal = false"
             )
-        if params.sector is not None:
-            raise MountingError(
-                "sector: sectors swing there and back, and the next stage turns on; leave sector out, with a "
-                "law that goes all the way round",
-                _closed(params),
-            )
         self.params = params
         driver, mate = NAMES
         self.input = Port(driver, (0.0, 0.0))
         self.output = Port(mate, (pair_of(params).distance, 0.0))
-        self.period = Fraction(turns_of(params))
-        self.advance = -self.period * params.lobes / params.mate_lobes
+        if params.sector is None:
+            self.period = Fraction(turns_of(params))
+            self.advance = -self.period * params.lobes / params.mate_lobes
+        else:
+            self.travel = (0.0, math.radians(params.sector))
+            self.whole = _closed(params)
         self.speed = params.omega
 
     def move(self, drive: Turning) -> Turning:
@@ -45,6 +49,20 @@ class PairStage(Transmission):
     def motion(self, drive: Turning, time: Array) -> Motion:
         """Both gears."""
         return driven_by(self.params, drive, time)
+
+    def at(self, angle: Array) -> tuple[Array, Turning]:
+        """At constant speed, and sectors by their swing."""
+        if self.travel is None:
+            return super().at(angle)
+        return angle / self.speed, swinging(self.params, angle)
+
+    def driven_fields(self, drive: Turning) -> dict[str, float]:
+        """The greatest speed, and of sectors that of a swing that is as fast and speeds up as much."""
+        if self.travel is None:
+            return super().driven_fields(drive)
+        half = self.travel[1] / 2
+        fast, sudden = (float(np.abs(one).max()) / half for one in (drive.omega, drive.alpha))
+        return {"speed": max(fast, math.sqrt(sudden)) * 60 / math.tau}
 
     def power(self, drive: Turning, motion: Motion) -> Array:  # noqa: ARG002 - the law has it
         """Of the torque against the driven gear."""

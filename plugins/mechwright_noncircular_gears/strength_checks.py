@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from mechwright import Array, Finding, kept, material
-from mechwright.mechanics.gearing import Rolling
+from mechwright.mechanics.gearing import Rolling, body, driven_torque, turned_back
 from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import (
     PIN_SHEAR,
@@ -33,12 +33,6 @@ from mechwright_noncircular_gears.profile import profile_of
 KEY_STEEL = "steel"
 """Of keys."""
 
-STEADY = 0.02
-"""Share of the greatest torque that has to be turned back before a tooth counts as loaded on both sides."""
-
-TO_NM = 1e-6
-"""From kg mm²/s² to N m."""
-
 
 def strength_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
     """Teeth, their flanks, then the keys; values that help only to ``advise``."""
@@ -58,20 +52,14 @@ def loads(params: NoncircularParams) -> tuple[Array, Array, Array, Array]:
     law, a = law_of(params), pair_of(params).distance
     phi = law.grid(GRID)
     first = law.rates(phi)[1]
-    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
-    inertia = outlines_of(params)[1].polar_moment * params.thickness * density
+    _, inertia = body(outlines_of(params)[1], params.thickness, params.material)
     angular = first if params.sector is None else swung(law, phi, math.radians(params.sector))[1]
-    torque = inertia * TO_NM * angular * params.omega**2 + params.load_torque
+    torque = driven_torque(inertia, angular * params.omega**2, params.load_torque)
     now = Rolling.of(law, phi, params.side)
     alpha = math.radians(params.pressure_angle)
     force = tangential_force(np.abs(torque), a * now.r2, now.tilt, alpha)
     with np.errstate(divide="ignore"):
         return torque, force, a / now.curvature1, a / now.curvature2
-
-
-def _reverses(torque: Array) -> bool:
-    most = float(np.abs(torque).max())
-    return bool(torque.min() < -STEADY * most and torque.max() > STEADY * most)
 
 
 @kept
@@ -84,7 +72,7 @@ def root_stresses(params: NoncircularParams) -> tuple[Stress, ...]:
     own = Rack(math.radians(cutter.pressure_angle), cutter.addendum, cutter.dedendum, cutter.tip_radius)
     module, bears = rack_of(params).module, allowed(params.material).root
     torque, force, *radii = loads(params)
-    limit = bears * (REVERSING_ROOT if _reverses(torque) else 1.0)
+    limit = bears * (REVERSING_ROOT if turned_back(torque) else 1.0)
     found = []
     for number, radius in enumerate(radii, start=1):
         with np.errstate(all="ignore"):  # a rack far from the usual one has no section of 30 degrees
@@ -120,7 +108,7 @@ def key_stresses(params: NoncircularParams) -> tuple[Stress, ...]:
     ratio = law.rates(law.grid(GRID))[0]
     most = max(float(np.abs(torque).max()), float(np.abs(torque * ratio).max()))
     bore, bears = opening.bore, min(params.thickness, LONGEST_KEY * opening.bore)
-    reverses = _reverses(torque)
+    reverses = turned_back(torque)
     limit = (REVERSING_KEY if reverses else 1.0) * allowed(params.material).key
     pressure = key_pressure(most, bore, opening.key_top - bore / 2, bears)
     sheared = key_shear(most, bore, opening.width, bears)

@@ -66,7 +66,7 @@ class TestCamFollower(DayContract):
         ({"laws": ["table"]}, "table"),
         ({"laws": ["polynomial"], "polynomial": [0, 0, 1]}, "polynomial"),
         ({"offset": 47.9}, "offset"),
-        ({"follower": "oscillating", "arm_length": 10}, "arm_length"),
+        ({"follower": "oscillating", "arm_length": 10, "centre_distance": 90}, "arm_length"),
         ({"follower": "oscillating", "contact": "flat", "centre_distance": 30}, "centre_distance"),
         (
             {

@@ -26,7 +26,7 @@ TWO_STEPS = {
 
 STUDIES = {
     "slides": batch(
-        {"laws": ["modified-sine", "3-4-5"], "screw_diameter": 4},
+        {"laws": ["modified-sine", "3-4-5"], "screw_diameter": 4, "pin_diameter": 8},
         14,
         base_radius=(12, 60),
         roller_radius=(4, 20),
@@ -44,8 +44,14 @@ STUDIES = {
         arm_length=(40, 120),
         pivot_bore=(4, 18),
     ),
+    "small slides, whose bores and studs follow": batch(
+        {"lifts": [2, 2, 0, 0]}, 10, base_radius=(2.5, 14), roller_radius=(1.2, 8)
+    ),
+    "levers that follow their cams": batch(
+        {"follower": "oscillating", "swings": [8, 8, 0, 0]}, 8, base_radius=(4, 80), roller_radius=(1.5, 12)
+    ),
     "keyed slides": batch(
-        {"bore": 14, "keyway_width": 5, "keyway_relief": 1, "screw_diameter": 3},
+        {"bore": 14, "keyway_width": 5, "keyway_relief": 1, "screw_diameter": 3, "pin_diameter": 8},
         8,
         base_radius=(14, 40),
         roller_radius=(4, 10),
@@ -97,7 +103,7 @@ def test_they_are_what_each_is_by_itself(study):
     found = FAMILY.evaluate(one, columns(one))
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, columns(one), Stage.PARTS, FAMILY.parts))
     assert (found.forbidden == 0).sum() >= 2
-    assert len(found.counts) >= 2
+    assert len(found.counts) >= 2 if "follow" not in study else not found.counts
 
 
 @pytest.mark.parametrize("study", STUDIES)

@@ -241,12 +241,33 @@ def test_a_follower_answers_as_the_design_moves():
         assert turned == pytest.approx(np.array(wanted.follower_angles) - wanted.follower_angles[0], abs=1e-6)
 
 
-def test_what_no_linkage_of_five_poses_keeps_is_said_with_the_count():
-    result = asked("poses", longest_link=40)
-    (finding,) = errors(result.findings)
+def test_where_no_linkage_of_five_poses_keeps_the_limits_the_nearest_that_does_is_given():
+    result = asked("poses", longest_link=40, designs=1)
+    near, found = result.findings
+    assert (near.code, found.code) == ("poses.nearest", "poses.found")
+    assert "4 real dyads of 4" in near.message
+    assert "breaks a limit: a link is 74.9513 mm long" in near.message
+    (one,) = result.candidates
+    assert one.residual.value < 0.15
+    assert one.figures["longest_link"].value <= 40
+    course = course_of(one.params)
+    place, turned = carried(one, course.start + np.linspace(0, course.travel, 40_001))
+    poses = poses_of(FIVE)
+    off = np.abs(place[:, None] - poses.places)
+    assert np.sqrt(np.mean(off.min(axis=0) ** 2)) <= one.residual.value + 0.01
+    angle = np.angle(np.exp(1j * (turned[off.argmin(axis=0)] - poses.angles)))
+    assert np.abs(angle).max() < math.radians(1), "the nearest place is not quite that of the nearest pose"
+
+
+@by_night
+def test_where_none_comes_near_either_the_limit_is_said_that_stands_in_the_way():
+    (finding,) = errors(asked("poses", drive="crank", longest_link=15, least_transmission_angle=70).findings)
     assert finding.code == "poses.none"
-    assert "4 real dyads of 4" in finding.message
-    assert "breaks a limit" in finding.message
+    assert finding.message.count("breaks a limit") == 2
+    assert "misses them by" in finding.message
+
+
+def test_cranks_alone_are_given_where_they_are_asked_for():
     only = asked("poses", drive="crank")
     assert all(one.params.swing_from is None for one in only.candidates)
     assert only.candidates

@@ -51,6 +51,22 @@ def test_cranks_and_levers_of_both_branches():
     assert not MANY.alone
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"frame": "two"},
+        {"coupler_point_x": 20, "coupler_point_y": 30, "web_width": 7},
+        {"bushing_wall": 0, "rim": 6},
+    ],
+)
+def test_masses_of_links_are_those_of_the_parts(content):
+    links = ["mass.crank", "mass.coupler"] + ["mass.follower"] * ("frame" in content)
+    batch = MANY.drawn(10, content, crank=(16, 45), coupler=(60, 120), follower=(60, 120), thickness=(4, 8))
+    found = MANY.same(batch, links, Stage.PARTS)
+    assert (found.forbidden == 0).sum() > 3
+    assert not MANY.alone
+
+
 def test_accelerating_cranks_and_coupler_points():
     batch = MANY.drawn(
         12, {"acceleration_ratio": 0.1, "coupler_point_x": 20, "pivot_x": 5, "ground": 90},

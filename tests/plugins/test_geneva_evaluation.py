@@ -16,7 +16,7 @@ FAMILY = Geneva()
 COLUMNS = (
     "centre_distance", "dwell_share", "index_time", "alpha_w_max", "contact_force_max", "contact_pressure_max",
     "crank_torque_max", "contact_force.greatest", "crank_torque.least", "pressure_angle.greatest", "jerk_w.least",
-    "theta_w.greatest",
+    "theta_w.greatest", "mass", "mass.wheel", "mass.hub", "mass.locking-disc", "mass.crank", "mass.roller",
 )  # fmt: skip
 
 
@@ -82,7 +82,7 @@ def test_they_are_what_each_is_by_itself(study, stage):
     if stage is Stage.MOTION:
         batch = Batch(GenevaParams, content, {name: values[:8] for name, values in varied.items()})
     found = FAMILY.evaluate(batch, COLUMNS, stage)
-    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, COLUMNS, stage))
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, COLUMNS, stage, FAMILY.parts))
 
 
 @pytest.mark.parametrize("study", ["curved", "loaded", "sized", "straight", "keyed", "keyed shafts"])

@@ -211,3 +211,7 @@ def test_a_collision_ends_the_proof_where_it_is_seen():
     seen = np.searchsorted(whole.arc, first.arc)
     for name in ("arc", "ahead", "behind", "depth"):
         assert getattr(whole, name)[seen] == pytest.approx(getattr(first, name), abs=1e-12)
+
+
+def test_a_pair_that_meshes_is_told_no_other_law():
+    assert [one.remedy for one in FAMILY.check(ring()) if one.code == "gear.mesh"] == [""]

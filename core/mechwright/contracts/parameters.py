@@ -25,9 +25,9 @@ FITTED: JsonDict = {"fitted": True}
 default is the usual value, and files that are written show it as a comment."""
 
 
-def is_fitted(field: FieldInfo) -> bool:
-    """Whether a field is marked with :data:`FITTED`."""
-    marks = field.json_schema_extra
+def is_fitted(field: FieldInfo | None) -> bool:
+    """Whether a field is marked with :data:`FITTED`; none is not."""
+    marks = None if field is None else field.json_schema_extra
     return isinstance(marks, dict) and bool(marks.get("fitted"))
 
 

@@ -12,6 +12,7 @@ advance
     Turns of the output over a period, in the sense of its port; 0 for one that comes back.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from mechwright.contracts.turning import Turning
 from mechwright.geometry.segments import Point
 
 if TYPE_CHECKING:
+    from mechwright.contracts.finding import Change
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.mounting import Mounting
 
@@ -85,6 +87,12 @@ class Transmission(ABC):
     another one drives; the first of them is its speed."""
     turns_on: ClassVar[bool] = False
     """Whether its input has to turn on all the way: what swings there and back would undo what it does."""
+    travel: "tuple[float, float] | None" = None
+    """Angles of the input, rad, between which it swings; None where it may turn all the way."""
+    travel_field: ClassVar[str] = ""
+    """Field of the table that is the width of the travel, degrees."""
+    whole: "Sequence[Change]" = ()
+    """Changes of the table with which a stage that swings turns all the way."""
     mounting: "Mounting | None" = None
     """Where its shafts stand in a chain; None where that is the family's own mounting for a frame."""
     load_field: ClassVar[str] = ""
@@ -107,6 +115,14 @@ class Transmission(ABC):
     def power(self, drive: Turning, motion: "Motion") -> Array:  # noqa: ARG002 - used by those with loads
         """What the stage's own loads take from its input (n,), W; nothing by default."""
         return np.zeros_like(drive.theta)
+
+    def driven_fields(self, drive: Turning) -> dict[str, float]:
+        """Fields of its own drive that ask as much of its parts as a motion (n,) of the input does.
+
+        By default the first of them is the greatest speed, rev/min.
+        """
+        most = float(np.abs(drive.omega).max()) * 60 / math.tau
+        return {self.own_drive[0]: most} if self.own_drive else {}
 
     def at(self, angle: Array) -> tuple[Array, Turning]:
         """Times (n,), s, from its start on, and the input at angles (n,) where nothing stands before it.

@@ -16,7 +16,7 @@ from mechwright.contracts.table import Table
 from mechwright.designs.change import found_at
 from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError
-from mechwright.mechanics.chain import Chain
+from mechwright.mechanics.chain import Chain, StageTable
 
 ROUNDS = 8
 """Changes that are chosen one after the other: each may bring the next one to light."""
@@ -105,8 +105,10 @@ def _open(key: str, design: _Open) -> bool:
     table, _, name = key.rpartition(".")
     own = (path for path in design.own_tables if f"{key}.".startswith(f"{path}."))
     start = next(own, None)
-    if start is None or found_at(design.content, key)[0]:
+    if found_at(design.content, key)[0]:
         return False
+    if start is None:
+        return isinstance(design.family, Chain) and is_fitted(StageTable.model_fields.get(name))
     steps = table.removeprefix(start).split(".")[1:]
     model: Any = design.own_tables[start]
     for step in steps:

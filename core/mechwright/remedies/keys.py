@@ -44,7 +44,7 @@ class Key:
     given
         Whether it says what is at hand, such as the travel of a mill: no change of it is a remedy.
     fitted
-        Whether its default follows from other keys.
+        Whether its default follows from other keys: it is what follows now, None where the file says it.
     lender
         The table that lends the default, such as ``"shop"``; empty where none does.
     """
@@ -88,7 +88,7 @@ class Key:
 def keys_of(design: Design) -> dict[str, Key]:
     """Every key of the tables of a design, by its path, in the order of the tables' fields."""
     found = [
-        replace(key, default=getattr(table, key.path.rpartition(".")[2])) if key.fitted else key
+        _as_fitted(design, key, table)
         for path, table in design.own_tables.items()
         for key in _keys(type(table), path)
     ]
@@ -102,6 +102,14 @@ def keys_of(design: Design) -> dict[str, Key]:
         for table, keys in reader.lends(design.tables[reader.name]).items()
     ]
     return {key.path: _as_lent(design, key, lent) for key in found}
+
+
+def _as_fitted(design: Design, key: Key, table: BaseModel) -> Key:
+    """A key with the default that follows from the others; what would follow in its place is not known."""
+    if not key.fitted:
+        return key
+    said = key.stands_in(design.content)
+    return replace(key, default=None if said else getattr(table, key.path.rpartition(".")[2]))
 
 
 def _as_lent(design: Design, key: Key, lent: Iterable[tuple[str, str, Mapping[str, Any]]]) -> Key:

@@ -127,12 +127,13 @@ def _known(bench: Bench, keys: Sequence[Key]) -> Iterator[Change]:
         yield {
             key.path: value
             for key in keys
+            if not key.fitted or key.stands_in(bench.design.content)
             if (value := _scaled(key, scale)) != bench.now(key) or (value is None) != (bench.now(key) is None)
         }
 
 
 def _scaled(key: Key, scale: float) -> object:
-    value = key.default
+    value = None if key.fitted else key.default
     if scale != 1.0 and key.unit == "mm" and isinstance(value, int | float):
         return typed(key, min(max(round_to(value * scale), key.low), key.high))
     return value

@@ -1,5 +1,6 @@
 """Changes that remove a finding: what was proposed, then values along the keys that it speaks of."""
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -88,7 +89,9 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
     if best is not None and best.worth <= Worth.HELPS:
         return best
     for key in related(bench, told):
-        for step in _along(bench, finding, decided, before, key):
+        # Nothing larger is better than what builds: of the next keys only smaller changes are tried.
+        most = best.size if best is not None and best.worth is Worth.BUILDS else math.inf
+        for step in _along(bench, finding, decided, before, key, most):
             if best is None or (step.worth, step.size) < (best.worth, best.size):
                 best = step
         if best is not None and best.worth <= Worth.HELPS and best.size - bench.size(decided) < _NEAR:
@@ -140,12 +143,17 @@ def _step(
 
 
 def _along(
-    bench: Bench, finding: Finding, decided: Change, before: list[Finding], key: Key
+    bench: Bench, finding: Finding, decided: Change, before: list[Finding], key: Key, most: float
 ) -> Iterator[Step]:
-    """The nearest value of a key that removes the finding, and the nearest that also spoils nothing."""
+    """The nearest value of a key that removes the finding, and the nearest that also spoils nothing.
+
+    Changes as large as ``most`` are passed over.
+    """
     now = bench.now(key, decided)
     best = Worth.USELESS
     for value in dict.fromkeys([*_past(key, now, finding), *ladder(key, now)]):
+        if bench.size({**decided, key.path: value}) >= most:
+            continue
         step = _step(bench, finding, decided, before, {key.path: value})
         if step is not None and step.worth < best:
             best = step.worth

@@ -1,6 +1,7 @@
 """Screws, washers, and the holes for them: ISO 4762, 10642, 4026, 7089, 273, DIN 974-1, ISO 2306."""
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
 from mechwright.contracts.bought import Bought
@@ -132,6 +133,7 @@ class Washer:
         )
 
 
+@cache
 def screw_sizes() -> tuple[ScrewSize, ...]:
     """All of them, by thread."""
     return table("screws").of(ScrewSize)

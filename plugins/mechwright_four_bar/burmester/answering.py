@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright import Array, Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright import Array, Finding, Progress, Scalar, Synthesis
 from mechwright_four_bar.burmester import freudenstein
 from mechwright_four_bar.burmester.fitting import nearest
 from mechwright_four_bar.burmester.freudenstein import Answering
-from mechwright_four_bar.burmester.kept import Option, designs, driven
+from mechwright_four_bar.burmester.kept import Option, designs, driven, instead
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement
 from mechwright_four_bar.loop import close
@@ -33,15 +33,8 @@ def through_angles(wanted: FunctionRequirement, progress: Progress) -> Synthesis
     first = _designs(solve(phi, psi), phi, psi, wanted, True, progress)
     if first.candidates:
         return first
-    result = _designs(nearest(phi, psi, wanted), phi, psi, wanted, False, progress)
-    if not result.candidates:
-        return first
-    why = first.findings[0]
-    note = Finding.warning("function.nearest", why.parameter, f"{why.message}; these are the nearest")
-    rejected = Rejected(first.rejected)
-    for reason in result.rejected:
-        rejected.because(reason.code, reason.message, reason.count)
-    return _told(Synthesis(result.candidates, (note, *result.findings), rejected.reasons), wanted)
+    near = _designs(nearest(phi, psi, wanted), phi, psi, wanted, False, progress)
+    return _told(instead("function", first, near), wanted)
 
 
 def _designs(

@@ -11,8 +11,8 @@ from mechwright import Array, Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright_four_bar.burmester import dyads
 from mechwright_four_bar.burmester.dyads import Dyad, Poses
-from mechwright_four_bar.burmester.kept import WEIGHTS, Option, designs, driven, penalties
-from mechwright_four_bar.burmester.rectify import Way, way_through
+from mechwright_four_bar.burmester.kept import WEIGHTS, Option, designs, driven, instead, penalties
+from mechwright_four_bar.burmester.rectify import Way, loosely, way_through
 from mechwright_four_bar.burmester.requirements import EXACT, PosesRequirement
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
@@ -28,13 +28,19 @@ PAIRED = 60
 """Most dyads, the nearest to their poses first, that are joined with each other."""
 
 FITTED = 12
-"""Most linkages that are fitted to more than five poses."""
+"""Most linkages that are fitted to more than five poses, or near fewer."""
 
 SAME = 0.01
 """Share of the poses' size within which two dyads are one."""
 
 STEPS = 60
 """Most steps of a dyad that is fitted to more than five poses."""
+
+NEAR_STEPS = 4
+"""Steps of a dyad that a linkage near three to five poses begins with: more would lead to the exact ones."""
+
+DEFECTIVE = 0.1
+"""By so much, in squares of the poses' size, a start with a defect stands back."""
 
 FAILED = 1e3
 """Error of a linkage that cannot be joined, while it is fitted."""
@@ -45,7 +51,8 @@ def through_poses(wanted: PosesRequirement, progress: Progress) -> Synthesis[Fou
 
     The coupler point of a design is the body's origin; the figure ``frame_angle`` is the direction of its
     frame from that of A to B. Of three to five poses, which are met exactly, the best transmission angle
-    leads; of more the nearest.
+    leads; of more the nearest. Where no exact linkage is within the limits, those within them that come
+    nearest are given, with a warning.
     """
     table = np.array(wanted.poses, dtype=float)
     poses = Poses(table[:, 0] + 1j * table[:, 1], np.radians(table[:, 2]))
@@ -55,29 +62,77 @@ def through_poses(wanted: PosesRequirement, progress: Progress) -> Synthesis[Fou
         )
         return Synthesis((), (Finding.error("poses.infinite", "poses", message, remedy=INFINITE),))
     found, said = _dyads(poses, wanted)
-    ways: list[tuple[Way, Dyad, Dyad]] = []
+    ways, defects = _ways(found, poses, 0.0 if len(wanted.poses) == EXACT else wanted.shortest_link / 2)
+    progress(0.5, "linkages through the poses")
+    ways.sort(key=lambda one: -driven(one[0], wanted).least_angle)
+    options = [_option(way, one, two, poses) for way, one, two in ways]
+    if len(wanted.poses) > EXACT:
+        ways.sort(key=lambda one: _spread(one[1], poses) + _spread(one[2], poses))
+        options = [_fitted(*one, poses, wanted) or _option(*one, poses) for one in ways[:FITTED]]
+        options.sort(key=lambda one: one.error.value)
+
+    def told() -> str:
+        return f"{said}; {len(ways)} linkages of them go through the poses without a defect"
+
+    result = designs(
+        "poses", options, dict(defects), wanted, told, lambda part: progress(0.5 + part / 2, "designs")
+    )
+    if result.candidates or len(wanted.poses) > EXACT:
+        return result
+    return instead("poses", result, _near(poses, wanted, progress))
+
+
+Joined = tuple[Way, Dyad, Dyad]
+
+
+def _ways(found: list[Dyad], poses: Poses, apart: float) -> tuple[list[Joined], Counter[str]]:
+    """Pairs of dyads that go through the poses without a defect, and how many have which defect.
+
+    Joints of the body that are nearer than ``apart``, mm, make no linkage.
+    """
+    ways: list[Joined] = []
     defects: Counter[str] = Counter()
     for one, two in permutations(found, 2):
-        if abs(one.joint - two.joint) < wanted.shortest_link / 2 and len(wanted.poses) != EXACT:
+        if abs(one.joint - two.joint) < apart:
             continue
         way = way_through(one.pivot, two.pivot, poses.joints(one.joint), poses.joints(two.joint))
         if isinstance(way, str):
             defects[way] += 1
         else:
             ways.append((way, one, two))
-    progress(0.5, "linkages through the poses")
-    ways.sort(key=lambda one: -driven(one[0], wanted).least_angle)
-    options = [_option(way, one, two, poses) for way, one, two in ways]
-    if len(wanted.poses) > EXACT:
-        ways.sort(key=lambda one: _spread(one[1], poses) + _spread(one[2], poses))
-        options = [_fitted(*one, poses, wanted) for one in ways[:FITTED]]
-        options.sort(key=lambda one: one.error.value)
+    return ways, defects
+
+
+def _near(poses: Poses, wanted: PosesRequirement, progress: Progress) -> Synthesis[FourBarParams]:
+    """Linkages within the limits that come nearest to three to five poses.
+
+    Fits begin at linkages that go roughly through the poses, those with a defect among them: what is fitted
+    stays on one branch.
+    """
+    rng = np.random.default_rng(wanted.seed)
+    far = SPREAD * max(poses.size, wanted.shortest_link)
+    starts: list[tuple[float, Joined]] = []
+    for one, two in permutations(_nearest(poses, wanted, rng, far, NEAR_STEPS), 2):
+        if abs(one.joint - two.joint) < wanted.shortest_link / 2:
+            continue
+        joints = poses.joints(one.joint), poses.joints(two.joint)
+        found = way_through(one.pivot, two.pivot, *joints)
+        way = loosely(one.pivot, two.pivot, *joints) if isinstance(found, str) else found
+        off = (_spread(one, poses) + _spread(two, poses)) / poses.size**2
+        beyond = float(np.square(penalties(way.bar, way.phi, wanted, 1.0)).sum())
+        starts.append((off + beyond + DEFECTIVE * isinstance(found, str), (way, one, two)))
+    starts.sort(key=lambda start: start[0])
+    fitted = [_fitted(*joined, poses, wanted) for _, joined in starts[:FITTED]]
+    options = sorted((one for one in fitted if one is not None), key=lambda one: one.error.value)
 
     def told() -> str:
-        return f"{said}; {len(ways)} linkages of them go through the poses without a defect"
+        return (
+            f"of {len(starts)} linkages near the poses {len(fitted)} were fitted to them within the limits, "
+            f"{len(options)} without a defect"
+        )
 
     return designs(
-        "poses", options, dict(defects), wanted, told, lambda part: progress(0.5 + part / 2, "designs")
+        "poses", options, {}, wanted, told, lambda part: progress(1.0, f"designs near the poses, {part:.0%}")
     )
 
 
@@ -111,8 +166,10 @@ def _dyads(poses: Poses, wanted: PosesRequirement) -> tuple[list[Dyad], str]:
     ], f"{count} poses have dyads of {many} free number{'s' * (count == 3)}, {wanted.starts} were tried"
 
 
-def _nearest(poses: Poses, wanted: PosesRequirement, rng: np.random.Generator, far: float) -> list[Dyad]:
-    """Dyads fitted to more than five poses, the nearest first."""
+def _nearest(
+    poses: Poses, wanted: PosesRequirement, rng: np.random.Generator, far: float, steps: int = STEPS
+) -> list[Dyad]:
+    """Dyads fitted to poses in so many steps, the nearest first."""
     size, middle = max(poses.size, wanted.shortest_link), complex(poses.places.mean())
     d, e = (poses.places - middle) / size, poses.directions
 
@@ -124,7 +181,7 @@ def _nearest(poses: Poses, wanted: PosesRequirement, rng: np.random.Generator, f
     starts = rng.uniform(-far / size, far / size, (wanted.starts, 4))
     joints = d + (starts[:, :1] + 1j * starts[:, 1:2]) * e
     reach = np.abs(joints - (starts[:, 2:3] + 1j * starts[:, 3:4])).mean(axis=1)
-    x, costs = least_squares(residual, np.column_stack((starts, reach)), STEPS, 1e-26)
+    x, costs = least_squares(residual, np.column_stack((starts, reach)), steps, 1e-26)
     x = x[np.argsort(costs, kind="stable")]
     x = x[(x[:, 4] * size >= wanted.shortest_link / 2) & (x[:, 4] * size <= 2 * wanted.longest_link)]
     x = x[distinct(x, SAME)][:PAIRED] if len(x) else x
@@ -152,8 +209,11 @@ def _option(way: Way, one: Dyad, two: Dyad, poses: Poses) -> Option:
     return Option(way, error, figures, one.pivot, point)
 
 
-def _fitted(way: Way, one: Dyad, two: Dyad, poses: Poses, wanted: PosesRequirement) -> Option:
-    """The linkage fitted to places and directions at once, each crank angle free, within its limits."""
+def _fitted(way: Way, one: Dyad, two: Dyad, poses: Poses, wanted: PosesRequirement) -> Option | None:
+    """The linkage fitted to places and directions at once, each crank angle free, within its limits.
+
+    None where it has a defect then.
+    """
     size = poses.size
 
     def linkage(x: Array) -> tuple[FourBar, Dyad, Dyad, Array]:
@@ -185,5 +245,5 @@ def _fitted(way: Way, one: Dyad, two: Dyad, poses: Poses, wanted: PosesRequireme
         way_through(first.pivot, last.pivot, joints[0], joints[1]) if np.isfinite(joints).all() else "branch"
     )
     if isinstance(again, str):
-        return _option(way, one, two, poses)
+        return None
     return _option(again, first, last, poses)

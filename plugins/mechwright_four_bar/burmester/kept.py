@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright import Array, Finding, Rejected, Scalar, Synthesis
+from mechwright import Array, Candidate, Finding, Rejected, Scalar, Synthesis
 from mechwright.contracts.synthesis import ALIKE
 from mechwright_four_bar.burmester.rectify import Way
 from mechwright_four_bar.burmester.requirements import LinkLimits
@@ -22,6 +22,9 @@ its limits, then held."""
 
 MARGIN = 1e-4
 """Share by which a fit keeps inside its limits: a penalty ends a little beyond where it begins."""
+
+MET = 1e-6
+"""mm, or degrees, within which positions are met: rounding of exact linkages is far below it."""
 
 DEFECTS = {
     "branch": "the positions lie on both branches: the linkage would have to be taken apart",
@@ -115,6 +118,26 @@ def _same(one: Option, other: Option) -> bool:
     )
 
 
+def missing(error: Scalar) -> str:
+    """By how much a linkage misses its positions, in a sentence.
+
+    >>> missing(Scalar(0.25, "mm")), missing(Scalar(1e-12, "rad"))
+    (' misses them by 0.25 mm and', ' that goes through them')
+    """
+    told = _in_degrees(error)
+    return (
+        f" misses them by {told.value:.3g} {told.unit} and" if told.value > MET else " that goes through them"
+    )
+
+
+def _miss(one: Candidate[FourBarParams]) -> float:
+    return _in_degrees(one.residual).value
+
+
+def _in_degrees(error: Scalar) -> Scalar:
+    return Scalar(math.degrees(error.value), "degrees") if error.unit == "rad" else error
+
+
 def _best_built(cognates: list[Option]) -> Option:
     return min(cognates, key=lambda one: building(one.found)) if len(cognates) > 1 else cognates[0]
 
@@ -137,6 +160,22 @@ def penalties(bar: FourBar, angles: Array, wanted: LinkLimits, weight: float) ->
         cosines = [float(bar.cosine_over(float(square))) for square in squares]
     over = [max(abs(cosine) for cosine in cosines) - limit]
     return [weight * max(0.0, value) for value in (*short, *long, *over)]
+
+
+def instead(
+    name: str, exact: Synthesis[FourBarParams], near: Synthesis[FourBarParams]
+) -> Synthesis[FourBarParams]:
+    """Designs that come near, and why none is exact; where there are none either, what both searches say."""
+    why = exact.findings[0]
+    if not near.candidates:
+        said = f"{why.message}; {near.findings[0].message}"
+        return Synthesis((), (replace(why, message=said),), exact.rejected)
+    note = Finding.warning(f"{name}.nearest", why.parameter, f"{why.message}; these are the nearest")
+    told = [] if min(map(_miss, near.candidates)) <= MET else [note]
+    rejected = Rejected(exact.rejected)
+    for reason in near.rejected:
+        rejected.because(reason.code, reason.message, reason.count)
+    return Synthesis(near.candidates, (*told, *near.findings), rejected.reasons)
 
 
 def designs(
@@ -175,7 +214,7 @@ def designs(
         key, why = broken(one.way, wanted)
         if key:
             rejected.because(f"{name}.{key}", why)
-            nearest = nearest or f"; the first that goes through them breaks a limit: {why}"
+            nearest = nearest or f"; the first{missing(one.error)} breaks a limit: {why}"
         elif any(_same(one, other) for other in good):
             rejected.same()
         else:

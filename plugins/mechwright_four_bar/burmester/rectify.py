@@ -1,6 +1,6 @@
 """Whether a linkage goes through its positions in their order and in one piece (rectification)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -50,6 +50,13 @@ def linkage(a0: complex, b0: complex, a: Plane, b: Plane) -> FourBar:
         float(np.angle(ground)),
         1 if side > 0 else -1,
     )
+
+
+def loosely(a0: complex, b0: complex, a: Plane, b: Plane) -> Way:
+    """A linkage on the branch of most positions (n,), whatever its defects: where a fit begins."""
+    bar = linkage(a0, b0, a, b)
+    side = 1 if np.sign((np.conj(b0 - a) * (b - a)).imag).sum() >= 0 else -1
+    return Way(replace(bar, branch=side), np.unwrap(np.angle(a - a0)), bar.kind.full_turn)
 
 
 def way_through(a0: complex, b0: complex, a: Plane, b: Plane, ordered: bool = True) -> Way | str:

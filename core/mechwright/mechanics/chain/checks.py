@@ -25,8 +25,6 @@ from mechwright.mechanics.chain.shafts import shaft_findings
 NEAREST = 1.0
 """mm. Shafts whose axes stand nearer to each other are meant to be one, and are none."""
 
-RPM = 60 / math.tau
-
 _STANDS = 1e-9
 """Share of its greatest speed below which an input as good as stands: power says nothing of its torque."""
 
@@ -122,15 +120,15 @@ def _over_speed(power: Array, omega: Array) -> Array:
 def loaded(params: ChainParams, families: Families) -> tuple[Parameters, ...]:
     """The tables of all stages as they run in the chain, for the checks of their families.
 
-    A stage that is driven has the greatest speed of its input, and the torque against its output is that of
+    A stage that is driven has what its input asks of it, and the torque against its output is that of
     its own table and the greatest of the next stage.
     """
     run, torques = finely(params, families), torques_of(params, families)
     found = []
     for place, (link, drive) in enumerate(zip(run.links, run.inputs, strict=True)):
-        own, changed = link.transmission, {}
-        if place > 0 and own.own_drive:
-            changed[own.own_drive[0]] = float(np.abs(drive.omega).max()) * RPM
+        own, changed = link.transmission, dict[str, float]()
+        if place > 0:
+            changed |= own.driven_fields(drive)
         if own.load_field and place + 1 < len(run.links):
             behind = float(np.abs(torques[place + 1]).max())
             changed[own.load_field] = getattr(link.params, own.load_field) + behind

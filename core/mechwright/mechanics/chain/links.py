@@ -1,5 +1,6 @@
 """The stages of a chain with their families, and what stands against joining them."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -8,12 +9,20 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.transmission import Transmission
+from mechwright.contracts.turning import Turning
 from mechwright.errors import KinematicsError, MechwrightError
 from mechwright.mechanics.chain.params import ChainParams, Families, StageTable
+from mechwright.tolerances import exceeds
+
+_SAMPLES = 1440
+"""Of a turn of the chain's input, where the ends of a swing are sought: each a quarter of a degree."""
+
+_ROUNDING = 1e-6
+"""rad by which a swing may pass the end of a travel: far less than a tooth."""
 
 MOST_TURNS = 60
 """Turns of the chain's input over which its stages come back: what a motion with 721 samples can show."""
@@ -111,6 +120,8 @@ def _joined(params: ChainParams, families: Families) -> tuple[tuple[Link, ...], 
         found.append(Link(number, family, table, transmission))
     if not faults:
         faults += (*_turned_back(found), *_never_back(found))
+    if not faults:
+        faults += _beyond(found)
     return tuple(found), tuple(faults)
 
 
@@ -174,7 +185,88 @@ def _turned_back(links: Sequence[Link]) -> Iterator[Finding]:
                 "go back too",
                 remedy=f"make stage {swinging.number} one whose output turns all the way, such as a double "
                 f"crank or gears, or put stage {link.number} before it",
+                proposed=_whole(swinging),
             )
+
+
+def _whole(link: Link) -> tuple[Change, ...]:
+    """Changes with which a stage turns all the way."""
+    return tuple(
+        {key_of(link.number, key): value for key, value in change.items()}
+        for change in link.transmission.whole
+    )
+
+
+def _beyond(links: Sequence[Link]) -> Iterator[Finding]:
+    """Stages whose input swings within bounds, and is driven beyond them."""
+    for place, link in enumerate(links):
+        own, key = link.transmission, f"stage.{link.number}.start"
+        if place == 0 or own.travel is None:
+            continue
+        named, room = f"stage {link.number}, {link.family.name}", own.travel[1] - own.travel[0]
+        if all(one.transmission.advance for one in links[:place]):
+            yield Finding.error(
+                "chain.travel",
+                f"stage.{link.number}.family",
+                f"{named}: its input swings over {math.degrees(room):g} degrees, and what comes out of "
+                f"stage {link.number - 1} turns on",
+                remedy=f"put it behind a lever, or make stage {link.number} one that turns all the way",
+                proposed=_whole(link),
+            )
+            return
+        theta = list(inputs_of(links, _period(links)))[place].theta
+        low, width = float(theta.min()), float(np.ptp(theta))
+        if exceeds(width, room):
+            wider: Change = {key_of(link.number, own.travel_field): math.ceil(math.degrees(width) + 1)}
+            yield Finding.error(
+                "chain.travel",
+                next(iter(wider)),
+                f"{named}: its input is swung over {math.degrees(width):.4g} degrees, and it has "
+                f"{math.degrees(room):g}",
+                math.degrees(width),
+                math.degrees(room),
+                "deg",
+                f"make {own.travel_field} at least as much",
+                proposed=(wider,),
+            )
+            return
+        if low < own.travel[0] - _ROUNDING or low + width > own.travel[1] + _ROUNDING:
+            begin = math.degrees(float(theta[0]) + own.travel[0] - low + (room - width) / 2)
+            yield Finding.error(
+                "chain.travel",
+                key,
+                f"{named}: its input goes from {math.degrees(low):.4g} to {math.degrees(low + width):.4g} "
+                f"degrees, and it swings from {math.degrees(own.travel[0]):g} to "
+                f"{math.degrees(own.travel[1]):g}",
+                link.table.start,
+                begin,
+                "deg",
+                f"set {key} = {begin:.2f}: the middle of its swing is then that of its travel",
+                proposed=({key: round(begin, 2)},),
+            )
+            return
+
+
+def _period(links: Sequence[Link]) -> Turning:
+    """The input of a chain over one period."""
+    own, turns = links[0].transmission, float(turns_of(links))
+    way = np.linspace(0.0, math.tau * turns, math.ceil(turns * _SAMPLES) + 1)
+    return own.at(own.start + (-way if own.speed < 0 else way))[1]
+
+
+def inputs_of(links: Sequence[Link], first: Turning) -> Iterator[Turning]:
+    """The input of each stage over that of the first (n,), whose first sample is where the chain begins."""
+    drive, before = first, None
+    for link in links:
+        if before is not None and before.transmission.output is not None:
+            out = before.transmission.move(drive)
+            # Both ports are one shaft; each counts its angle in its own sense.
+            sense = float(before.transmission.output.sense * link.transmission.input.sense)
+            turned = out.scaled(sense)
+            begin = math.radians(link.table.start) - turned.theta[0]
+            drive = Turning(turned.theta + begin, turned.omega, turned.alpha, turned.jerk)
+        yield drive
+        before = link
 
 
 def turns_of(links: Sequence[Link]) -> Fraction:

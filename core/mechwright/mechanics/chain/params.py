@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field, InstanceOf, SerializeAsAny
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import FITTED, Parameters
 from mechwright.units import Degrees, Unit
 
 Families = tuple[Family[Any], ...]
@@ -23,7 +23,9 @@ class StageTable(Parameters):
         0.0,
         ge=-3600,
         le=3600,
-        description="Angle of this stage's input, as its own channels count it, when the chain begins.",
+        description="Angle of this stage's input, as its own channels count it, when the chain begins; left "
+        "out, 0, and of sectors what puts their swing into their travel.",
+        json_schema_extra=FITTED,
     )
     turned: Degrees = Field(
         0.0, ge=-360, le=360, description="By how much the stage is turned about its input's shaft."

@@ -5,7 +5,6 @@ own output; what follows here are senses and the angles at which stages are set 
 """
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.parameters import kept
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.contracts.turning import Turning
-from mechwright.mechanics.chain.links import Link, links_of, turns_of
+from mechwright.mechanics.chain.links import Link, inputs_of, links_of, turns_of
 from mechwright.mechanics.chain.params import ChainParams, Families
 
 PEAK_SAMPLES = 2881
@@ -38,21 +37,6 @@ class Run:
     links: tuple[Link, ...]
     time: Array
     inputs: tuple[Turning, ...]
-
-
-def inputs_of(links: Sequence[Link], first: Turning) -> Iterator[Turning]:
-    """The input of each stage over that of the first (n,), whose first sample is where the chain begins."""
-    drive, before = first, None
-    for link in links:
-        if before is not None and before.transmission.output is not None:
-            out = before.transmission.move(drive)
-            # Both ports are one shaft; each counts its angle in its own sense.
-            sense = float(before.transmission.output.sense * link.transmission.input.sense)
-            turned = out.scaled(sense)
-            begin = math.radians(link.table.start) - turned.theta[0]
-            drive = Turning(turned.theta + begin, turned.omega, turned.alpha, turned.jerk)
-        yield drive
-        before = link
 
 
 def run_of(links: tuple[Link, ...], samples: Samples) -> Run:

@@ -10,6 +10,7 @@ driver, driven gear
     The gear whose angle is given, and the other.
 """
 
+from mechwright.mechanics.gearing.bodies import TO_NM, body, driven_torque, turned_back
 from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
 from mechwright.mechanics.gearing.exactness import exact_fit, lever_fit
 from mechwright.mechanics.gearing.mesh import Mesh, first_depth, mesh, swing
@@ -28,6 +29,7 @@ from mechwright.mechanics.gearing.teeth import FIT, Teeth
 __all__ = [
     "FIT",
     "SIDES",
+    "TO_NM",
     "Frame",
     "Mesh",
     "MeshProof",
@@ -44,6 +46,8 @@ __all__ = [
     "SectorTeeth",
     "Shaper",
     "Teeth",
+    "body",
+    "driven_torque",
     "exact_fit",
     "first_depth",
     "gear_loop",
@@ -53,4 +57,5 @@ __all__ = [
     "sector_loop",
     "swing",
     "tip_sites",
+    "turned_back",
 ]

@@ -7,7 +7,7 @@ at every instant.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
+from mechwright.geometry import Loop, Outline
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
@@ -27,6 +27,9 @@ PLAN_CHORD = 0.05
 
 _SOME = 16
 """Every so many samples are asked first whether plates meet."""
+
+_KEPT = 64
+"""Plates whose corners are kept: designs that are tried one after the other share most."""
 
 _BEND = 1.1
 """A path between two samples is at most so much longer than its chord; an arc of 80 degrees still is."""
@@ -72,6 +75,14 @@ class Spindle:
     head: float = 0.0
 
 
+@lru_cache(_KEPT)
+def _in_plan(loop: Loop) -> Array:
+    """A loop as it is compared, (k, 2), mm; read-only."""
+    points = loop.flatten(PLAN_CHORD)
+    points.flags.writeable = False
+    return points
+
+
 @dataclass
 class _Course:
     """Where a plate is over a turn; each is worked out when it is first asked for."""
@@ -82,17 +93,30 @@ class _Course:
     @cached_property
     def points(self) -> Array:
         """Its flattened outline (k, 2) in its body, mm."""
-        return self.plate.outline.outer.flatten(PLAN_CHORD)
+        return _in_plan(self.plate.outline.outer)
 
     @cached_property
     def placed(self) -> Array:
         """The same in every pose, (n, k, 2)."""
         return _placed(self.points, self.poses)
 
+    def placed_at(self, some: "NDArray[np.intp]") -> Array:
+        """The same in some poses, (m, k, 2)."""
+        return self.placed[some] if "placed" in self.__dict__ else _placed(self.points, self.poses, some)
+
     @cached_property
     def steps(self) -> Array:
         """The farthest that any of them moves to a neighbouring sample, (n,), mm."""
         return _step(self.placed)
+
+    @cached_property
+    def most_steps(self) -> Array:
+        """No less than these, (n,), mm: the way of the circle's middle, and that of its edge about it."""
+        if len(self.middle) < 2:
+            return np.zeros(len(self.middle))
+        along, turned = np.diff(self.middle, axis=0), np.diff(self.poses.rotation[:, :2, 0], axis=0)
+        ways = np.hypot(*along.T) + self.size * np.hypot(*turned.T)
+        return _to_both_sides(_BEND * ways)
 
     @cached_property
     def shape(self) -> "shapely.Polygon":
@@ -160,44 +184,55 @@ class Closeness:
             distance = shapely.distance(self._area(one.name, start), self._area(two.name, start))
             return bool(distance.min() < self.limit)
         here, there = self.courses[one.name], self.courses[two.name]
-        moved = here.steps + there.steps
-        # Whether they are so near is known long before the distance is; below it, not at it.
-        near = np.nextafter(self.limit + moved / 2, 0.0)
         apart = np.hypot(*(here.middle - there.middle).T) - here.size - there.size
+        if not (apart <= self.limit + (here.most_steps + there.most_steps) / 2).any():
+            return False
+
+        def meet(near: Array, some: "NDArray[np.intp]") -> bool:
+            # Whether they are so near is known long before the distance is; below it, not at it.
+            below = np.nextafter(near[some], 0.0)
+            return bool(shapely.dwithin(self._area(one.name, some), self._area(two.name, some), below).any())
+
+        # What meets mostly does so for long: some samples tell it, whatever the steps between them.
+        at_least = np.full(len(apart), self.limit)
+        if meet(at_least, np.flatnonzero(apart <= self.limit)[::_SOME]):
+            return True
+        near = self.limit + (here.steps + there.steps) / 2
         asked = np.flatnonzero(apart <= near)
-        # What meets mostly does so for long: some samples tell it.
-        return any(
-            shapely.dwithin(self._area(one.name, some), self._area(two.name, some), near[some]).any()
-            for some in (asked[::_SOME], asked)
-        )
+        return meet(near, asked[::_SOME]) or meet(near, asked)
 
     def _pass(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
         import shapely
 
-        (axis, slack), course = self._axis(spindle, plate), self.courses[plate.name]
-        near = np.nextafter(self.limit + radius + slack, 0.0)
+        course, here = self.courses[plate.name], self.poses[plate.body]
+        axis, step = self._axis(spindle)
+        fixed = spindle.body == plate.body
+        if fixed:
+            axis = axis[:1]
         apart = np.hypot(*(axis - course.middle[: len(axis)]).T) - course.size
-        asked = np.flatnonzero(apart <= near)
-        # Seen from the plate, which then is one shape.
-        return any(
-            shapely.dwithin(
-                course.shape,
-                shapely.points(_seen(axis[some], self.poses[plate.body], some)),
-                near[some],
-            ).any()
-            for some in (asked[::_SOME], asked)
-        )
+        least = self.limit + radius
+        if not (apart <= least + (0.0 if fixed else (course.most_steps + step) / 2)).any():
+            return False
 
-    def _axis(self, spindle: Spindle, plate: Plate) -> tuple[Array, Array]:
-        """Places (n, 2) of a spindle, and half of its step and a plate's (n,), mm; one place in one body."""
+        def passes(near: Array, some: "NDArray[np.intp]") -> bool:
+            # Seen from the plate, which then is one shape.
+            points = shapely.points(_seen(axis[some], here, some))
+            return bool(shapely.dwithin(course.shape, points, np.nextafter(near[some], 0.0)).any())
+
+        at_least = np.full(len(axis), least)
+        if passes(at_least, np.flatnonzero(apart <= least)[::_SOME]):
+            return True
+        near = at_least if fixed else least + (course.steps + step) / 2
+        asked = np.flatnonzero(apart <= near)
+        return passes(near, asked[::_SOME]) or passes(near, asked)
+
+    def _axis(self, spindle: Spindle) -> tuple[Array, Array]:
+        """Places (n, 2) of a spindle, and its steps (n,), mm."""
         if spindle.name not in self.axes:
             centre = np.array([[spindle.centre.real, spindle.centre.imag]])
             axis = _placed(centre, self.poses[spindle.body])
             self.axes[spindle.name] = axis[:, 0], _step(axis)
-        axis, step = self.axes[spindle.name]
-        if spindle.body == plate.body:
-            return axis[:1], np.zeros(1)
-        return axis, (self.courses[plate.name].steps + step) / 2
+        return self.axes[spindle.name]
 
     def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
         """Bounds x0, y0, x1, y1, mm, of what these plates pass over; nothing outside comes too close."""
@@ -214,18 +249,18 @@ class Closeness:
         """A plate at these samples; each is made when it is first asked for."""
         import shapely
 
-        placed = self.courses[name].placed
-        areas = self.areas.setdefault(name, np.full(len(placed), None, dtype=np.object_))
+        course = self.courses[name]
+        areas = self.areas.setdefault(name, np.full(len(course.middle), None, dtype=np.object_))
         missing = samples[~shapely.is_geometry(areas[samples])]
-        areas[missing] = shapely.polygons(placed[missing])
+        areas[missing] = shapely.polygons(course.placed_at(missing))
         shapely.prepare(areas[missing])
         return areas[samples]
 
 
-def _placed(points: Array, poses: Poses) -> Array:
-    """Points (k, 2) of a body in every pose, (n, k, 2)."""
-    turned = points @ poses.rotation[:, :2, :2].transpose(0, 2, 1)
-    return np.asarray(turned + poses.position[:, None, :2], dtype=np.float64)
+def _placed(points: Array, poses: Poses, some: "NDArray[np.intp] | slice" = slice(None)) -> Array:
+    """Points (k, 2) of a body in every pose, or in some, (n, k, 2)."""
+    turned = points @ poses.rotation[some, :2, :2].transpose(0, 2, 1)
+    return np.asarray(turned + poses.position[some, None, :2], dtype=np.float64)
 
 
 def _seen(points: Array, poses: Poses, some: "NDArray[np.intp]") -> Array:
@@ -239,6 +274,10 @@ def _step(placed: Array) -> Array:
     if len(placed) < 2:
         return np.zeros(len(placed))
     ways = np.diff(placed, axis=0)
-    moved = _BEND * np.sqrt(np.einsum("nki,nki->nk", ways, ways).max(axis=1))
+    return _to_both_sides(_BEND * np.sqrt(np.einsum("nki,nki->nk", ways, ways).max(axis=1)))
+
+
+def _to_both_sides(moved: Array) -> Array:
+    """The larger of the ways (n - 1,) before and after each of n samples."""
     step: Array = np.maximum(np.append(moved, 0.0), np.append(0.0, moved))
     return step

@@ -4,12 +4,16 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
+
+_KEPT = 128
+"""Links that are kept: of designs tried one after the other most are alike."""
 
 SAME_DIRECTION = 1e-9
 """Tangents closer in direction than this, rad, are one line along three bosses of a row."""
@@ -57,6 +61,11 @@ def hull_link(bosses: Sequence[Boss]) -> Outline:
     >>> round(link.area - (20 * 10 + 25 * math.pi - 8 * math.pi), 9)
     0.0
     """
+    return _hull(tuple(bosses))
+
+
+@lru_cache(_KEPT)
+def _hull(bosses: tuple[Boss, ...]) -> Outline:
     if not bosses:
         raise GeometryError("a link needs at least one boss")
     shown = [boss for number, boss in enumerate(bosses) if not _covered(boss, number, bosses)]
@@ -160,6 +169,7 @@ def bent_link(one: Boss, two: Boss, elbow: complex, width: float, fillet: float,
     return _webbed(one, two, (elbow,), width, fillet, radius)
 
 
+@lru_cache(_KEPT)
 def _webbed(
     one: Boss, two: Boss, elbows: tuple[complex, ...], width: float, fillet: float, radius: float = 0.0
 ) -> Outline:
@@ -255,6 +265,11 @@ def rectangle(low: complex, high: complex, corner: float, holes: Sequence[Boss] 
     >>> round(rectangle(0j, 10 + 6j, 1.0).area - (60 - 4 + math.pi), 9)
     0.0
     """
+    return _rectangle(low, high, corner, tuple(holes))
+
+
+@lru_cache(_KEPT)
+def _rectangle(low: complex, high: complex, corner: float, holes: tuple[Boss, ...]) -> Outline:
     x0, y0, x1, y1 = low.real, low.imag, high.real, high.imag
     if not 0 < 2 * corner < min(x1 - x0, y1 - y0):
         raise GeometryError(

@@ -1,0 +1,92 @@
+"""Sizes that a design leaves out: they follow from its cam.
+
+The bore of a small cam and the stud of a small roller are the largest usual ones that leave walls.
+With a roller, axis and arm grow with the prime circle, and where one of them is given the other makes the
+same triangle: the arm stands next to square to the line from the cam to its roller. With a flat face the
+axis stands so near that the usual swing does not undercut the cam, and so far that it passes the lever's hub.
+"""
+
+from collections.abc import Container, Iterator
+from typing import Any, Protocol
+
+import numpy as np
+
+from mechwright_cam_follower.sized import Sized
+
+AXIS, ARM = 90 / 48, 75 / 48
+"""Of the prime circle's radius: from the cam's axis to the lever's, and from there to the roller."""
+
+SQUARE = ARM**2 + 1
+"""What the square of the axis would be, by that of the prime circle, if the arm stood square."""
+
+FLAT, BESIDE = 1.7, 1.36
+"""Least distance of the axis of a lever with a flat face: of the base circle, and of that and the face."""
+
+SHAFTS = (15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
+"""Bores, mm: the usual one, and those of smaller shafts that are sold."""
+
+STUDS = SHAFTS[3:]
+"""The same of studs of rollers."""
+
+DECIDES = {"bore": {"base_radius", "least_wall"}, "pin_diameter": {"roller_radius", "least_wall"}}
+"""Fields that are fitted, and those that they follow from."""
+
+STEPS = 2
+"""Of a millimetre: what follows is rounded to halves."""
+
+FOLLOWS = frozenset({"centre_distance", "arm_length"})
+"""Fields that follow from others where they are left out."""
+
+
+class Lever(Sized[Any], Protocol):
+    """A design, or many with columns (n, 1), and what they say of the lever."""
+
+    @property
+    def centre_distance(self) -> Any:
+        """As it is given, mm; None where it is left out."""
+
+    @property
+    def arm_length(self) -> Any:
+        """The same of the arm."""
+
+    @property
+    def least_wall(self) -> Any:
+        """Thinnest wall, mm."""
+
+
+def followed(lever: Lever, name: str) -> Any:
+    """One of the fields that follow, mm: a number, or (n, 1) of many designs.
+
+    Where no lever reaches from a given axis or arm, the field is as if neither were given.
+    """
+    if lever.contact == "flat":
+        found = np.maximum(FLAT * lever.base_radius, BESIDE * (lever.base_radius + lever.face))
+        return np.round(found * STEPS) / STEPS
+    prime = lever.base_radius + lever.value("roller_radius")
+    other = lever.arm_length if name == "centre_distance" else lever.centre_distance
+    usual = prime * (AXIS if name == "centre_distance" else ARM)
+    if other is None:
+        found = usual
+    elif name == "centre_distance":
+        found = np.sqrt((other**2 + prime**2) * AXIS**2 / SQUARE)
+    else:
+        square = other**2 * SQUARE / AXIS**2 - prime**2
+        found = np.where(square > 0, np.sqrt(np.maximum(square, 0.0)), usual)
+    return np.round(found * STEPS) / STEPS
+
+
+def fitted(lever: Lever, name: str) -> Any:
+    """The bore or the diameter of the studs, mm: (n, 1) of many designs; the usual one where none fits."""
+    sizes: tuple[float, ...] = SHAFTS if name == "bore" else STUDS
+    least = lever.base_radius - lever.least_wall
+    if name != "bore":
+        least = lever.value("roller_radius") - lever.least_wall / 2
+    return np.select([np.asarray(one <= 2 * least) for one in sizes], sizes, sizes[0])
+
+
+def left_out(given: Container[str], keyed: bool, contact: str) -> Iterator[str]:
+    """The fields that are fitted where ``given`` has them not; a keyway belongs to its bore."""
+    if "bore" not in given and not keyed:
+        yield "bore"
+    if "pin_diameter" not in given and contact == "roller":
+        yield "pin_diameter"
