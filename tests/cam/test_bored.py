@@ -80,3 +80,13 @@ def test_a_place_is_known_however_many_cuts_there_are() -> None:
     down = paths.cuts[-92:]
     assert bored(paths, paths.cuts, down, lift=0.0, radius=0.9).all()
     assert not bored(paths, paths.cuts, down, lift=-1.5, radius=0.9).any()
+
+
+def test_a_cylinder_as_wide_as_the_cutter_goes_where_its_middle_has_been_and_a_wider_one_nowhere() -> None:
+    paths = paths_of("G0 X-9\nG1 Z-3 F100\nX9\nG0 Z5\nG0 X5 Y0\nG1 Z-2\nG0 Z5\nG0 X5 Y1\nG1 Z-2")
+    down = paths.cuts[2:]
+    for radius, told in ((1.99, [True, True]), (2.01, [True, False]), (2.9, [True, False]), (3.0, [True, False]),
+                         (3.01, [False, False])):  # fmt: skip
+        assert bored(paths, paths.cuts, down, lift=0.0, radius=radius).tolist() == told, radius
+    for lift, told in ((-1.0, True), (-1.01, False)):
+        assert bored(paths, paths.cuts, down, lift=lift, radius=2.9).tolist() == [told, False]
