@@ -147,6 +147,7 @@ def test_a_bent_web_is_parallel_to_its_legs():
         (lambda: web_link(Boss(0j, 5), Boss(30 + 0j, 5), 10, 3), "below 10 mm"),
         (lambda: web_link(Boss(0j, 5), Boss(12 + 0j, 5), 4, 8), "fillets"),
         (lambda: bent_link(Boss(0j, 5), Boss(30 + 0j, 5), 15 + 5j, 6, 2, 3), "bend's radius"),
+        (lambda: bent_link(Boss(0j, 41), Boss(80 + 0j, 41), 40 - 158j, 10, 8, 20), "run into each other"),
         (lambda: bent_link(Boss(0j, 5), Boss(30 + 0j, 5), 15 + 15j, 6, 2, 30), "leg of the bent link"),
         (lambda: rectangle(0j, 10 + 4j, 2.0), "corners of 2 mm"),
     ],

@@ -43,6 +43,7 @@ class TestFourBars(DayContract):
         ({"coupler_point_x": 3, "coupler_point_y": 0, "pin_diameter": 6, "rim": 4}, "coupler_point_x"),
         ({"crank": 70, "coupler": 60, "follower": 75, "ground": 30, "frame": "one"}, "frame"),
         ({"coupler_bend": 20, "web_width": 17}, "coupler_bend"),
+        ({"coupler_bend": -158.5, "bushing_wall": 34.5}, "coupler_bend"),
         ({"coupler_point_x": 3}, "coupler_point_y"),
     )
     derivatives = (
