@@ -160,8 +160,8 @@ def web_link(one: Boss, two: Boss, width: float, fillet: float) -> Outline:
 def bent_link(one: Boss, two: Boss, elbow: complex, width: float, fillet: float, radius: float) -> Outline:
     """A link whose web goes by way of an elbow, rounded to ``radius``, mm, on the web's middle.
 
-    Raises as :func:`web_link`, and where the bend is tighter than the web is wide, or longer than its legs, or
-    where bosses, legs and fillets run into each other.
+    Raises as :func:`web_link`, and where the bend is tighter than the web is wide, or longer than its legs,
+    or where bosses, legs and fillets run into each other.
 
     >>> link = bent_link(Boss(0j, 8), Boss(60 + 0j, 8), 30 + 15j, 8, 5, 10)
     >>> 8 < link.bounds[3] < 15 + 4, round(link.bounds[1], 3)
@@ -172,8 +172,8 @@ def bent_link(one: Boss, two: Boss, elbow: complex, width: float, fillet: float,
         made.polygon()
     except GeometryError as error:
         raise GeometryError(
-            f"bosses of {2 * one.radius:g} and {2 * two.radius:g} mm, {abs(two.centre - one.centre):.4g} mm apart, "
-            "and the legs of the bent link run into each other"
+            f"bosses of {2 * one.radius:g} and {2 * two.radius:g} mm, {abs(two.centre - one.centre):.4g} mm "
+            "apart, and the legs of the bent link run into each other"
         ) from error
     return made
 
