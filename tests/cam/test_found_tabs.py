@@ -65,7 +65,8 @@ def test_without_tabs_the_part_is_loose() -> None:
 @pytest.mark.parametrize("way", [1, -1])
 def test_a_tab_goes_outwards_whichever_way_its_line_runs(x: float, y: float, way: int) -> None:
     scene = Scene(CLEAN, asked(), BY_NAME["linuxcnc"])
-    wall, (ox, oy) = shapely.box(-30.05, -20.05, 30.05, 20.05), ((x > 0) - (x < 0), (y > 0) - (y < 0))
+    ox, oy = (x > 0) - (x < 0), (y > 0) - (y < 0)
+    wall = shapely.LineString([(x, y), (x - 9 * ox, y - 9 * oy)]).buffer(20.0, cap_style="flat")
     ends = [(x - way * side * oy, y + way * side * ox) for side in (-3.0, 3.0)]
     frame = shapely.LineString([(x, y), (x + 9 * ox, y + 9 * oy)]).buffer(1.5, cap_style="flat")
     tab = module._tab(scene, wall, shapely.LineString(ends), frame)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from round_parts import laid
 from shop import MILL, plate_job
 from test_proof_parts import paths_of
 
-from mechwright.contracts.details import Thread
+from mechwright.contracts.details import Chamfer, Thread
 from mechwright.contracts.made_part import MadeRing, MadeSection
 from mechwright.contracts.part import Bore, Part, Pocket
 from mechwright.errors import ProgramError
@@ -57,12 +58,22 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
 def test_what_a_ball_cuts_into_a_fillet_is_its_nose_less_the_room() -> None:
     """A ball of 3 mm along the foot of a fillet of 4 mm: its middle is to be 4 mm off the wall, and as high."""
     (fillet,) = fillets(laid(Pocket("one", square(9.0), (), 0.0, 4.0, 4.0), tools=("ball-6",)))
-    for away, up in ((4.0, 1.0), (4.5, 0.9), (4.0, 0.99), (3.5, 1.0), (3.9, 0.9), (3.2, 0.5)):
+    for away, up in (
+        (4.0, 1.0),
+        (4.5, 0.9),
+        (4.0, 0.99),
+        (3.5, 1.0),
+        (3.9, 0.9),
+        (3.2, 0.5),
+        (3.2, 0.2),
+        (3.1, 0.3),
+        (3.5, 0.1),
+    ):
         x = 9.0 - away
-        paths = paths_of(f"G0 X{x}\nG1 Z{-4 + up} F100\nY1\nG0 Z5", BALL)
-        found = fillet.deepest(paths)
         cut = math.hypot(4.0 - away, 4.0 - up - 3.0) - 1.0 if min(4.0 - away, 1.0 - up) > 0 else 0.0
-        assert (found.depth if found else 0.0) == pytest.approx(max(cut, 0.0), abs=1e-3), (away, up)
+        for more in ("", "\nY1\nG0 Z5"):
+            found = fillet.deepest(paths_of(f"G0 X{x}\nG1 Z{-4 + up} F100{more}", BALL))
+            assert (found.depth if found else 0.0) == pytest.approx(max(cut, 0.0), abs=1e-3), (away, up)
 
 
 def test_only_below_its_thread_a_tapped_hole_may_keep_the_point_of_its_drill() -> None:
@@ -99,6 +110,14 @@ def test_what_is_handed_on_is_at_floors_tabs_corners_and_points() -> None:
             max(h, -6.0) for h in down if h < 0
         }
     assert carried._heights(paths_of("G0 Z-2\nG1 Z-1 F100", drill), job) == floors  # up, and at a rapid
+
+
+def test_floors_chamfers_and_threads_are_handed_on() -> None:
+    details = (Chamfer("rim", square(9.0), "outside", 0.4), Thread("m6", (0.0, 0.0), 6.0, 1.0, 5.0))
+    features = (Pocket("lower", square(4.0), (), 1.0, 3.0),)
+    of = SimpleNamespace(thickness=8.0, features=features, tabs=(), details=details)
+    heights = carried._heights(paths_of("G1 Z-2 F100"), of)  # type: ignore[arg-type]
+    assert heights == {-8.0, -5.0, -4.0, -0.4, -0.3, -0.2, -0.1}
 
 
 @pytest.mark.parametrize("left", [0.0, 0.02, 0.15])

@@ -94,3 +94,28 @@ def test_no_tooth_cuts_deeper_than_the_core() -> None:
     assert found[1] == pytest.approx((THREAD.diameter - THREAD.core) / 2, abs=1e-3)
     assert found[2][2] < 0
     assert math.hypot(found[2][0] - 4, found[2][1] + 3) == pytest.approx(ORBIT)
+
+
+def from_an_angle(low: float, count: int, degrees: float, x: float = 4.0, y: float = -3.0) -> str:
+    """So many turns upwards, which begin and end in a direction, and not on a whole number of pitches."""
+    i, j = ORBIT * math.cos(math.radians(degrees)), ORBIT * math.sin(math.radians(degrees))
+    turns = [f"G3 I{-i:.4f} J{-j:.4f} Z{low + PITCH * (k + 1):.4f}" for k in range(count)]
+    out = f"G1 X{x + i:.4f} Y{y + j:.4f}"
+    return "\n".join(["G0 Z5", f"G0 X{x} Y{y}", f"G1 Z{low:.4f} F100", out, *turns, f"G1 X{x} Y{y}"])
+
+
+@pytest.mark.parametrize("degrees", [40.0, 130.0, -75.0])
+def test_where_a_helix_begins_changes_nothing(degrees: float) -> None:
+    def deep(*more: str) -> float:
+        found = off_helix(paths(from_an_angle(-6.4, 5, degrees), *more), THREAD)
+        assert found is not None
+        return found[1]
+
+    assert deep() == pytest.approx(0.0, abs=2e-3)
+    assert deep(from_an_angle(-6.2, 2, degrees)) == pytest.approx(math.sqrt(3.0) * 0.2, abs=2e-3)
+    # Turned by a tenth of a turn it stands off by a tenth of the pitch.
+    assert deep(from_an_angle(-6.4, 2, degrees + 36.0)) == pytest.approx(math.sqrt(3.0) * 0.15, abs=2e-3)
+    # What is above the plate, or in another hole, is none of it.
+    assert deep(from_an_angle(0.2, 1, degrees), from_an_angle(-5.0, 2, 0.0, x=20.0)) == pytest.approx(
+        0.0, abs=2e-3
+    )
