@@ -76,6 +76,8 @@ def alike(one: Likeness, other: Likeness) -> bool:
     """
     if one.distances.keys() != other.distances.keys() or one.figures.keys() != other.figures.keys():
         return False
+    if not one.distances:  # a motion without joints and points says nothing of sizes
+        return False
     lengths = [value for value in (*one.distances.values(), *other.distances.values()) if value > NOTHING]
     near = ALIKE * min(lengths, default=0.0)
     return all(abs(value - other.distances[name]) <= near for name, value in one.distances.items()) and all(
@@ -95,7 +97,7 @@ def likeness(motion: Motion) -> Likeness:
         one.kind == "contact" or (one.kind == "gear" and one.ratio is None) for one in motion.joints.values()
     )
     turning = {name: axes[name] for name, one in held.items() if one.kind == "revolute"}
-    normal = next(iter(turning.values()))
+    normal = next(iter(turning.values()), np.array([0.0, 0.0, 1.0]))
     planar = all(
         np.abs(np.abs((axis * normal).sum(axis=1)) - 1).max() < PARALLEL for axis in turning.values()
     )
