@@ -12,7 +12,9 @@ from mechwright import Finding, GeometryError, Scalar, Severity, Stage, kept, of
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
-from mechwright.tolerances import exceeds, falls_short
+from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
+from mechwright.mechanics.strength.pressure import most_pressed, too_pressed
+from mechwright.tolerances import falls_short
 from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.joints import bosses_of
@@ -39,9 +41,6 @@ GOOD_TRANSMISSION = 40.0
 
 LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 """Degrees below which play and bending let the linkage change its branch."""
-
-BEARING_PRESSURE = 10.0
-"""N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
 
 SLOWEST = 1.0
 """rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
@@ -275,26 +274,10 @@ def _bearings_judged(params: FiveBarParams) -> Iterator[Finding]:
 
 
 def _pressed(params: FiveBarParams, peaks: Mapping[str, Scalar]) -> Iterator[Finding]:
-    widths = {"A0": params.ground_thickness, "B0": params.ground_thickness}
-    joint, pressure = max(
-        (
-            (name, peaks[f"force_{name}"].value / (params.pin_diameter * widths.get(name, params.thickness)))
-            for name in JOINTS
-        ),
-        key=lambda pair: pair[1],
-    )
-    force = peaks[f"force_{joint}"].value
-    if exceeds(pressure, BEARING_PRESSURE):
-        yield Finding.warning(
-            "five-bar.bearing-pressure",
-            "pin_diameter",
-            f"joint {joint} carries up to {force:.4g} N, {pressure:.4g} N/mm² on its bearing",
-            pressure,
-            BEARING_PRESSURE,
-            "N/mm^2",
-            "take thicker pins or plates, a smaller load or a lower speed",
-            proposed=_stronger(params, pressure / BEARING_PRESSURE),
-        )
+    widths = dict.fromkeys(JOINTS, params.thickness) | dict.fromkeys(("A0", "B0"), params.ground_thickness)
+    joint, force, pressure = most_pressed(peaks, widths, params.pin_diameter)
+    more = _stronger(params, pressure / SINTERED_PRESSURE)
+    yield from too_pressed("five-bar.bearing-pressure", joint, force, pressure, more)
     yield Finding.note(
         "five-bar.forces",
         f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; the gears put up to "

@@ -9,13 +9,13 @@ from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
 from mechwright.mechanics.strength.judging import Stress, Way, judged
+from mechwright.mechanics.strength.pressure import most_pressed, too_pressed
 from mechwright.mechanics.strength.turning_pair import (
     TurningPair,
     bush_stresses,
     eye_stresses,
     pin_stresses,
 )
-from mechwright.tolerances import exceeds
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, period_of
@@ -136,25 +136,9 @@ def bearing_findings(params: FourBarParams) -> Iterator[Finding]:
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
     if sides_of(params) == 2:
         widths["B0"] = params.ground_thickness
-    joint, pressure = max(
-        (
-            (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))
-            for joint, width in widths.items()
-        ),
-        key=lambda pair: pair[1],
-    )
-    force = peaks[f"force_{joint}"].value
-    if exceeds(pressure, SINTERED_PRESSURE):
-        yield Finding.warning(
-            "four-bar.bearing-pressure",
-            "pin_diameter",
-            f"joint {joint} carries up to {force:.4g} N, {pressure:.4g} N/mm² on its bearing",
-            pressure,
-            SINTERED_PRESSURE,
-            "N/mm^2",
-            "take thicker pins or plates, a smaller load or a lower speed",
-            proposed=_stronger(params, pressure / SINTERED_PRESSURE),
-        )
+    joint, force, pressure = most_pressed(peaks, widths, params.pin_diameter)
+    more = _stronger(params, pressure / SINTERED_PRESSURE)
+    yield from too_pressed("four-bar.bearing-pressure", joint, force, pressure, more)
     yield Finding.note(
         "four-bar.forces",
         f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to "
