@@ -26,6 +26,7 @@ from mechwright_geneva.usual import (
     SHAFT,
     cranks_of,
     dowels_of,
+    floors_of,
     loads_of,
     walls_of,
 )
@@ -87,6 +88,8 @@ def completed(common: GenevaParams, designs: Designs) -> Mechanisms | None:
     half, offset = (np.broadcast_to(np.asarray(value, dtype=float), size) for value in (half, offset))
     wheel = np.broadcast_to(wheels(table, half, offset), size)  # type: ignore[arg-type]
     columns: dict[str, Any] = {"crank_half_angle": half, "offset_angle": offset, "entry_radius": wheel}
+    if "floor" not in common.model_fields_set | varied.keys():
+        columns["floor"] = floors_of(np.asarray(table.thickness))
     if table.least_wall is None:
         columns["least_wall"] = walls_of(wheel)
     table = Table(common, varied | columns)

@@ -1,13 +1,14 @@
 """The design table of a Geneva mechanism."""
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.fits import HoleClass
 from mechwright.units import Millimetres, RevPerMin, Unit
+from mechwright_geneva.usual import FLOOR, floor_of
 
 LawName = Literal[
     "cycloidal",
@@ -123,7 +124,14 @@ class GenevaParams(Parameters):
         ),
     )
     floor: Millimetres = Field(
-        3.0, ge=0.2, le=100, description="Thickness of the floor under the grooves, or of the backing plate."
+        FLOOR,
+        ge=0.2,
+        le=100,
+        description=(
+            "Thickness of the floor under the grooves, or of the backing plate; left out, 3, or three tenths "
+            "of a wheel below 10."
+        ),
+        json_schema_extra=FITTED,
     )
     bore: Annotated[float, Field(ge=0, le=300), Unit("mm")] | None = Field(
         None,
@@ -226,6 +234,10 @@ class GenevaParams(Parameters):
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
         0.0, description="Constant torque against the wheel's turning.", json_schema_extra=FIRST
     )
+
+    def fitted(self) -> Mapping[str, Any]:
+        """The floor of a thin wheel."""
+        return {} if "floor" in self.model_fields_set else {"floor": floor_of(self.thickness)}
 
     @property
     def slots_made(self) -> Literal["through", "blind", "backed"]:

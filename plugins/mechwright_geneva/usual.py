@@ -54,6 +54,9 @@ LOAD = 0.01
 CRANK = 8.0
 """Thickness of the crank plate."""
 
+FLOOR, FLOOR_SHARE = 3.0, 0.3
+"""Thickness of the floor under the grooves, and the most of it over that of the wheel."""
+
 _WALL, _WALL_SHARE = 2.0, 1 / 35
 _DOWELS, _DOWEL_SHARE = (2.0, 4.0), 0.06
 _FINE, _DEEP = 2.0, 3.5
@@ -101,6 +104,17 @@ def cranks_of(pin: Array) -> Array:
 def crank_of(pin: float) -> float:
     """Of one."""
     return float(cranks_of(np.asarray(pin)))
+
+
+def floors_of(thickness: Array) -> Array:
+    """Floors (...): 3 mm, of thinner wheels three tenths, in tenths of a millimetre; not below 0.2 mm."""
+    share = np.floor(10 * np.minimum(FLOOR, FLOOR_SHARE * thickness) + 1e-9) / 10
+    return np.asarray(np.maximum(0.2, share))
+
+
+def floor_of(thickness: float) -> float:
+    """Of one wheel."""
+    return float(floors_of(np.asarray(thickness)))
 
 
 def loads_of(entry_radius: Array) -> Array:

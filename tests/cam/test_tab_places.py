@@ -43,6 +43,21 @@ def test_where_all_of_the_rim_is_low_the_height_is_named():
     assert prove(posted(low), low).ok
 
 
+@pytest.mark.parametrize(("deep", "height"), [(4.5, 1.0), (5.2, 0.8), (5.6, 0.4)])
+def test_tabs_whose_height_is_left_out_are_as_low_as_the_rim(deep, height):
+    face = Pocket("face", rounded_box(80, 60, 1), (), 0.0, deep)
+    low = job(part(RIM, machined=(face, Profile("outside", RIM, "outside", 0.0, 6.0))), "mill-6")
+    assert low.settings.hold.tab_height == pytest.approx(height)
+    assert {round(tab.top, 6) for tab in low.tabs} == {height - 6}
+    assert prove(posted(low), low).ok
+
+
+def test_no_tab_is_chosen_that_would_break():
+    face = Pocket("face", rounded_box(80, 60, 1), (), 0.0, 5.7)
+    with pytest.raises(DesignError, match=r"would stand up in face, which leaves 0\.3 mm"):
+        job(part(RIM, machined=(face, Profile("outside", RIM, "outside", 0.0, 6.0))), "mill-6")
+
+
 @pytest.mark.parametrize("wall", [0.2, 0.6, 2.0])
 def test_behind_a_thin_wall_tabs_end_at_its_opening(wall):
     """They reach 1 mm under the rim elsewhere; in the opening of a ring the program cuts them off rightly."""

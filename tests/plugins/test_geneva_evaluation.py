@@ -44,6 +44,10 @@ def laws(size):
 STUDIES = {
     "curved": ({}, {**ranges(48), "law": laws(48)}),
     "loaded": ({"load_torque": 2.0, "bore": 0, "rollers": 2}, ranges(24, crank_half_angle=(40, 60))),
+    "thin": (
+        {"slots": 6, "crank_half_angle": 58, "offset_angle": 10, "roller_radius": 4, "entry_radius": 100},
+        {"thickness": np.linspace(1, 14, 27)},
+    ),
     "sized": (
         {"slots": 6, "law": "3-4-5", "fixing": 0, "hub_diameter": 30},
         {"crank_half_angle": np.linspace(50, 66, 16), "offset_angle": np.linspace(8, 12, 16),

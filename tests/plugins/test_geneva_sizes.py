@@ -36,6 +36,17 @@ def check(**table):
     return GENEVA.check(GenevaParams(**table))
 
 
+@pytest.mark.parametrize(
+    ("thickness", "floor"), [(2.0, 0.6), (3.0, 0.9), (5.0, 1.5), (9.9, 2.9), (10.0, 3.0), (40.0, 3.0)]
+)
+def test_a_thin_wheel_has_a_thin_floor(thickness, floor):
+    table = GenevaParams(thickness=thickness)
+    assert table.floor == sized(table).floor == pytest.approx(floor)
+    assert table.roller_length >= 0.7 * thickness - 0.5 - 1e-9
+    assert not errors(GENEVA.check(table), Stage.PARTS)
+    assert GenevaParams(thickness=thickness, floor=1.0).floor == 1.0
+
+
 @pytest.mark.parametrize(("slots", "law"), thinned(2, [*SLOTS], [*LAWS, "straight"]))
 def test_slots_and_law_are_enough(slots, law):
     """Parts without an error, slots for a roller that is sold, a driver with a shaft."""

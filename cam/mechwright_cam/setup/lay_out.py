@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import shapely
@@ -20,6 +21,9 @@ from mechwright_cam.shop.tool import Tool, widest_mill
 
 _TALL = 0.7
 """In plates of which tabs of the usual height would take more than this share, they are half as high."""
+
+_LOWEST_TAB = 0.4
+"""No lower tab is chosen for the sake of a recess beside the outside, mm: the next vibration breaks it."""
 
 
 def _with_usual_tabs(settings: CamSettings, thickness: float) -> CamSettings:
@@ -74,7 +78,24 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
         )
     x0, y0, _, _ = placed.target.bounds
     barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
-    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred))
+    return _on_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred)
+
+
+def _on_tabs(job: Job, reach: float, below: Sequence[Feature]) -> Job:
+    """The job on its tabs: lower ones where they stand up in a recess, unless the file says their height."""
+    try:
+        return replace(job, tabs=lay_tabs(job, reach, below))
+    except DesignError:
+        hold = job.settings.hold
+        if "tab_height" in hold.model_fields_set:
+            raise
+        left = {round(job.thickness - feature.top - feature.depth, 6) for feature in job.inner}
+        for height in sorted((one for one in left if _LOWEST_TAB <= one < hold.tab_height), reverse=True):
+            lower = hold.model_copy(update={"tab_height": height})
+            other = replace(job, settings=job.settings.model_copy(update={"hold": lower}))
+            with suppress(DesignError):
+                return replace(other, tabs=lay_tabs(other, reach, below))
+        raise
 
 
 def _clamp(job: Job) -> Clamp:
