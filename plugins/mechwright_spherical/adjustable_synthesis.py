@@ -32,6 +32,7 @@ from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Fit, Freedom, Path, refine
 from mechwright_spherical.refine import errors as path_errors
 from mechwright_spherical.requirements import AdjustablePathRequirement
+from mechwright_spherical.sized import SizedParams
 
 DIGITS = 12
 """Decimals of pins in design files: 1e-12 of the radius."""
@@ -188,7 +189,7 @@ def _design(
         path_n=tuple(map(tuple, flat[count:].tolist())),
         path_angles_n=tuple(degrees_n),
     )
-    return SphericalParams(
+    return SizedParams(
         kind="five-bar",
         radius=wanted.radius,
         speed=wanted.speed,

@@ -43,6 +43,11 @@ def findings(params: SphericalParams) -> tuple[Finding, ...]:
     )
 
 
+def joined(params: SphericalParams) -> bool:
+    """Whether the linkage is one, and stays assembled over its travel."""
+    return all(one.severity is not Severity.ERROR for one in until_error(params, _pins, _assembly))
+
+
 def _pins(params: SphericalParams) -> Iterator[Finding]:
     try:
         linkage_of(params)

@@ -12,6 +12,7 @@ from mechwright_spherical.requirements import (
     FourBarPathRequirement,
     PosesRequirement,
 )
+from mechwright_spherical.sized import SizedParams
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -34,7 +35,7 @@ class Spherical(Family[SphericalParams]):
     name = "spherical"
     title = "Spherical linkages"
     summary = "Spherical four-bars, and geared five-bars, set to another path on the sphere in each phase."
-    Params = SphericalParams
+    Params = SizedParams
     batch = 1 << 16
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,

@@ -23,6 +23,7 @@ from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, MORE, S
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import FiveBarPathRequirement
+from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.stepped import NO_STEP, no_step, rounded
 from mechwright_spherical.vectors import arc, vector
 
@@ -190,7 +191,7 @@ def design(one: Drawn, wanted: FiveBarPathRequirement, room: FiveBarRoom) -> Sph
         path=tuple(_row(point) for point in targets[shown]),
         path_angles=tuple(turned[shown].round(DIGITS).tolist()),
     )
-    return SphericalParams(
+    return SizedParams(
         kind="five-bar",
         radius=wanted.radius,
         speed=wanted.speed,

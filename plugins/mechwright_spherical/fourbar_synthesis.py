@@ -23,6 +23,7 @@ from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FourBarTable, SphericalParams
 from mechwright_spherical.requirements import FourBarPathRequirement
+from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.stepped import NO_STEP, no_step, rounded
 from mechwright_spherical.vectors import vector
 
@@ -247,7 +248,7 @@ def design(
         path=tuple(map(tuple, targets[shown].round(DIGITS + 2).tolist())),
         path_angles=tuple(np.degrees(angles[shown] - angles[0]).round(DIGITS).tolist()),
     )
-    return SphericalParams(
+    return SizedParams(
         kind="four-bar",
         radius=wanted.radius,
         speed=wanted.speed,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Finding, Severity, Stage, of_stage
+from mechwright import Finding, Severity, Stage, kept, of_stage
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
@@ -19,10 +19,8 @@ from mechwright_spherical.setting_checks import slot_findings
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
 from mechwright_spherical.strips import strip_findings
+from mechwright_spherical.usual import WALL, least_boss, told
 from mechwright_spherical.vectors import arc
-
-WALL = 1.0
-"""Least material around a bore or between two, mm: less bulges when a pin goes in."""
 
 
 def clear_radius(diameter: float, angle: float) -> float:
@@ -36,9 +34,20 @@ def clear_radius(diameter: float, angle: float) -> float:
     return diameter / 2 / math.tan(angle / 2) if angle > 0 else math.inf
 
 
-@of_stage(Stage.PARTS)
 def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
-    """All of them."""
+    """All of them, and the sizes that were chosen."""
+    yield from hardware_found(params)
+    yield from told(params)
+
+
+@kept
+def hardware_found(params: SphericalParams) -> tuple[Finding, ...]:
+    """All of them, whether sizes are given or chosen."""
+    return tuple(_found(params))
+
+
+@of_stage(Stage.PARTS)
+def _found(params: SphericalParams) -> Iterator[Finding]:
     linkage, shells = linkage_of(params), shells_of(params)
     yield from _bosses(params, shells)
     yield from _shafts(params, linkage, shells)
@@ -52,7 +61,7 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
 
 def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
     hardware = params.hardware
-    least = hardware.pin_diameter + hardware.fit + 2 * WALL
+    least = least_boss(hardware.pin_diameter, hardware.fit)
     if falls_short(hardware.boss_diameter, least):
         yield Finding.error(
             "spherical.boss",
@@ -248,7 +257,7 @@ def _cone(angle: float) -> str:
 def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Finding]:
     hardware = params.hardware
     inner, _ = gear_span(params, shells, train)
-    least = hardware.pin_diameter + hardware.fit + 2 * WALL
+    least = least_boss(hardware.pin_diameter, hardware.fit)
     cones = {"pinion": train.pinion, "wheel": train.wheel}
     if train.idler_axis is not None:
         cones["idler"] = train.idler

@@ -118,10 +118,13 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
         return Turned((Step(diameter, high - low),))
 
     loose = {f"shaft-{name}" for name in hubs_of(params)}
-    for name, (span, body, _) in pin_places(params).items():
+    places = pin_places(params)
+    second = linkage_of(params).shown.number == 2
+    for name, (span, body, _) in places.items():
         if name in loose:
             continue
-        yield _solid(name, params, body, "pin", turned=turned(span))
+        shown = second if name.endswith("-n") else not (second and f"{name}-n" in places)
+        yield _solid(name, params, body, "pin", shown=shown, turned=turned(span))
     if train is not None and train.idler_axis is not None:
         yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
     yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))

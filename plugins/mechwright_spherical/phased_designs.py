@@ -15,6 +15,7 @@ from mechwright_spherical.params import (
     SphericalParams,
 )
 from mechwright_spherical.requirements import AdjustablePathRequirement
+from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.vectors import arc, azimuth, cross, dot, norm
 
 DIGITS = 12
@@ -61,7 +62,7 @@ def designs_of(
 
 
 def _design(wanted: AdjustablePathRequirement, **table: FourBarTable | FiveBarTable) -> SphericalParams:
-    return SphericalParams(
+    return SizedParams(
         kind=wanted.linkage,
         radius=wanted.radius,
         speed=wanted.speed,

@@ -45,14 +45,16 @@ def second_size(linkage: Linkage, shells: Shells) -> dict[str, float]:
 def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
     """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad.
 
-    Studs that are clamped are not among them.
+    Studs that are clamped are not among them. A link that phase 2 needs in another size brings its own pin,
+    with ``-n`` behind its name.
     """
     linkage = linkage_of(params)
-    arcs = link_arcs(linkage)
-    if linkage.shown.number == 2:
-        arcs |= second_size(linkage, shells_of(params))
+    arcs, second = link_arcs(linkage), second_size(linkage, shells_of(params))
     pins = {"a": ("a", "crank", arcs["crank"]), "c": ("c", "rocker", arcs["rocker"])}
     found = {f"pin-{name}": pin for name, pin in pins.items() if name not in clamped(params)}
+    found |= {
+        f"{name}-n": (span, link, second[link]) for name, (span, link, _) in found.items() if link in second
+    }
     found |= {
         "shaft-a0": ("a0", "crank", 0.0),
         "shaft-b0": ("b0", "arm" if "arm" in arcs else "rocker", 0.0),

@@ -17,6 +17,7 @@ from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.mobility import input_ways, mobility
 from mechwright_spherical.params import FourBarTable, SphericalParams
 from mechwright_spherical.requirements import PosesRequirement
+from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.vectors import arc, azimuth, cross, dot, norm, vector
 
 DIGITS = 12
@@ -182,7 +183,7 @@ def design(linkage: Carrying, wanted: PosesRequirement) -> SphericalParams:
         path=tuple(map(tuple, places.T.round(DIGITS).tolist())),
         path_angles=tuple(np.degrees(theta - theta[0]).round(DIGITS).tolist()),
     )
-    return SphericalParams(
+    return SizedParams(
         kind="four-bar",
         radius=wanted.radius,
         speed=wanted.speed,

@@ -31,7 +31,7 @@ class TestSpherical(DayContract):
         {**FOUR_BAR, "stand": {"arc": 80, "motor_flange": 56, "screw": 5.5}},
     )
     refused: ClassVar = (
-        ({"radius": 40}, "radius"),
+        ({"radius": 10}, "radius"),
         ({"five_bar": {"travel": -190}}, "five_bar.travel"),
         ({"five_bar": {"start": 60}}, "five_bar.travel"),
         ({"five_bar": {"a1": [0.0, 0.0004]}}, "five_bar.a1"),
@@ -46,9 +46,9 @@ class TestSpherical(DayContract):
         ({**FOUR_BAR, "drive": {"gears": False}, "flat": {"make": False}}, "drive"),
         ({"path_tolerance": 1}, "path_tolerance"),
         ({"hardware": {"frame": "two"}}, "hardware.frame"),
-        ({"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
+        ({"hardware": {"boss_diameter": 7, "pin_diameter": 6}}, "hardware.boss_diameter"),
         ({**FOUR_BAR, "four_bar": {"point_azimuth": 0, "point_elevation": 0}}, "four_bar.point_azimuth"),
-        ({"hardware": {"gap": 0.1}}, "hardware.gap"),
+        ({"hardware": {"gap": 0.1, "boss_diameter": 12}}, "hardware.gap"),
         ({"hardware": {"boss_diameter": 24, "gap": 3}}, "hardware.boss_diameter"),
         ({"stand": {"arc": 8}}, "stand.arc"),
         ({"stand": {"screw": 20}}, "stand.screw"),

@@ -105,7 +105,7 @@ def test_a_path_point_out_of_reach_leaves_the_motion():
     assert motion.scalars["path_error_max"].value > 0
 
 
-@pytest.mark.parametrize(("kind", "radius"), [("four-bar", 5), ("five-bar", 5), ("five-bar", 10)])
+@pytest.mark.parametrize(("kind", "radius"), [("five-bar", 5), ("five-bar", 10)])
 def test_a_small_sphere_forbids_parts_alone(kind, radius):
     design = Spherical().Params(kind=kind, radius=radius)
     found = errors(Spherical().check(design))

@@ -28,6 +28,7 @@ CRANKS = {
     "four_bar__output": (45, 85),
     "four_bar__ground": (70, 110),
 }
+SMALL = {name: (low / 4, high / 4) for name, (low, high) in CRANKS.items()}
 ANY = dict.fromkeys(CRANKS, (0, 180))
 ONE = {"hardware": {"frame": "one"}}
 
@@ -48,6 +49,19 @@ def test_sizes_of_links_and_stand(flat):
     found = MANY.same(batch, ["alpha_psi.greatest"], Stage.PARTS)
     assert {"spherical.boss", "spherical.gap", "spherical.stand"} <= set(found.counts)
     assert ("spherical.strip" in found.counts) == bool(flat)
+    assert not MANY.alone
+
+
+@pytest.mark.parametrize("given", [{}, {"hardware": {"pin_diameter": 3}}, {"hardware": {"boss_diameter": 9}}])
+def test_small_spheres_have_small_pins(given):
+    hardware = {**ONE["hardware"], **given.get("hardware", {})}
+    batch = MANY.drawn(
+        40, {"hardware": hardware}, **SMALL, radius=(6, 60), hardware__standoff=(0, 4), stand__arc=(40, 75),
+        hardware__fit=(0, 0.8), four_bar__point_azimuth=(-90, 90),
+    )  # fmt: skip
+    found = MANY.same(batch, ["alpha_psi.greatest"], Stage.PARTS)
+    assert "spherical.clearance" in found.counts or "spherical.shafts" in found.counts
+    assert 0 in found.forbidden
     assert not MANY.alone
 
 

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity, errors
+from mechwright_cad.solids.tessellate import mesh_of
 from mechwright_spherical import links, solids
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import external, internal, train_of
@@ -20,6 +21,7 @@ from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
 from mechwright_spherical.seats import clamp_of
+from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.vectors import arc, dot, rotate, vector
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -196,6 +198,30 @@ def test_slots_let_their_pins_through(name):
                 assert screw.intersect(coupler).Volume() < 1e-6
             thick = solids.cylinder(at, span, params.hardware.pin_diameter)
             assert thick.intersect(coupler).Volume() > 1
+
+
+def test_a_rocker_of_the_second_phase_brings_its_own_pin():
+    """Pins that no screw clamps are pressed into their link, and so are exchanged with it."""
+    one = SizedParams(radius=40)
+    two = in_phase(one, 2)
+    assert clamp_of(one) is None
+    shown = [{part.name for part in FAMILY.parts(params) if part.instances} for params in (one, two)]
+    assert {"rocker", "pin-c"} <= shown[0]
+    assert {"rocker-n", "pin-c-n"} <= shown[1]
+    assert not {"rocker-n", "pin-c-n"} & shown[0]
+    assert not {"rocker", "pin-c"} & shown[1]
+    for own in ("", "-n"):
+        pin, rocker = (links.solid(two, f"{name}{own}") for name in ("pin-c", "rocker"))
+        assert pin.intersect(rocker).Volume() < 1e-6
+    assert links.solid(two, "pin-c").intersect(links.solid(two, "rocker-n")).Volume() > 1e-3
+
+
+def test_a_face_narrower_than_the_chord_is_divided_more_finely():
+    coupler = links.solid(SizedParams(radius=40), "coupler")
+    mesh = mesh_of(coupler, ruled=False, tolerance=0.1)
+    corners = mesh.points[mesh.triangles]
+    volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert volume == pytest.approx(coupler.Volume(), rel=0.01)
 
 
 def test_pins_fit_their_bores_and_nothing_else_is_there():

@@ -25,6 +25,9 @@ ANGULAR = 0.4
 WELD = 1e-5
 """Corners of neighbouring faces closer than this are one corner, mm; the kernel computes them twice."""
 
+FINER = (1, 4, 16, 64)
+"""Parts of the tolerance that are tried where a face gets no triangle."""
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -76,9 +79,13 @@ def triangle_count(shape: cq.Shape) -> int:
 def mesh_of(solid: cq.Solid, *, ruled: bool, tolerance: float = LINEAR) -> Mesh:
     """Triangulate a solid within ``tolerance``, mm, and join the faces' triangles along the edges.
 
-    Raises GeometryError where the triangles leave a hole.
+    A face narrower than the tolerance may get no triangle: such a solid is triangulated more finely. Raises
+    GeometryError where that does not help, or the triangles leave a hole.
     """
-    triangulate(solid.wrapped, tolerance, ruled=ruled)
+    for finer in FINER:
+        triangulate(solid.wrapped, tolerance / finer, ruled=ruled)
+        if all(_divided(face) for face in solid.Faces()):
+            break
     points: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, ...]] = []
     for face in solid.Faces():
@@ -97,6 +104,10 @@ def mesh_of(solid: cq.Solid, *, ruled: bool, tolerance: float = LINEAR) -> Mesh:
             triangles += [(a + first, b + first, c + first) for a, b, c in corners]
     forget(solid.wrapped)
     return _closed(*_weld(np.array(points), np.array(triangles, dtype=np.int64)))
+
+
+def _divided(face: cq.Face) -> bool:
+    return BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) is not None
 
 
 def _weld(points: Array, triangles: NDArray[np.int64]) -> tuple[Array, NDArray[np.int64]]:

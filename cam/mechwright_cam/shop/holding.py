@@ -80,7 +80,7 @@ class Hold(Parameters):
         1.0,
         gt=0,
         le=20,
-        description="Height of a tab above the underside; left out, less in a thin plate and beside a recess.",
+        description="Height of a tab above the underside; left out, less in thin plates and beside recesses.",
     )
     tab_shape: Literal["rectangular", "ramped"] = Field(
         "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."

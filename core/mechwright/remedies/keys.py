@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, reduce
 from typing import Any
 
 from pydantic import BaseModel
@@ -88,7 +88,7 @@ class Key:
 def keys_of(design: Design) -> dict[str, Key]:
     """Every key of the tables of a design, by its path, in the order of the tables' fields."""
     found = [
-        _as_fitted(design, key, table)
+        _as_fitted(design, key, path, table)
         for path, table in design.own_tables.items()
         for key in _keys(type(table), path)
     ]
@@ -104,12 +104,17 @@ def keys_of(design: Design) -> dict[str, Key]:
     return {key.path: _as_lent(design, key, lent) for key in found}
 
 
-def _as_fitted(design: Design, key: Key, table: BaseModel) -> Key:
+def _as_fitted(design: Design, key: Key, path: str, table: BaseModel) -> Key:
     """A key with the default that follows from the others; what would follow in its place is not known."""
     if not key.fitted:
         return key
     said = key.stands_in(design.content)
-    return replace(key, default=None if said else getattr(table, key.path.rpartition(".")[2]))
+    return replace(key, default=None if said else _value(table, key.path.removeprefix(f"{path}.")))
+
+
+def _value(table: Any, path: str) -> Any:
+    """What stands in a table, or in a table of it."""
+    return reduce(getattr, path.split("."), table)
 
 
 def _as_lent(design: Design, key: Key, lent: Iterable[tuple[str, str, Mapping[str, Any]]]) -> Key:

@@ -1,0 +1,63 @@
+"""The design table with pins, bosses and links that have room, where it leaves them out."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+
+from mechwright import MechwrightError, Severity
+from mechwright_spherical.hardware import HardwareTable
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.usual import CURED, NAMES, Sizes, candidates, left_out
+
+
+class SizedParams(SphericalParams):
+    """A spherical four-bar, or an adjustable spherical five-bar, and its links.
+
+    Examples
+    --------
+    >>> SizedParams(radius=40).hardware.pin_diameter
+    4.0
+    """
+
+    def fitted(self) -> Mapping[str, Any]:
+        """Sizes that have room on a small sphere."""
+        hardware = _fitted(self)
+        return {} if hardware is None else {"hardware": hardware}
+
+
+def _fitted(params: SphericalParams) -> HardwareTable | None:
+    """The table ``hardware`` with sizes that cure what is found; None for the table as it is."""
+    own = params.hardware
+    out = left_out(own)
+    if not out:
+        return None
+    given = {name: getattr(own, name) for name in NAMES if name not in out}
+    tried: set[Sizes] = set()
+    for one in candidates(given, own.fit):
+        sizes = Sizes(*(float(getattr(one, name)) for name in NAMES))
+        if sizes in tried:
+            continue
+        table = _with(own, {name: getattr(sizes, name) for name in out})
+        wrong = _wrong(params.model_copy(update={"hardware": table}))
+        if not wrong:
+            return table if tried else None
+        if not tried and not wrong <= CURED:
+            return None
+        tried.add(sizes)
+    return None
+
+
+def _with(own: HardwareTable, sizes: Mapping[str, float]) -> HardwareTable:
+    """A table with other sizes, which still count as left out."""
+    return HardwareTable.model_construct(_fields_set=set(own.model_fields_set), **{**dict(own), **sizes})
+
+
+def _wrong(params: SphericalParams) -> frozenset[str]:
+    """The errors of the links; of a linkage that cannot be joined there is nothing to say."""
+    from mechwright_spherical.checks import joined
+    from mechwright_spherical.hardware_checks import hardware_found
+
+    with suppress(MechwrightError):
+        if joined(params):
+            return frozenset(one.code for one in hardware_found(params) if one.severity is Severity.ERROR)
+    return frozenset({"spherical.assembly"})

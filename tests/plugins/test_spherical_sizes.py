@@ -1,0 +1,67 @@
+"""Pins, bosses and links that a design leaves out have room; what it gives stays."""
+
+import pytest
+
+from mechwright import Stage
+from mechwright.contracts.finding import errors
+from mechwright_spherical.family import Spherical
+from mechwright_spherical.sized import SizedParams
+from mechwright_spherical.usual import NAMES, USUAL, least_boss
+
+FAMILY = Spherical()
+
+
+def sizes(params):
+    return tuple(getattr(params.hardware, name) for name in NAMES)
+
+
+def test_the_usual_sizes_are_the_defaults():
+    assert sizes(SizedParams()) == tuple(getattr(USUAL, name) for name in NAMES)
+    assert sizes(SizedParams(kind="four-bar")) == sizes(SizedParams())
+
+
+@pytest.mark.parametrize(
+    ("table", "pin"),
+    [
+        ({"radius": 62}, 6.0),
+        ({"radius": 60}, 5.0),
+        ({"radius": 40}, 4.0),
+        ({"radius": 30}, 3.0),
+        ({"radius": 25}, 2.5),
+        ({"five_bar": {"projection_length": 8}}, 5.0),
+        ({"five_bar": {"projection_length": 12.5}}, 3.0),
+    ],
+)
+def test_a_small_machine_has_the_largest_pins_that_have_room(table, pin):
+    params = SizedParams(**table)
+    assert params.hardware.pin_diameter == pin
+    assert not errors(FAMILY.check(params), Stage.PARTS)
+    noted = [one.message for one in FAMILY.check(params) if one.code == "spherical.sizes"]
+    assert [f"pin_diameter = {pin:g}" in one for one in noted] == [True] * (pin != 6.0)
+    larger = next((x for x in (6.0, 5.0, 4.0, 3.0) if x > pin and x - pin <= 1), None)
+    if larger:
+        thick = SizedParams(**table, hardware={"pin_diameter": larger, "boss_diameter": 2 * larger})
+        assert errors(FAMILY.check(thick), Stage.PARTS)
+
+
+def test_what_is_given_stays():
+    given = SizedParams(radius=60, hardware={"boss_diameter": 8})
+    assert given.hardware.boss_diameter == 8
+    assert given.hardware.pin_diameter <= 6
+    thick = SizedParams(kind="four-bar", hardware={"pin_diameter": 11})
+    assert thick.hardware.pin_diameter == 11
+    assert thick.hardware.boss_diameter >= least_boss(11, thick.hardware.fit)
+    assert not errors(FAMILY.check(thick), Stage.PARTS)
+    refused = SizedParams(radius=40, hardware={"pin_diameter": 6, "boss_diameter": 12, "link_width": 8})
+    assert sizes(refused) == (6, 12, 8)
+    assert errors(FAMILY.check(refused), Stage.PARTS)
+
+
+def test_where_no_sizes_have_room_they_are_the_usual_ones():
+    assert sizes(SizedParams(radius=10)) == sizes(SizedParams())
+
+
+def test_sizes_that_were_chosen_count_as_left_out():
+    params = SizedParams(radius=40)
+    assert not params.hardware.model_fields_set
+    assert SizedParams(**params.model_dump(exclude_unset=True)) == params
