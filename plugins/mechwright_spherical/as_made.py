@@ -9,8 +9,9 @@ from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors, room_figure
 from mechwright_spherical.flat import strip
 from mechwright_spherical.frame import ground_arcs, shells_of
+from mechwright_spherical.hardware import FlatTable
 from mechwright_spherical.linkage import Linkage, linkage_of
-from mechwright_spherical.params import FlatTable, SphericalParams
+from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import link_arcs, second_size
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.tolerances import ANGLE, POINT, SphericalTolerances

@@ -12,8 +12,8 @@ import numpy as np
 
 from mechwright import Array
 from mechwright_spherical.chain import third_position
+from mechwright_spherical.hardware import DriveTable
 from mechwright_spherical.linkage import Linkage
-from mechwright_spherical.params import DriveTable
 from mechwright_spherical.vectors import arc
 
 

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from mechwright import Arc, Line, Loop, Outline, Segment, circle
-from mechwright_spherical.params import FlatTable
+from mechwright_spherical.hardware import FlatTable
 
 SHARPEST = math.radians(60)
 """Largest angle of one bend: with more, facets of a usual radius grow longer than the link is worth."""

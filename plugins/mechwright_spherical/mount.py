@@ -18,8 +18,9 @@ from mechwright.standards.couplings import BORES, couplings
 from mechwright.standards.screws import screw_sizes
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.frame import motor_opposite, shells_of
+from mechwright_spherical.hardware import StandTable
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams, StandTable
+from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_span
 from mechwright_spherical.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.stand import FLANGE_SCREWS, MOUNTING_SCREWS

@@ -6,8 +6,8 @@ import numpy as np
 
 from mechwright import Arc, Array, Line, Loop, Outline, Segment, circle
 from mechwright_spherical.chain import orientation
+from mechwright_spherical.hardware import StandTable
 from mechwright_spherical.linkage import Linkage
-from mechwright_spherical.params import StandTable
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.vectors import vector
 

@@ -17,8 +17,9 @@ from mechwright_spherical.drive import external, internal, train_of
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.frame import shells_of
+from mechwright_spherical.hardware import FlatTable
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import FlatTable, SphericalParams
+from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
 from mechwright_spherical.seats import clamp_of
 from mechwright_spherical.sized import SizedParams
