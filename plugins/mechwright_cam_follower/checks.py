@@ -5,6 +5,7 @@ Each group needs what the groups before it have found to be sound.
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from mechwright import Finding, Severity, Stage, at_stage, kept, material, until_error
 from mechwright.contracts.finding import errors
@@ -20,6 +21,7 @@ from mechwright_cam_follower.extremes import (
     regular_limit,
     weakest_of,
 )
+from mechwright_cam_follower.gentler import gentler
 from mechwright_cam_follower.loads import preload_needed, rate_needed, spring_of
 from mechwright_cam_follower.motion import loaded
 from mechwright_cam_follower.params import CamParams
@@ -32,7 +34,8 @@ def findings(params: CamParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design."""
     found = closure_findings(params)
     if errors(found):
-        return found
+        more = () if params.translating else gentler(params)
+        return tuple(replace(one, proposed=(*one.proposed, *more)) for one in found)
     return (*found, *at_stage(Stage.PARTS, until_error(params, _undercut, wall_findings, _pressed, _figures)))
 
 
@@ -70,7 +73,7 @@ def _undercut(params: CamParams) -> Iterator[Finding]:
             limit,
             "" if roller else "mm",
             f"set {' or '.join(said)}" if said else "use longer angles, or smaller lifts",
-            proposed=tuple({f"parameters.{key}": value} for key, value in cures),
+            proposed=tuple({f"parameters.{key}": value} for key, value in cures) or gentler(params),
         )
         return
 
@@ -104,7 +107,8 @@ def _pressure_angle(params: CamParams) -> Iterator[Finding]:
             f"set {' or '.join(said)}"
             if said
             else "use longer angles, smaller lifts, or another place of the follower",
-            proposed=tuple({f"parameters.{key}": value} for key, value in cures),
+            proposed=tuple({f"parameters.{key}": value} for key, value in cures)
+            or gentler(params, steep=True),
         )
         return
 

@@ -27,7 +27,7 @@ def sound(params: CamParams, *, steep: bool) -> bool:
         return False
     for second in cams_of(params):
         found = extremes_of(params, second)
-        if found.regular.value < regular_limit(params):
+        if not found.regular.value >= regular_limit(params):  # nor where it is no number
             return False
         if steep and math.degrees(found.pressure.value) > params.steepest:
             return False

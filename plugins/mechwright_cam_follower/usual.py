@@ -2,8 +2,9 @@
 
 The bore of a small cam and the stud of a small roller are the largest usual ones that leave walls.
 With a roller, axis and arm grow with the prime circle, and where one of them is given the other makes the
-same triangle: the arm stands next to square to the line from the cam to its roller. With a flat face the
-axis stands so near that the usual swing does not undercut the cam, and so far that it passes the lever's hub.
+same triangle: the arm stands next to square to the line from the cam to its roller; for a long swing it is
+shorter, and the axis farther away. With a flat face the axis stands so near that the usual swing does not
+undercut the cam, and so far that it passes the lever's hub.
 """
 
 from collections.abc import Container, Iterator
@@ -16,8 +17,9 @@ from mechwright_cam_follower.sized import Sized
 AXIS, ARM = 90 / 48, 75 / 48
 """Of the prime circle's radius: from the cam's axis to the lever's, and from there to the roller."""
 
-SQUARE = ARM**2 + 1
-"""What the square of the axis would be, by that of the prime circle, if the arm stood square."""
+WIDE, WIDE_AXIS, WIDE_ARM = 26.0, 1.8, 1.2
+"""Degrees of swing above which the arm is shorter and the axis farther away, and both ratios then: the lever
+keeps off the cam and its pressure angle below 35 degrees up to 40 degrees over 120 of the cam."""
 
 FLAT, BESIDE = 1.7, 1.36
 """Least distance of the axis of a lever with a flat face: of the base circle, and of that and the face."""
@@ -63,15 +65,17 @@ def followed(lever: Lever, name: str) -> Any:
         found = np.maximum(FLAT * lever.base_radius, BESIDE * (lever.base_radius + lever.face))
         return np.round(found * STEPS) / STEPS
     prime = lever.base_radius + lever.value("roller_radius")
+    axis, arm = (AXIS, ARM) if lever.stroke <= WIDE else (WIDE_AXIS, WIDE_ARM)
+    square = arm**2 + 1  # that of the axis, by that of the prime circle, if the arm stood square
     other = lever.arm_length if name == "centre_distance" else lever.centre_distance
-    usual = prime * (AXIS if name == "centre_distance" else ARM)
+    usual = prime * (axis if name == "centre_distance" else arm)
     if other is None:
         found = usual
     elif name == "centre_distance":
-        found = np.sqrt((other**2 + prime**2) * AXIS**2 / SQUARE)
+        found = np.sqrt((other**2 + prime**2) * axis**2 / square)
     else:
-        square = other**2 * SQUARE / AXIS**2 - prime**2
-        found = np.where(square > 0, np.sqrt(np.maximum(square, 0.0)), usual)
+        left = other**2 * square / axis**2 - prime**2
+        found = np.where(left > 0, np.sqrt(np.maximum(left, 0.0)), usual)
     return np.round(found * STEPS) / STEPS
 
 

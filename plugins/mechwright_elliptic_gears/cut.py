@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from mechwright import TOLERANCES, Finding
-from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, ring_of
+from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, larger_teeth, ring_of
 from mechwright_elliptic_gears.gear import outline_of
 from mechwright_elliptic_gears.gear_parts import gears_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -24,11 +24,12 @@ def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]
         if one in gears and other in gears:
             found.append(_pair(params, cut[gears[one].name], cut[gears[other].name]))
     for gear in dict.fromkeys(gears.values()):
-        found += cut_opening(params, gear.key, cut[gear.name])
+        found += cut_opening(params, gear.key, cut[gear.name], params.thickness)
     return tuple(dict.fromkeys(found))  # both pairs of a train have the same to say
 
 
 def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Polygon") -> Finding:
     deviation = outline_of(params).deviation
     allowance = 2 * (deviation + TOLERANCES.flatten)
-    return cut_mesh(prove_outlines(params, ring_of(one), allowance, ring_of(other)), params.thickness)
+    proof = prove_outlines(params, ring_of(one), allowance, ring_of(other))
+    return cut_mesh(proof, params.thickness, larger_teeth(params.module, params.teeth))

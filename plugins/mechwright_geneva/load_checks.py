@@ -44,8 +44,9 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
     if exceeds(own.a, straight.a):
         half = math.ceil(10 * math.degrees(m.crank_half * math.sqrt(own.a / straight.a))) / 10
         longer = f"make crank_half_angle at least {half:g}, " if _turns_by(m, math.radians(half)) else ""
-        yield Finding.warning(
+        yield Finding(
             "geneva.acceleration",
+            Severity.WARNING if m.params.model_fields_set & {"law", "crank_half_angle"} else Severity.NOTE,
             "law",
             f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against "
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",

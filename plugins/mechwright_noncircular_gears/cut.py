@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from mechwright import TOLERANCES, Finding
-from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, hole_of, ring_of
+from mechwright.mechanics.gearing.cut import cut_mesh, cut_opening, hole_of, larger_teeth, ring_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.proof import prove_outlines
@@ -21,9 +21,10 @@ def cut_findings(params: NoncircularParams, cut: "Mapping[str, shapely.Polygon]"
         one, two = (ring_of(cut[name]) for name in NAMES)
         if params.internal:
             two = hole_of(cut[NAMES[1]])
-        found.append(cut_mesh(prove_outlines(params, one, two, allowance), params.thickness))
+        larger = larger_teeth(params.module, params.teeth, params.lobes)
+        found.append(cut_mesh(prove_outlines(params, one, two, allowance), params.thickness, larger))
     key = 0.0 if params.keyway_width > 0 else None
     for name in NAMES[: 1 if params.internal else 2]:
         if name in cut:
-            found += cut_opening(params, key, cut[name])
+            found += cut_opening(params, key, cut[name], params.thickness)
     return tuple(dict.fromkeys(found))

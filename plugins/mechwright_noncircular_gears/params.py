@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from mechwright import FIRST, MaterialName, Parameters
+from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
@@ -238,7 +238,11 @@ class NoncircularParams(Parameters):
     thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
-        10.0, ge=0, le=300, description="Diameter of both shaft bores; 0 for none.", json_schema_extra=FIRST
+        10.0,
+        ge=0,
+        le=300,
+        description="Diameter of both shaft bores, 0 for none; left out, 10, or what a frame or a chain asks for.",
+        json_schema_extra=FIRST | FITTED,
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."

@@ -1,10 +1,9 @@
 """A plate part from a DXF drawing of anybody, for the proof of a program against it."""
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from mechwright.contracts.part import Part
+from mechwright.contracts.part import Part, name_from
 from mechwright.designs.files import read_bytes
 from mechwright.drawings.asked import Asked
 from mechwright.drawings.fault import Fault
@@ -35,7 +34,7 @@ def read_drawing(
     named = tuple((name, "through") for name in layers)
     asked = Asked(units=units or "drawing", layers=named, only=bool(named))
     drawn = read(read_bytes(path), asked, Meaning("through"))
-    name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())[:40].strip("-") or "part"
+    name = name_from(path.stem, "part")
     part = part_of(drawn, asked, Cut(name, thickness, material))
     if part is None:
         raise DesignError(_said(path, drawn.told.faults[0]))

@@ -2,6 +2,7 @@
 
 import math
 from bisect import bisect_left
+from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 
@@ -29,6 +30,8 @@ HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 INSCRIBED = 0.01
 """How far the largest circle in an opening may be off, mm."""
+MATERIALS = 2
+"""So many materials that the mills at hand cut are named where they do not cut the part's."""
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
@@ -64,7 +67,9 @@ def usable_mills(
     material = job.part.material
     knows = [tool for tool in job.mills if material in tool.cutting]
     if not knows:
-        cure = "give one its cutting_speed and chip_load in [cam.cutting.NAME]"
+        others = Counter(other for tool in job.mills for other in tool.cutting)
+        instead = "".join(f', or use material = "{other}"' for other, _ in others.most_common(MATERIALS))
+        cure = f"give one its cutting_speed and chip_load in [cam.cutting.NAME]{instead}"
         what = f"none has cutting data for {material}; {cure}" if job.mills else "there is none"
         raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
     through = depth >= job.thickness - TOLERANCES.noise

@@ -1,6 +1,7 @@
 """From a design to jobs: its plates, nested where that is wanted, with cutters, stock and holding."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import shapely
 
@@ -24,6 +25,10 @@ from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.table import settings_of
+
+FINER = (1.0, 0.5)
+"""Finest mills for corners, mm, that are tried where the design says none and with the usual one the parts as
+cut do not go together, one after the other."""
 
 
 def plates(parts: Sequence[Part]) -> list[Part]:
@@ -74,12 +79,36 @@ def prepare(
     each part, with one more where the underside is milled as well; fewer if a finding is an error.
     """
     assignments = assignments or Assignments()
-    library, shop = library_of(design), shop_of(design)
+    library = library_of(design)
     cut = cut_plates(design, parts, library, assignments)
+    findings, jobs = _laid(design, cut, library, assignments, None)
+    for finest in FINER:
+        left = _left_in_corners(findings)
+        if left and any(finest < _finest(design, part) for part in cut):
+            found, laid = _laid(design, cut, library, assignments, finest)
+            if len(_left_in_corners(found)) < len(left):
+                said = f"{left[0].message}; {_chosen(jobs, laid)}"
+                found.append(Finding("cam.corner-mill", Severity.NOTE, "cam.corner_mill", said))
+                findings, jobs = found, laid
+    if all(FINER[-1] < _finest(design, part) for part in cut):
+        findings = [_without_mills(one) for one in findings]  # they have been tried
+    return at_stage(Stage.MACHINING, findings), jobs
+
+
+def _laid(
+    design: Design, cut: Sequence[Part], library: Library, assignments: Assignments, finest: float | None
+) -> tuple[list[Finding], list[Job]]:
+    """The jobs of plates, and all that is found of them, with ``finest`` as the finest mill for corners.
+
+    None leaves it to the design, and so does a part for which the design says one.
+    """
+    shop = shop_of(design)
     findings: list[Finding] = [*_incomplete(library, design)]
     jobs: list[Job] = []
     for part in cut:
         cam = settings_of(design).of(part.name)
+        if finest is not None and finest < _finest(design, part):
+            cam = cam.model_copy(update={"corner_mill": finest})
         own = library.cutting(cam.cutting).measured(cam.measured.lengths)
         laid, found = lay_out_setups(part, cam, own, assignments)
         if shop is not None and laid and not errors(found):
@@ -101,7 +130,33 @@ def prepare(
         findings = judged_together(findings, _used(jobs, assignments))
         findings += _as_cut(design, tops, assignments)
         findings += _unused_data(design, jobs)
-    return at_stage(Stage.MACHINING, findings), jobs
+    return findings, jobs
+
+
+def _finest(design: Design, part: Part) -> float:
+    """The finest mill that may be chosen for corners of a part, mm; 0 where the design says it."""
+    cam = settings_of(design).of(part.name)
+    return 0.0 if cam.tools or "corner_mill" in cam.model_fields_set else cam.corner_mill
+
+
+def _left_in_corners(findings: Sequence[Finding]) -> list[Finding]:
+    """The errors that a finer mill may cure."""
+    return [one for one in errors(findings) if any("cam.corner_mill" in change for change in one.proposed)]
+
+
+def _without_mills(finding: Finding) -> Finding:
+    """A finding without the proposals of finer mills."""
+    return replace(
+        finding, proposed=tuple(change for change in finding.proposed if "cam.corner_mill" not in change)
+    )
+
+
+def _chosen(before: Sequence[Job], after: Sequence[Job]) -> str:
+    """Which mills were chosen for the sake of corners."""
+    known = {mill.name for job in before for mill in job.mills}
+    new = {mill.name: mill.diameter for job in after for mill in job.mills if mill.name not in known}
+    names = sorted(new, key=lambda name: -new[name])
+    return f"so {' and '.join(names)} {'is' if len(names) == 1 else 'are'} taken for their corners"
 
 
 def worn(jobs: Sequence[Job]) -> Iterator[Finding]:

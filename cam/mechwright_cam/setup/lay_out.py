@@ -9,6 +9,7 @@ import shapely
 
 from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.errors import DesignError
+from mechwright.geometry.segments import Point
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.holding import Clamp, ToeClamp
 from mechwright_cam.setup.job import PEELED, Job
@@ -24,6 +25,9 @@ _TALL = 0.7
 
 _LOWEST_TAB = 0.4
 """No lower tab is chosen for the sake of a recess beside the outside, mm: the next vibration breaks it."""
+
+CLAMP_RIM = 1.0
+"""A clamp that the program chooses lies at least so wide on the part around its opening, mm."""
 
 
 def _with_usual_tabs(settings: CamSettings, thickness: float) -> CamSettings:
@@ -110,15 +114,25 @@ def _clamp(job: Job) -> Clamp:
             f'cam.hold.method: part {job.part.name} has no bore to be held by; use method = "tabs"'
         )
     hold = job.settings.hold
-    return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
+    wide = hold.clamp_diameter
+    if "clamp_diameter" not in hold.model_fields_set:
+        opening = 2 * shapely.distance(shapely.Point(centre), job.target.boundary)
+        fits = math.floor(10 * _widest_clamp(job, centre)) / 10
+        wide = min(wide, max(fits, float(opening) + 2 * CLAMP_RIM))
+    return Clamp(centre, wide, hold.clamp_height)
+
+
+def _widest_clamp(job: Job, centre: Point) -> float:
+    """The widest clamp that keeps off the outside, mm."""
+    reach = shapely.distance(shapely.Point(centre), job.target.exterior)
+    return math.floor(200 * (float(reach) - CLAMP_GAP)) / 100
 
 
 def check_clamp(job: Job) -> None:
     """Raise DesignError if the clamp comes too near to the outside."""
     if job.clamp is None:
         return
-    reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
-    limit = math.floor(200 * (float(reach) - CLAMP_GAP)) / 100
+    limit = _widest_clamp(job, job.clamp.centre)
     if job.clamp.diameter > limit:
         raise DesignError(
             f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "

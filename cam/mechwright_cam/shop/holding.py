@@ -90,7 +90,12 @@ class Hold(Parameters):
         "planned",
         description="Whether the proof asks for the planned tabs, or judges those it finds by their size.",
     )
-    clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
+    clamp_diameter: Millimetres = Field(
+        20.0,
+        gt=0,
+        le=300,
+        description="Largest diameter of the bore clamp; left out, less on a part that has no room for it.",
+    )
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."
     )

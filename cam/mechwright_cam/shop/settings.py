@@ -162,7 +162,11 @@ class CamSettings(Parameters):
         description="By so much D may differ from the planned one, up or down, as a radius.",
     )
     corner_mill: Millimetres = Field(
-        2.0, ge=0.1, le=20, description="No smaller end mill is chosen for the sake of sharp inside corners."
+        2.0,
+        ge=0.1,
+        le=20,
+        description="No smaller end mill is chosen for the sake of sharp inside corners; left out, one of 1 or "
+        "0.5 is where the parts as cut would not go together.",
     )
     chip_thinning: bool = Field(
         True, description="Raise the feed where a small engagement makes chips thinner than planned."

@@ -29,6 +29,8 @@ NAME_PATTERN = r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?"
 """What can be a file name anywhere."""
 
 _NAME = re.compile(NAME_PATTERN)
+_OTHER = re.compile(r"[^a-z0-9_]+")
+_LONGEST = 64
 
 
 def check_name(name: str, what: str = "name") -> str:
@@ -43,6 +45,15 @@ def check_name(name: str, what: str = "name") -> str:
             "a letter or digit at both ends"
         )
     return name
+
+
+def name_from(text: str, usual: str) -> str:
+    """The name that is next to a text, such as the stem of a file; ``usual`` where nothing of it may stand.
+
+    >>> name_from("Pair m0.5 (steel)", "design"), name_from("\u9f7f", "design")
+    ('pair-m0-5-steel', 'design')
+    """
+    return _OTHER.sub("-", text.lower())[:_LONGEST].strip("-_") or usual
 
 
 @dataclass(frozen=True)

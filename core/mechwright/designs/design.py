@@ -24,7 +24,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Part, check_name
+from mechwright.contracts.part import Part, check_name, name_from
 from mechwright.contracts.table import Table
 from mechwright.designs.chains import STAGE, chain_of, chain_params, stage_schema
 from mechwright.designs.change import changed
@@ -301,7 +301,7 @@ def read_name(content: Mapping[str, Any], path: Path, keys: tuple[str, ...]) -> 
     layout = content.get("format", FORMAT)
     if type(layout) is not int or layout != FORMAT:  # true and 1.0 equal 1
         raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
-    name = content.get("name", path.stem)
+    name = content.get("name", name_from(path.stem, "design"))
     if not isinstance(name, str):
         raise DesignError(f"{path}: name: {name!r} is no text")
     try:

@@ -49,6 +49,9 @@ class _Open(Protocol):
 
 D = TypeVar("D", bound=_Open)
 
+CHAIN = "chain."
+"""How the codes of findings begin that are about what joins stages."""
+
 
 def settled(design: D) -> D:
     """The design with the keys that its frame or its chain wants and its file leaves out.
@@ -77,22 +80,31 @@ def _stands(design: _Open, reader: Table[Any]) -> bool:
 
 
 def _better(design: D) -> Iterator[D]:
-    """The designs that an error is gone with and that differ in nothing that the file says."""
+    """The designs that an error is gone with and that differ in nothing that the file says.
+
+    Those with which nothing is left of its kind for the same key come first; of a frame, which has several
+    screws, another place may be left.
+    """
     for finding in _wishes(design):
+        changed: list[D] = []
         for change in finding.proposed:
             if not change or not all(_open(key, design) for key in change):
                 continue
             with suppress(MechwrightError):
                 other = design.choosing(change)
-                if all((one.code, one.message) != (finding.code, finding.message) for one in _wishes(other)):
+                left = [one for one in _wishes(other) if one.code == finding.code]
+                if all(one.parameter != finding.parameter for one in left):
                     yield other
+                elif not finding.code.startswith(CHAIN) and all(one.message != finding.message for one in left):
+                    changed.append(other)
+        yield from changed
 
 
 def _wishes(design: _Open) -> list[Finding]:
     """The errors of what joins stages or stands around a mechanism, where it has none of its own."""
     found: Iterable[Finding] = design.family.judge(design.params)
     if isinstance(design.family, Chain):
-        return [one for one in found if one.severity is Severity.ERROR and one.code.startswith("chain.")]
+        return [one for one in found if one.severity is Severity.ERROR and one.code.startswith(CHAIN)]
     own = tuple(found)
     if errors(own, Stage.PARTS):
         return []

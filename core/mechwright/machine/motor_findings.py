@@ -33,8 +33,8 @@ def motor_findings(
         heavier = [
             one for one in stronger(drive, settings) if one.ratio is None or one.ratio <= INERTIA_RATIO
         ]
-        proposed: list[Change] = [{"machine.motor": one.motor.name} for one in heavier[:1]]
-        proposed.append({"machine.gear": gear})
+        proposed: list[Change] = [{"machine.gear": gear}]
+        proposed += [{"machine.motor": one.motor.name} for one in heavier[:1]]
         yield Finding.warning(
             "machine.inertia",
             "machine.motor",
@@ -42,7 +42,7 @@ def motor_findings(
             f"{INERTIA_RATIO:g}",
             choice.ratio,
             INERTIA_RATIO,
-            remedy=f"take a motor with a heavier rotor, or gear it down to {gear:g}",
+            remedy=f"gear it down to {gear:g}, or take a motor with a heavier rotor",
             proposed=tuple(proposed),
         )
     yield from _manners(drive, choice)
@@ -81,8 +81,6 @@ def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Cho
         words.append(what)
         proposed.append(change)
 
-    for one in stronger(drive, settings)[:1]:
-        advise(f"take {one.motor.name}", {"machine.motor": one.motor.name})
     geared = geared_down(drive, settings)
     if geared is not None:
         advise(f"gear it down to {geared:g}", {"machine.gear": geared})
@@ -93,6 +91,8 @@ def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Cho
     elif (part := carried(drive, settings, choice.motor)) is not None:
         load = _below(part * settings.load)
         advise(f"load it by no more than {load:g} N·m", {"machine.load": load})
+    for one in stronger(drive, settings)[:1]:  # the motor that is named is at hand
+        advise(f"take {one.motor.name}", {"machine.motor": one.motor.name})
     if not words:
         words.append("lighten what it carries, or take a motor that is not in these tables")
     return Finding.error(

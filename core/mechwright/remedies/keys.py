@@ -47,6 +47,8 @@ class Key:
         Whether its default follows from other keys: it is what follows now, None where the file says it.
     lender
         The table that lends the default, such as ``"shop"``; empty where none does.
+    usual
+        The table's own default of a key that is lent one; None where the program has none.
     """
 
     path: str
@@ -60,6 +62,7 @@ class Key:
     given: bool = False
     fitted: bool = False
     lender: str = ""
+    usual: Any = None
 
     @property
     def name(self) -> str:
@@ -126,7 +129,7 @@ def _as_lent(design: Design, key: Key, lent: Iterable[tuple[str, str, Mapping[st
         over = next((one.laid_over(own, keys) for one in design.readers if one.name == name), own)
         stands, value = found_at({name: over}, key.path)
         if stands:
-            return replace(key, default=value, lender=lender)
+            return replace(key, default=value, lender=lender, usual=key.default)
     return key
 
 

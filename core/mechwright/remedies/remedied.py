@@ -14,6 +14,7 @@ from mechwright.remedies.search import (
     Worth,
     best_step,
     path_of,
+    proposals,
     proposed_step,
     refined,
     related,
@@ -24,6 +25,10 @@ from mechwright.remedies.search import (
 from mechwright.remedies.words import said
 
 NOT_ENOUGH = "that was tried, and is not enough by itself"
+
+FOLLOWED = 3
+"""Proposals of an inspection that are followed one after the other, each of what the one before brings to
+light."""
 
 CHECKED = Limits()
 """For what is refused."""
@@ -127,14 +132,38 @@ def with_proposed(bench: Bench, finding: Finding) -> Finding:
     own = bench.keys.get(path_of(bench, finding.parameter))
     said_so = list(advised(words, own, bench.keys))
     measured, before = unnamed(bench, finding, {}), errors([finding])
-    proposed = [written(bench, one, {}) for one in (*finding.proposed, *measured, *said_so)]
+    proposed = [written(bench, one, {}) for one in (*proposals(bench, finding), *measured, *said_so)]
     change = next((one for one in proposed if worth(bench, finding, before, one) <= Worth.HELPS), None)
+    if change is None and before:
+        change = next(filter(None, (_followed(bench, finding, one) for one in proposed)), None)
     if change is not None:
         fixed = replace(finding, fix=change, remedy=said(bench, change))
         return replace(fixed, message=message) if message else fixed
     if (measured or said_so) and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
+
+
+def _followed(bench: Bench, finding: Finding, change: Change) -> Change | None:
+    """A proposal with what the errors propose that it brings to light, with which none of these is left.
+
+    A part too small for tabs is held in another way, and only then it is seen that no mill reaches its corners.
+    """
+    before = bench.errors({}) or []
+    for _ in range(FOLLOWED):
+        worthy = worth(bench, finding, before, change)
+        if worthy <= Worth.HELPS:
+            return change
+        if worthy is Worth.USELESS:
+            return None
+        stood = {identity(one) for one in before}
+        left = bench.errors(change) or []
+        target = next(one for one in left if identity(one) not in stood)
+        step = proposed_step(bench, target, change, left)
+        if step is None:
+            return None
+        change = step.change
+    return None
 
 
 def _grave(finding: Finding) -> bool:
@@ -149,7 +178,7 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
     best = best_step(bench, judged, {}, before)
     if best is None or best.worth > Worth.HELPS:
         return None
-    if best.change in [written(bench, one, {}) for one in finding.proposed]:
+    if best.change in [written(bench, one, {}) for one in proposals(bench, finding)]:
         return best.change
     return refined(bench, judged, before, best.change)
 

@@ -102,19 +102,40 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
 def proposed_step(bench: Bench, finding: Finding, decided: Change, before: list[Finding]) -> Step | None:
     """The first change that does most against a finding, of those that it and others like it propose."""
     alike = [bench.told(one, decided) for one in before if identity(one) == identity(finding)]
-    proposed = [
-        step
-        for proposal in _proposals(bench, alike or [bench.told(finding, decided)], decided)
-        if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
-    ]
-    return min(proposed, key=lambda step: step.worth, default=None)
+    best = None
+    for proposal in _proposals(bench, alike or [bench.told(finding, decided)], decided):
+        step = _step(bench, finding, decided, before, written(bench, proposal, decided))
+        if step is not None and (best is None or step.worth < best.worth):
+            best = step
+        if best is not None and best.worth is Worth.BUILDS:
+            break
+    return best
 
 
 def _proposals(bench: Bench, findings: Sequence[Finding], decided: Change) -> list[Change]:
     """What findings that say the same of several parts propose: what is enough for all is the farthest."""
-    each = [[*one.proposed, *unnamed(bench, one, decided)] for one in findings]
+    each = [[*proposals(bench, one), *unnamed(bench, one, decided)] for one in findings]
     ranks = ([one for one in rank if one is not None] for rank in zip_longest(*each))
     return [one for rank in ranks for one in sorted(rank, key=bench.size, reverse=True)]
+
+
+def proposals(bench: Bench, finding: Finding) -> list[Change]:
+    """What a finding proposes.
+
+    A key that is left out for the program to choose, and that another table lends, is left out or set to the
+    program's choice: what is lent may be what stands in the way.
+    """
+    found: list[Change] = []
+    for change in finding.proposed:
+        own = {path: _unlent(bench, path) if value is None else value for path, value in change.items()}
+        found += [change] if own == change else [change, own]
+    return found
+
+
+def _unlent(bench: Bench, path: str) -> Any:
+    """What a key is left out to: None, or the program's own choice where another table lends one."""
+    key = bench.keys.get(path)
+    return key.usual if key is not None and key.lender else None
 
 
 def unnamed(bench: Bench, finding: Finding, decided: Change) -> list[Change]:

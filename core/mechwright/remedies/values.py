@@ -33,11 +33,13 @@ def round_to(value: float, digits: int = _DIGITS) -> float:
 def ladder(key: Key, now: Any) -> list[Any]:
     """Other values of a key, the nearest first, up and down in turns; then its default.
 
+    There are none of a list that people set first: to leave out what was asked for is no remedy.
+
     >>> ladder(Key("parameters.teeth", "integer", 6, 40, default=25), 9)
     [10, 8, 11, 7, 12, 6, 14, 17, 22, 30, 40, 25]
     """
     if key.kind == "other":
-        return [] if isinstance(key.default, list | dict) else [key.default]
+        return [] if key.first or isinstance(key.default, list | dict) else [key.default]
     if not key.numeric:
         values: list[Any] = [choice for choice in key.choices if choice is not None]
     elif now is None:

@@ -130,13 +130,22 @@ def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Ite
                 stage=Stage.PARTS,
             )
         elif isinstance(above.mounting, GroundPlate):
-            yield from _on_stub(lower, after, above.mounting)
+            yield from _on_stub(place, lower, after, above.mounting)
 
 
-def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
+def _alike(before: Placed, lower: Seat, after: Placed, plate: GroundPlate) -> list[tuple[str, float]]:
+    """Keys of a hub and of the shaft in it, with the diameter of the other; one that is left out comes first."""
+    number, key = after.link.number, plate.diameter_key.removeprefix("parameters.")
+    ways = [(before.link, lower.key, plate.diameter), (after.link, key_of(number, key), lower.hub.bore)]
+    said = [name.rpartition(".")[2] in link.params.model_fields_set for link, name, _ in ways]
+    return [(name, size) for _, (_, name, size) in sorted(zip(said, ways, strict=True), key=lambda way: way[0])]
+
+
+def _on_stub(before: Placed, lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
     """The hub on the shaft's end below a ground plate."""
     number, end = after.link.number, plate.end + after.level
     if abs(lower.hub.bore - plate.diameter) > _SAME:
+        alike = _alike(before, lower, after, plate)
         yield Finding.error(
             "chain.bore",
             lower.key,
@@ -145,9 +154,9 @@ def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding
             lower.hub.bore,
             plate.diameter,
             "mm",
-            f"make both alike: {lower.key} = {plate.diameter:g}",
+            f"make both alike: {' or '.join(f'{key} = {size:g}' for key, size in alike)}",
             Stage.PARTS,
-            ({lower.key: plate.diameter},),
+            tuple({key: size} for key, size in alike),
         )
     if end > lower.low + _SAME:
         yield Finding.error(

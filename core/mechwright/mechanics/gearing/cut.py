@@ -1,6 +1,6 @@
 """What the chosen cutters leave of gears: whether a pair still meshes, and whether a key goes in."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +21,7 @@ takes up more."""
 _SMALLER: tuple[Change, ...] = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5}, {"cam.tools": None})
 """Lets smaller end mills be chosen, for the fillets, or all of the library."""
 
-_THINNER = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2)
+_THINNER = (0.9, 0.8, 0.6, 0.4, 0.25)
 """Shares of the face width that are proposed where no smaller end mill helps: their flutes are short."""
 
 RELIEF = 0.7
@@ -32,6 +32,25 @@ TRIED = 3
 
 _MILLS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.6, 1.2, 1.0)
 """Diameters of common end mills, mm, which a relief in the corners of a keyway may have."""
+
+
+_LARGER = (1.25, 1.6, 2.0)
+"""How many times as large teeth are proposed where no smaller end mill helps at any face width."""
+
+_WITH_LARGER = (1.0, 0.9, 0.6, 0.36)
+"""Shares of the face width that are proposed together with larger teeth, or with reliefs of a keyway."""
+
+
+def larger_teeth(module: float | None, teeth: int, divisor: int = 1) -> Iterator[Change]:
+    """Changes with which the teeth of a gear are larger: its module, or fewer of them where it has none, mm.
+
+    Their number stays a multiple of ``divisor``.
+    """
+    for ratio in _LARGER:
+        if module is not None:
+            yield {"parameters.module": round(ratio * module, 3)}
+        elif (fewer := int(teeth / ratio / divisor) * divisor) > 0:
+            yield {"parameters.teeth": fewer}
 
 
 def ring_of(polygon: "shapely.Polygon") -> Array:
@@ -53,8 +72,11 @@ def hole_of(polygon: "shapely.Polygon") -> Array:
     return np.empty((0, 2))
 
 
-def cut_mesh(proof: MeshProof, thickness: float) -> Finding:
-    """What the mesh proof of two outlines as cut says; ``thickness`` is the face width, mm."""
+def cut_mesh(proof: MeshProof, thickness: float, larger: Iterable[Change] = ()) -> Finding:
+    """What the mesh proof of two outlines as cut says; ``thickness`` is the face width, mm.
+
+    ``larger`` are changes with which the teeth are larger.
+    """
     depth, overlap = float(proof.mesh.depth.max()), proof.mesh.overlap
     if proof.collides:
         return Finding.error(
@@ -65,8 +87,16 @@ def cut_mesh(proof: MeshProof, thickness: float) -> Finding:
             depth,
             proof.allowance,
             "mm",
-            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through",
-            proposed=(*_SMALLER, *({"parameters.thickness": share * thickness} for share in _THINNER)),
+            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through, or larger teeth",
+            proposed=(
+                *_SMALLER,
+                *({"parameters.thickness": share * thickness} for share in _THINNER),
+                *(
+                    change if share == 1 else {**change, "parameters.thickness": share * thickness}
+                    for change in larger
+                    for share in _WITH_LARGER
+                ),
+            ),
         )
     return Finding.note(
         "gear.cut-mesh",
@@ -76,8 +106,13 @@ def cut_mesh(proof: MeshProof, thickness: float) -> Finding:
     )
 
 
-def cut_opening(table: Keyed, key: float | None, cut: "shapely.Polygon") -> Iterator[Finding]:
-    """Whether the bore is cut, and the key goes in that stands in direction ``key``, rad; None without."""
+def cut_opening(
+    table: Keyed, key: float | None, cut: "shapely.Polygon", thickness: float
+) -> Iterator[Finding]:
+    """Whether the bore is cut, and the key goes in that stands in direction ``key``, rad; None without.
+
+    ``thickness`` is the face width, mm.
+    """
     import shapely
 
     opening = opening_of(table)
@@ -104,6 +139,9 @@ def cut_opening(table: Keyed, key: float | None, cut: "shapely.Polygon") -> Iter
     outside = shapely.difference(section, hole)
     corners = shapely.get_coordinates(outside)
     depth = float(np.max(shapely.distance(hole, shapely.points(corners)), initial=0.0))
+    fitting = [size for size in _MILLS if size <= RELIEF * table.keyway_width][:TRIED]
+    reliefs = [{"parameters.keyway_relief": size} for size in fitting]
+    thinner = [{"parameters.thickness": share * thickness} for share in _WITH_LARGER if share < 1]
     if depth > KEY_FIT:
         yield Finding.error(
             "gear.cut-key",
@@ -114,7 +152,5 @@ def cut_opening(table: Keyed, key: float | None, cut: "shapely.Polygon") -> Iter
             KEY_FIT,
             "mm",
             "set keyway_relief to the diameter of an end mill that cuts the keyway, or add a smaller one",
-            proposed=tuple(
-                {"parameters.keyway_relief": size} for size in _MILLS if size <= RELIEF * table.keyway_width
-            )[:TRIED],
+            proposed=(*reliefs, *({**one, **thin} for thin in thinner for one in reliefs)),
         )
