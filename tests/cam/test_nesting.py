@@ -27,7 +27,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
+from mechwright_cam.planning.nesting import _open, arranged, channel_of, nest_of
 from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, prepare
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
@@ -265,6 +265,16 @@ def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel)
     many = nest_of("nest", [box("link", 60, 24, 200)], CamSettings(machine=machine, stock={}), 16.0)
     x0, y0, x1, y1 = many.outline.bounds
     assert max(x1 - x0, y1 - y0) < 2 * max(travel)
+
+
+@pytest.mark.parametrize("count", [2, 3, 5])
+@pytest.mark.parametrize("turn", [False, True])
+def test_alike_parts_lie_in_one_row_where_the_machine_has_room_for_no_other(count, turn):
+    """Plates of 60 x 40 mm, 8 mm apart, with 8 mm beside them: in a row either way."""
+    wide, high = count * 68.0, count * 48.0
+    for room in ((wide, 48.0), (68.0, high)):
+        found = _open([(60.0, 40.0)] * count, 8.0, turn, room)
+        assert (found.width + 8.0, found.height + 8.0) == pytest.approx(room, abs=1e-6)
 
 
 def test_a_nest_of_parts_that_cannot_be_cut_says_why(tmp_path):

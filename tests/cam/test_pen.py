@@ -1,6 +1,7 @@
 """How a cutter goes down along a circle, and which narrow places it clears with which path."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -55,6 +56,23 @@ def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
     whole = [0.0, *(move.z for move in turns(pen) if move.z is not None)][::pieces]
     assert len(whole) - 1 == count + 1
     assert max(one - two for one, two in pairwise(whole)) < most
+
+
+@pytest.mark.parametrize("angle", [1.0, 3.0, 8.0])
+def test_a_way_down_is_fed_between_a_cut_and_a_ramp_as_it_is_steep(angle):
+    """Of 0 a cut's feed, from the ramp's own slope on, 3 degrees at most, the ramp's, and evenly between them."""
+    ramp = 333.0
+    pen = Pen(
+        LIBRARY.get("mill-6"), replace(RATES, ramp=ramp), 10.0, math.tan(math.radians(angle))
+    )
+    steep, full = math.tan(math.radians(min(angle, 3.0))), ramp / 0.5
+    for share in (0.0, 0.25, 0.6, 0.95):
+        wanted = full + (ramp - full) * share
+        assert pen.ramp_feed(share * steep * 40.0, 40.0) == pytest.approx(wanted, abs=5.0)
+    assert pen.ramp_feed(-1.0, 40.0) == pytest.approx(full, abs=5.0)
+    steepest = {pen.ramp_feed(share * steep * 40.0, 40.0) for share in (1.0, 1.5, 20.0)}
+    assert len({*steepest, pen.ramp_feed(1.0, 0.0)}) == 1  # not another one beyond the steepest
+    assert ramp <= steepest.pop() <= ramp + 5.0
 
 
 class Cuts:
