@@ -15,8 +15,9 @@ from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.operations.layer import NEARLY, Layer
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import Rates
-from mechwright_cam.plane.path import circle
-from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.operations.runs import Cavity, Run, write_levels
+from mechwright_cam.plane.path import circle, polyline
+from mechwright_cam.program.moves import Feed, FeedArc, Rapid
 from mechwright_cam.shop.settings import CamSettings
 
 RATES = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
@@ -119,3 +120,20 @@ def test_a_coarse_path_through_narrow_places_is_run_where_it_takes_nearly_all(co
     layer.rough_heavy(LIBRARY.get("mill-6"))
     assert len(layer.ran) == passes
     assert layer.stock == pytest.approx(left)
+
+
+@pytest.mark.parametrize("cleared", [True, False])
+@pytest.mark.parametrize("back", [True, False])
+def test_with_a_way_back_the_cutter_stays_in_its_cavity_from_level_to_level(back, cleared):
+    """Two runs at three levels: it comes to the first from above, and later at depth, at the feed for air if it may."""
+    first, second = (polyline([(0.0, y), (20.0, y)]) for y in (0.0, 3.0))
+    runs = (Run(first, open=True, linked=False), Run(second, open=True, linked=True))
+    pen = Pen(LIBRARY.get("mill-6"), RATES, 10.0, math.tan(math.radians(3)))
+    write_levels(pen, Cavity(shapely.box(0, 0, 20, 3), runs, back, cleared), 0.0, [-1.0, -2.0, -3.0], thinning=False)
+    lifts = [move for move in pen.moves if isinstance(move, Rapid) and move.z == 10.0 and move.x is None]
+    assert len(lifts) == (0 if back else 2)
+    returns = [m for m in pen.moves if isinstance(m, Feed) and (m.x, m.y) == (0.0, 0.0)]
+    assert [move.feed for move in returns] == ([pen.air if cleared else RATES.feed] * 2 if back else [])
+    assert [m.z for m in pen.moves if isinstance(m, Feed) and m.x is None] == (
+        [-1.0, -2.0, -3.0]
+    )
