@@ -29,7 +29,9 @@ def ramped(name: str) -> float:
 @pytest.mark.parametrize(
     ("width", "name"), [(15.0, "mill-10"), (9.0, "mill-6"), (4.5, "mill-3"), (4.0, "mill-3")]
 )
-def test_an_opening_takes_a_ramp_of_the_largest_mill_with_room_or_of_the_finest(width: float, name: str) -> None:
+def test_an_opening_takes_a_ramp_of_the_largest_mill_with_room_or_of_the_finest(
+    width: float, name: str
+) -> None:
     assert opened(width, *MILLS) == pytest.approx(ramped(name), rel=1e-6)
 
 

@@ -63,9 +63,7 @@ def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
 def test_a_way_down_is_fed_between_a_cut_and_a_ramp_as_it_is_steep(angle):
     """Of 0 a cut's feed, from the ramp's own slope on, 3 degrees at most, the ramp's, and evenly between them."""
     ramp = 333.0
-    pen = Pen(
-        LIBRARY.get("mill-6"), replace(RATES, ramp=ramp), 10.0, math.tan(math.radians(angle))
-    )
+    pen = Pen(LIBRARY.get("mill-6"), replace(RATES, ramp=ramp), 10.0, math.tan(math.radians(angle)))
     steep, full = math.tan(math.radians(min(angle, 3.0))), ramp / 0.5
     for share in (0.0, 0.25, 0.6, 0.95):
         wanted = full + (ramp - full) * share
@@ -129,11 +127,11 @@ def test_with_a_way_back_the_cutter_stays_in_its_cavity_from_level_to_level(back
     first, second = (polyline([(0.0, y), (20.0, y)]) for y in (0.0, 3.0))
     runs = (Run(first, open=True, linked=False), Run(second, open=True, linked=True))
     pen = Pen(LIBRARY.get("mill-6"), RATES, 10.0, math.tan(math.radians(3)))
-    write_levels(pen, Cavity(shapely.box(0, 0, 20, 3), runs, back, cleared), 0.0, [-1.0, -2.0, -3.0], thinning=False)
+    write_levels(
+        pen, Cavity(shapely.box(0, 0, 20, 3), runs, back, cleared), 0.0, [-1.0, -2.0, -3.0], thinning=False
+    )
     lifts = [move for move in pen.moves if isinstance(move, Rapid) and move.z == 10.0 and move.x is None]
     assert len(lifts) == (0 if back else 2)
     returns = [m for m in pen.moves if isinstance(m, Feed) and (m.x, m.y) == (0.0, 0.0)]
     assert [move.feed for move in returns] == ([pen.air if cleared else RATES.feed] * 2 if back else [])
-    assert [m.z for m in pen.moves if isinstance(m, Feed) and m.x is None] == (
-        [-1.0, -2.0, -3.0]
-    )
+    assert [m.z for m in pen.moves if isinstance(m, Feed) and m.x is None] == ([-1.0, -2.0, -3.0])
