@@ -26,8 +26,8 @@ from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
-from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.nesting import _open, arranged, channel_of, nest_of
+from mechwright_cam.planning import choose_tools, nesting
+from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
 from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, prepare
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
@@ -273,7 +273,7 @@ def test_alike_parts_lie_in_one_row_where_the_machine_has_room_for_no_other(coun
     """Plates of 60 x 40 mm, 8 mm apart, with 8 mm beside them: in a row either way."""
     wide, high = count * 68.0, count * 48.0
     for room in ((wide, 48.0), (68.0, high)):
-        found = _open([(60.0, 40.0)] * count, 8.0, turn, room)
+        found = nesting._open([(60.0, 40.0)] * count, 8.0, turn, room)
         assert (found.width + 8.0, found.height + 8.0) == pytest.approx(room, abs=1e-6)
 
 

@@ -15,8 +15,9 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import check_rules
 
 from mechwright.contracts.part import Pocket, Profile
+from mechwright_cam.operations import engagement
 from mechwright_cam.operations.clearing import COARSE_FROM
-from mechwright_cam.operations.engagement import BENDS, _Clearing, clear, straight_layer
+from mechwright_cam.operations.engagement import BENDS, clear, straight_layer
 from mechwright_cam.operations.engagement import engagements as planned
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import FeedArc
@@ -48,7 +49,7 @@ def test_engagement_on_a_straight_front_is_the_closed_form():
 @pytest.mark.parametrize("radius", [1.0, 4.0])
 def test_what_is_worth_a_pass_goes_with_the_size_of_the_cutter(radius):
     """Squares of 0.02 radii squared and more; the cutter stands at the origin, and the nearest comes last."""
-    clearing = _Clearing(shapely.box(-50, -50, 50, 50), radius, math.radians(60), True)
+    clearing = engagement._Clearing(shapely.box(-50, -50, 50, 50), radius, math.radians(60), True)
     clearing.end = (0.0, 0.0)
 
     def square(area, x):
@@ -65,7 +66,7 @@ def test_what_is_worth_a_pass_goes_with_the_size_of_the_cutter(radius):
 def test_a_layer_in_a_round_hole_engages_the_cutter_as_asked(angle, hole):
     """Of all the angle 85 % of the layer, for the spiral leans outwards: circles of hole and cutter cross there."""
     radius, turn = 4.0, math.radians(angle)
-    layer = _Clearing(BOX, radius, turn, True)._ring_layer(hole)
+    layer = engagement._Clearing(BOX, radius, turn, True)._ring_layer(hole)
     away = hole + layer / 0.85 - radius
     crossing = complex(away + radius * math.cos(turn), radius * math.sin(turn))
     assert abs(crossing) == pytest.approx(hole, rel=1e-9) or layer == pytest.approx(0.03 * radius)

@@ -7,10 +7,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright_cam.plane import runs
 from mechwright_cam.plane.arcfit import fit, fit_all
 from mechwright_cam.plane.offsets import grow, rings
 from mechwright_cam.plane.path import Path, arc, circle, line, polyline
-from mechwright_cam.plane.runs import GREATEST_RADIUS, LONGEST_TURN, _chain
+from mechwright_cam.plane.runs import GREATEST_RADIUS, LONGEST_TURN
 
 
 def wavy(n, teeth, depth, radius=40.0):
@@ -246,9 +247,9 @@ def test_a_way_is_divided_into_the_fewest_runs_and_goes_on_along_an_arc_where_tw
         by = 1 + least(by_line[here])[0], per_arc + least(by_arc[here])[0]
         return (by[0], False) if by_line[here] == by_arc[here] or by[0] < by[1] else (by[1], True)
 
-    nodes, lines = _chain(np.array(by_line), np.array(by_arc), per_arc)
+    nodes, lines = runs._chain(np.array(by_line), np.array(by_arc), per_arc)
     assert (nodes[0], nodes[-1]) == (0, last)
-    assert sum(1 if line else per_arc for line in lines) == least(0)[0]
-    for (here, there), line in zip(pairwise(nodes.tolist()), lines.tolist(), strict=True):
-        assert line != least(here)[1]
-        assert there == (by_line if line else by_arc)[here]
+    assert sum(1 if straight else per_arc for straight in lines) == least(0)[0]
+    for (here, there), straight in zip(pairwise(nodes.tolist()), lines.tolist(), strict=True):
+        assert straight != least(here)[1]
+        assert there == (by_line if straight else by_arc)[here]
