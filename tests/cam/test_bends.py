@@ -1,11 +1,13 @@
-"""Two arcs between two headings: they leave and arrive as asked, touch each other, and are real pieces."""
+"""Arcs between two headings, into round walls and in corners: in line where they meet, and real pieces."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mechwright_cam.plane import contour
 from mechwright_cam.plane.bends import Bend, biarc
 from mechwright_cam.plane.leads import half_circles
 from mechwright_cam.plane.path import circle
@@ -74,3 +76,18 @@ def test_a_round_wall_is_come_to_and_left_on_half_circles(climb: bool) -> None:
         assert cut.turn == turn.cuts[0].turn
         assert math.dist((cut.cx, cut.cy), middle) == pytest.approx(radius / 2, abs=2e-4)
         assert math.dist((cut.cx, cut.cy), turn.start) == pytest.approx(radius / 2, abs=2e-4)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("before", [0, 1])
+def test_every_slight_inside_corner_of_an_open_contour_is_rounded(side: int, before: int) -> None:
+    """The first as well as one behind a piece that goes straight on; outside corners stay."""
+    start = [Bend((-20.0 * k, 0.0), (-20.0 * (k - 1), 0.0)) for k in range(before, 0, -1)]
+    bent = [Bend((0.0, 0.0), (20.0, 0.0)), Bend((20.0, 0.0), (40.0, 0.4 * side))]
+    found = contour._filleted([*start, *bent], closed=False, side=side, tolerance=0.002)
+    assert len(found) == before + 4
+    for one, two in pairwise(found):
+        assert one.end == two.start
+        assert apart(one.heading(one.end), two.heading(two.start)) < 1e-6
+    outside = contour._filleted([*start, *bent], closed=False, side=-side, tolerance=0.002)
+    assert outside == [*start, *bent]
