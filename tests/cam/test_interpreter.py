@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import Kind, modes
+from mechwright_cam.controls.reading import Kind, State, modes
 from mechwright_cam.controls.reading.motions import MOST_TURNS
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
@@ -66,6 +66,32 @@ def test_an_arc_has_so_many_turns_at_most() -> None:
     for turns in (0, most + 1):
         with pytest.raises(ProgramError, match=rf"^line 4: P is the number of turns, 1 to {most}$"):
             interpret(f"{START}G2 I5 J0 P{turns} F9")
+
+
+def test_offsets_may_not_change_under_compensation() -> None:
+    """Contour and table would belong to different places."""
+    text = f"{START}G41.1 D2 G1 X10 Y10 F100\nX20\nG10 L2 P1 X1 Y1\nG40 X40\nM2"
+    with pytest.raises(ProgramError, match=r"^line 6: G10 .*compensation"):
+        interpret(text)
+
+
+def test_behind_the_end_of_a_program_stand_subroutines_alone() -> None:
+    """They are none of its moves; of other lines it is told where they begin."""
+    plain = ends("G0 X1")
+    for letter in "oO":
+        run = interpret(f"{START}G0 X1\nM2\n{letter}200 sub\nG0 X9\n{letter}200 endsub\n")
+        assert run.end[run.kind != Kind.END][1:].tolist() == plain
+        assert run.beyond == 0
+    assert interpret(f"{START}G0 X1\nM2\n\nG0 X9\n").beyond == 7
+    run = interpret("#1=5\n" + START + "G0 X#1")  # and it may have none
+    assert run.end[-1].tolist() == [5.0, 0.0, 5.0]
+
+
+@pytest.mark.parametrize(
+    ("spindle", "rpm", "turning"), [(1, 1.0, 1), (-1, 0.5, -1), (1, 12000.0, 1), (1, 0.0, 0), (0, 500.0, 0)]
+)
+def test_a_spindle_turns_at_any_speed_above_0(spindle: int, rpm: float, turning: int) -> None:
+    assert State(spindle=spindle, rpm=rpm).turning == turning
 
 
 def test_the_diameter_of_compensation_is_in_the_units_of_the_program() -> None:

@@ -1,6 +1,7 @@
 """LinuxCNC's planner by its rules: closed forms, and what has to hold for every path."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import Motion
+from mechwright_cam.controls.lookahead import Motion, course
 from mechwright_cam.controls.lookahead.linuxcnc import KINK, SERVO_S
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.shop.machine import Machine
@@ -96,6 +97,14 @@ def test_a_kink_is_passed_at_speed_up_to_a_tenth_of_the_acceleration() -> None:
     assert bent(0.9, "G61\n") == pytest.approx(seconds(f"G61\nG1 X100 F{60 * speed}"), abs=0.01)
     assert bent(1.2, "G61\n") > bent(0.9, "G61\n") + speed / highest / 2  # a stop
     assert bent(1.2, P) < bent(1.2, "G61\n")
+
+
+def test_moves_of_one_line_are_a_cycle_if_one_is_a_rapid() -> None:
+    """A cycle that begins where it is and at its height has one; pieces of an arc have none."""
+    run = SimpleNamespace(line=np.array([7, 7, 8, 9, 9, 9, 12, 12, 12]), files=())
+    rapid = np.array([False, True, True, False, False, False, True, False, True])
+    found = course._in_cycle(run, np.arange(9), rapid)  # type: ignore[arg-type]
+    assert found.tolist() == [True, True, False, False, False, False, True, True, True]
 
 
 def test_what_waits_for_the_end_of_motion_is_a_stop() -> None:
