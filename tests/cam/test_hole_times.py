@@ -5,6 +5,7 @@ import math
 import pytest
 from planning_parts import LIBRARY, bore, job, part, rounded_box
 
+from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.hole_times import holes_time
 from mechwright_cam.operations.ladder import COME
 from mechwright_cam.operations.rates import rates
@@ -43,3 +44,13 @@ def test_a_hole_is_drilled_through_with_its_point() -> None:
     assert holes_time(of) >= 2 * each
     # An opening that is wider than the drill and what it leaves to finishing begins with its hole.
     assert opened(12.0, "spot-6", "drill-8", *MILLS) == pytest.approx(each, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("diameter", "name"), [(9.0, "drill-8"), (8.99, "drill-6"), (7.0, "drill-6"), (6.9, "")]
+)
+def test_a_drill_starts_a_hole_if_it_leaves_its_allowance(diameter: float, name: str) -> None:
+    """Half a millimetre on either side: what is asked for is left, to the last digit, and no less."""
+    of = job(part(OUTSIDE), "spot-6", "drill-8", "drill-6", *MILLS, stock_to_leave=0.5)
+    drill = starting_drill(of, diameter, 6.0)
+    assert (drill.name if drill else "") == name
