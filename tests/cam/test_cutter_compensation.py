@@ -22,6 +22,7 @@ from mechwright_cam.operations.entry import bore_lead, enters, lead_to, offsets_
 from mechwright_cam.plane.contour import contour_beside
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
+from mechwright_cam.program.moves import Rapid
 from mechwright_cam.proof.paths import Paths, Pieces
 from mechwright_cam.setup.job import LEAST_TURN, Job
 from mechwright_cam.shop.settings import CamSettings
@@ -93,6 +94,16 @@ def test_without_compensation_nothing_changes() -> None:
     text = text_of(sample("computer"))
     assert not re.search(r"G4[12]|D\d", re.sub(r"\(.*\)", "", text))
     assert asked("compensation", text, sample("computer"), reader()).passed
+
+
+def test_a_repeated_pass_begins_without_a_lift_where_its_leads_meet_nothing() -> None:
+    """Once down and once up for each wall, however often it goes around."""
+    lifts = []
+    for passes in (0, 2):
+        sections = plan(sample("control", spring_passes=passes)).sections
+        finished = [one for s in sections for one in s.operations if one.name.endswith("finish")]
+        lifts.append([sum(isinstance(m, Rapid) and m.z is not None for m in one.moves) for one in finished])
+    assert lifts == [[2, 2, 2]] * 2
 
 
 # -- the proof does not trust the plan ----------------------------------------------------------------------

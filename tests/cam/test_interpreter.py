@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_control import LINUXCNC, interpret
+from by_control import BY_NAME, LINUXCNC, interpret
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import Kind, modes
+from mechwright_cam.controls.reading import Kind, State, modes
+from mechwright_cam.controls.reading.motions import MOST_TURNS
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
 
@@ -42,6 +43,70 @@ def test_inches_and_distances() -> None:
     assert ends("G91\nG1 X1 Y2 F10\nX1 Z-1") == [[1.0, 2.0, 5.0], [2.0, 2.0, 4.0]]
     run = interpret(START + "G20 G1 X1 F10")
     assert run.feed[-1] == 254.0
+
+
+def test_a_place_by_distance_and_angle() -> None:
+    """From the origin, where no direction is known, both are needed; elsewhere what is not named stays."""
+    along = math.radians(30)
+    there = [10 * math.cos(along), 10 * math.sin(along), 5.0]
+    assert ends("G0 @10 ^30") == [pytest.approx(there)]
+    assert ends("G0 @10 ^30 Z1") == [pytest.approx([*there[:2], 1.0])]
+    assert ends("G0 X0 Y10\n@4") == [[0.0, 10.0, 5.0], pytest.approx([0.0, 4.0, 5.0])]
+    assert ends("G0 X0 Y10\n^30") == [[0.0, 10.0, 5.0], pytest.approx(there)]
+    for alone in ("@10", "^30"):
+        with pytest.raises(
+            ProgramError, match=r"^line 4: polar coordinates from a place without a direction"
+        ):
+            ends(f"G0 {alone}")
+
+
+def test_an_arc_has_so_many_turns_at_most() -> None:
+    most = MOST_TURNS
+    assert interpret(f"{START}G2 I5 J0 P{most} F9").sweep[-1] == pytest.approx(-most * math.tau)
+    for turns in (0, most + 1):
+        with pytest.raises(ProgramError, match=rf"^line 4: P is the number of turns, 1 to {most}$"):
+            interpret(f"{START}G2 I5 J0 P{turns} F9")
+
+
+def test_offsets_may_not_change_under_compensation() -> None:
+    """Contour and table would belong to different places."""
+    text = f"{START}G41.1 D2 G1 X10 Y10 F100\nX20\nG10 L2 P1 X1 Y1\nG40 X40\nM2"
+    with pytest.raises(ProgramError, match=r"^line 6: G10 .*compensation"):
+        interpret(text)
+
+
+def test_behind_the_end_of_a_program_stand_subroutines_alone() -> None:
+    """They are none of its moves; of other lines it is told where they begin."""
+    plain = ends("G0 X1")
+    for letter in "oO":
+        run = interpret(f"{START}G0 X1\nM2\n{letter}200 sub\nG0 X9\n{letter}200 endsub\n")
+        assert run.end[run.kind != Kind.END][1:].tolist() == plain
+        assert run.beyond == 0
+    assert interpret(f"{START}G0 X1\nM2\n\nG0 X9\n").beyond == 7
+    run = interpret("#1=5\n" + START + "G0 X#1")  # and it may have none
+    assert run.end[-1].tolist() == [5.0, 0.0, 5.0]
+
+
+@pytest.mark.parametrize(
+    ("spindle", "rpm", "turning"), [(1, 1.0, 1), (-1, 0.5, -1), (1, 12000.0, 1), (1, 0.0, 0), (0, 500.0, 0)]
+)
+def test_a_spindle_turns_at_any_speed_above_0(spindle: int, rpm: float, turning: int) -> None:
+    assert State(spindle=spindle, rpm=rpm).turning == turning
+
+
+def test_the_diameter_of_compensation_is_in_the_units_of_the_program() -> None:
+    """Beside a contour along X, a quarter of an inch wide or of a millimetre."""
+    for units, wide in (("G20", 6.35), ("G21", 0.25)):
+        run = interpret(f"{START}{units}\nG1 F20\nG41.1 D0.25 X1 Y1\nX3\nX4\nG40 X6\nM2")
+        size = 25.4 if units == "G20" else 1.0
+        assert run.end[-3, 1] == pytest.approx(size + wide / 2)
+
+
+@pytest.mark.parametrize("codes", ["M3 M8", "M8 M3", "M3 M8 M48"])
+def test_a_control_that_obeys_one_m_in_a_line_reads_one(codes: str) -> None:
+    assert len(interpret(f"{START}S500 M3 M8\nM2")) > 0
+    with pytest.raises(ProgramError, match=r"^line 4: several M codes; .* obeys one in a line"):
+        interpret(f"G17 G21 G40 G80 G90 G94\nG54\nG0 X0. Y0. Z5.\nS500 {codes}\nM30", BY_NAME["fanuc"])
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """LinuxCNC's planner by its rules: closed forms, and what has to hold for every path."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import Motion
+from mechwright_cam.controls.lookahead import Motion, course
 from mechwright_cam.controls.lookahead.linuxcnc import KINK, SERVO_S
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.shop.machine import Machine
@@ -64,6 +65,23 @@ def test_an_arc_is_no_faster_than_its_radius_allows() -> None:
     assert one[-2] < 2 * math.pi * 5 / fastest + 2 * fastest / 250
 
 
+@pytest.mark.parametrize("climb", [12.0, 15.0, 20.0])
+def test_a_helix_brakes_with_what_the_bend_of_its_way_leaves(climb: float) -> None:
+    """The bend of a helix of radius r and a climb h a turn counts as one of r + h²/r; half is for blends."""
+    radius, acceleration = 5.0, 1000.0
+    turns = "".join(f"G3 X5 Y0 Z-{climb * k} I-5 J0\n" for k in range(1, 5))
+    machine = {"max_feed": 20000.0, "rapid": 20000.0, "rapid_z": 20000.0}
+    around = 2 * math.pi * radius
+    way = math.hypot(around, climb)
+    longer = way / around  # than in plan view, in which the axes have what they can
+    speed = math.sqrt(math.sqrt(0.75) * acceleration * radius) * longer
+    across = speed**2 / (radius + climb**2 / radius) / (acceleration * longer)
+    braking = acceleration * longer * math.sqrt(1 - across**2) / 2
+    one = moved(f"G0 X0 Y0 Z0\n{P}G1 X5 F9000\n{turns}", **machine)[1].seconds
+    assert one[-3] == pytest.approx(way / speed, abs=SERVO_S)
+    assert one[-2] == pytest.approx(way / speed + speed / (2 * braking), abs=4 * SERVO_S)
+
+
 def test_the_pieces_of_an_arc_in_another_plane_are_no_cycle_with_a_stop_at_each() -> None:
     along = math.pi * 5.0 / (2000 / 60)
     assert along < seconds(P + "G18 G3 X10 Z0 I5 K0 F2000") < 1.5 * along
@@ -79,6 +97,14 @@ def test_a_kink_is_passed_at_speed_up_to_a_tenth_of_the_acceleration() -> None:
     assert bent(0.9, "G61\n") == pytest.approx(seconds(f"G61\nG1 X100 F{60 * speed}"), abs=0.01)
     assert bent(1.2, "G61\n") > bent(0.9, "G61\n") + speed / highest / 2  # a stop
     assert bent(1.2, P) < bent(1.2, "G61\n")
+
+
+def test_moves_of_one_line_are_a_cycle_if_one_is_a_rapid() -> None:
+    """A cycle that begins where it is and at its height has one; pieces of an arc have none."""
+    run = SimpleNamespace(line=np.array([7, 7, 8, 9, 9, 9, 12, 12, 12]), files=())
+    rapid = np.array([False, True, True, False, False, False, True, False, True])
+    found = course._in_cycle(run, np.arange(9), rapid)  # type: ignore[arg-type]
+    assert found.tolist() == [True, True, False, False, False, False, True, True, True]
 
 
 def test_what_waits_for_the_end_of_motion_is_a_stop() -> None:

@@ -15,6 +15,7 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import check_rules
 
 from mechwright.contracts.part import Pocket, Profile
+from mechwright_cam.operations import engagement
 from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.operations.engagement import BENDS, clear, straight_layer
 from mechwright_cam.operations.engagement import engagements as planned
@@ -43,6 +44,32 @@ def test_engagement_on_a_straight_front_is_the_closed_form():
         # Stock above the way: on the left, from the outward normal forwards to where the front is crossed.
         found = math.degrees(planned(way, cleared, 4.0)[0])
         assert found == pytest.approx(min(angle, 90) if angle <= 90 else angle, abs=4)
+
+
+@pytest.mark.parametrize("radius", [1.0, 4.0])
+def test_what_is_worth_a_pass_goes_with_the_size_of_the_cutter(radius):
+    """Squares of 0.02 radii squared and more; the cutter stands at the origin, and the nearest comes last."""
+    clearing = engagement._Clearing(shapely.box(-50, -50, 50, 50), radius, math.radians(60), True)
+    clearing.end = (0.0, 0.0)
+
+    def square(area, x):
+        half = math.sqrt(area) * radius / 2
+        return shapely.box(x - half, -half, x + half, half)
+
+    near, far, farther = square(0.021, 5.0), square(0.5, 20.0), square(0.03, -30.0)
+    crumbs = [square(0.019, 6.0), square(0.001, 2.0)]
+    assert clearing._nearest_last([near, farther, *crumbs, far]) == [farther, far, near]
+
+
+@pytest.mark.parametrize("angle", [30, 60, 90, 120])
+@pytest.mark.parametrize("hole", [4.5, 7.0, 30.0])
+def test_a_layer_in_a_round_hole_engages_the_cutter_as_asked(angle, hole):
+    """Of all the angle 85 % of the layer, for the spiral leans outwards: circles of hole and cutter cross there."""
+    radius, turn = 4.0, math.radians(angle)
+    layer = engagement._Clearing(BOX, radius, turn, True)._ring_layer(hole)
+    away = hole + layer / 0.85 - radius
+    crossing = complex(away + radius * math.cos(turn), radius * math.sin(turn))
+    assert abs(crossing) == pytest.approx(hole, rel=1e-9) or layer == pytest.approx(0.03 * radius)
 
 
 def test_engagement_in_a_slot_is_a_half_turn():

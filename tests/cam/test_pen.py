@@ -1,6 +1,7 @@
 """How a cutter goes down along a circle, and which narrow places it clears with which path."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -14,8 +15,9 @@ from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.operations.layer import NEARLY, Layer
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import Rates
-from mechwright_cam.plane.path import circle
-from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.operations.runs import Cavity, Run, write_levels
+from mechwright_cam.plane.path import circle, polyline
+from mechwright_cam.program.moves import Feed, FeedArc, Rapid
 from mechwright_cam.shop.settings import CamSettings
 
 RATES = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
@@ -55,6 +57,21 @@ def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
     whole = [0.0, *(move.z for move in turns(pen) if move.z is not None)][::pieces]
     assert len(whole) - 1 == count + 1
     assert max(one - two for one, two in pairwise(whole)) < most
+
+
+@pytest.mark.parametrize("angle", [1.0, 3.0, 8.0])
+def test_a_way_down_is_fed_between_a_cut_and_a_ramp_as_it_is_steep(angle):
+    """Of 0 a cut's feed, from the ramp's own slope on, 3 degrees at most, the ramp's, and evenly between them."""
+    ramp = 333.0
+    pen = Pen(LIBRARY.get("mill-6"), replace(RATES, ramp=ramp), 10.0, math.tan(math.radians(angle)))
+    steep, full = math.tan(math.radians(min(angle, 3.0))), ramp / 0.5
+    for share in (0.0, 0.25, 0.6, 0.95):
+        wanted = full + (ramp - full) * share
+        assert pen.ramp_feed(share * steep * 40.0, 40.0) == pytest.approx(wanted, abs=5.0)
+    assert pen.ramp_feed(-1.0, 40.0) == pytest.approx(full, abs=5.0)
+    steepest = {pen.ramp_feed(share * steep * 40.0, 40.0) for share in (1.0, 1.5, 20.0)}
+    assert len({*steepest, pen.ramp_feed(1.0, 0.0)}) == 1  # not another one beyond the steepest
+    assert ramp <= steepest.pop() <= ramp + 5.0
 
 
 class Cuts:
@@ -101,3 +118,20 @@ def test_a_coarse_path_through_narrow_places_is_run_where_it_takes_nearly_all(co
     layer.rough_heavy(LIBRARY.get("mill-6"))
     assert len(layer.ran) == passes
     assert layer.stock == pytest.approx(left)
+
+
+@pytest.mark.parametrize("cleared", [True, False])
+@pytest.mark.parametrize("back", [True, False])
+def test_with_a_way_back_the_cutter_stays_in_its_cavity_from_level_to_level(back, cleared):
+    """Two runs at three levels: it comes to the first from above, and later at depth, at the feed for air if it may."""
+    first, second = (polyline([(0.0, y), (20.0, y)]) for y in (0.0, 3.0))
+    runs = (Run(first, open=True, linked=False), Run(second, open=True, linked=True))
+    pen = Pen(LIBRARY.get("mill-6"), RATES, 10.0, math.tan(math.radians(3)))
+    write_levels(
+        pen, Cavity(shapely.box(0, 0, 20, 3), runs, back, cleared), 0.0, [-1.0, -2.0, -3.0], thinning=False
+    )
+    lifts = [move for move in pen.moves if isinstance(move, Rapid) and move.z == 10.0 and move.x is None]
+    assert len(lifts) == (0 if back else 2)
+    returns = [m for m in pen.moves if isinstance(m, Feed) and (m.x, m.y) == (0.0, 0.0)]
+    assert [move.feed for move in returns] == ([pen.air if cleared else RATES.feed] * 2 if back else [])
+    assert [m.z for m in pen.moves if isinstance(m, Feed) and m.x is None] == ([-1.0, -2.0, -3.0])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from by_control import BY_NAME, interpret
 from by_night import examples
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
@@ -227,6 +227,7 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
 
 
 @given(st.lists(st.text("NGXYZIJRFSgxK0123456789.+- \t(%", max_size=9), max_size=5))
+@example(["S0", "X1S.0", "S-1", "S1", "F0", "F-1"])
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
     read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):
@@ -245,6 +246,34 @@ def test_a_point_that_the_control_wants_makes_a_line_plain() -> None:
     text = "X1.Y2.5\nX1\nX0Y1.\nX1.F100"
     assert PlainLines(text, BY_NAME["fanuc"].dialect).plain.tolist() == [True, False, True, True]
     assert PlainLines(text, BY_NAME["linuxcnc"].dialect).plain.all()
+
+
+@pytest.mark.parametrize("letter", "XYZIJR")
+def test_every_length_without_its_point_is_refused_among_plain_lines(letter: str) -> None:
+    """``X50`` are 50 µm to such a control, so that nobody knows what was meant."""
+    lines = ["G21 G17 G90 G40", "G0 X0. Y0. Z0.", "G1 X1. F100", *["X2.", "X1."] * 20]
+    words = {"I": "G2 X-1. I-1", "J": "G2 X1. Y2. I0. J1", "R": "G2 X2. Y1. R1"}
+    lines += [words.get(letter, f"{letter}1"), *["X3."] * 20, "M30"]
+    dialect = BY_NAME["fanuc"].dialect
+    plain = PlainLines("\n".join(lines), dialect).plain
+    assert [bool(plain[at]) for at in (42, 43, 44)] == [True, False, True]
+    with pytest.raises(ProgramError, match=rf"^line 44: {letter}-?\d has no decimal point"):
+        interpret("\n".join(lines), dialect)
+
+
+def test_a_comment_beside_plain_words_moves_nothing() -> None:
+    for comment in ("(X9)", "(G0 X9 Y9)", "; X9", "(Z-9) "):
+        lines = "".join(f"X{k} {comment}\n" for k in range(30))
+        text = f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{lines}M2\n"
+        assert_alike(text, BY_NAME["linuxcnc"])
+        run = interpret(text, BY_NAME["linuxcnc"])
+        assert run.end[1:, 0].tolist() == [*range(30)][1:] or run.end[-1, 0] == 29.0
+
+
+def test_an_arc_from_an_unknown_height_is_no_plain_arc() -> None:
+    arcs = "".join("G2 X10 Y0 I5 J0\nG2 X0 Y0 I-5 J0\n" for _ in range(20))
+    for start in ("G0 X0 Y0\n", "G0 X0 Y0 Z5\n", "G0 X0 Y0 Z5\nG53 G0 Z0\n", "G0 Z5\nX0\n"):
+        assert_alike(f"G21 G17 G90 G40\n{start}G1 F100\n{arcs}M2\n", BY_NAME["linuxcnc"])
 
 
 def test_a_line_too_long_for_the_control_is_not_plain() -> None:

@@ -17,9 +17,38 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines
+from mechwright_cam.controls.writing.writer import AGREEING, Writer
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 
 POST = LinuxCnc()
+
+
+def apart(centre: tuple[float, float], end: tuple[float, float]) -> float:
+    """By how much the radii at both ends of an arc from the origin differ, mm."""
+    return abs(math.hypot(*centre) - math.hypot(end[0] - centre[0], end[1] - centre[1]))
+
+
+@given(
+    st.floats(1.0, 200.0), st.floats(-3.0, 3.0), st.floats(0.2, 3.0), st.sampled_from([(3, 1.0), (4, 25.4)])
+)
+def test_the_radii_at_both_ends_of_an_arc_agree_to_a_fraction_of_the_last_place(radius, heading, sweep, unit):
+    """Plain rounding of end and centre would leave them two places apart: 2 µm, and 5 µm of four in an inch."""
+    decimals, scale = unit
+    writer = Writer(Program("none", "G54", 5.0, ()), decimals, point=True, scale=scale)
+    place = scale * 10.0**-decimals
+    i, j = radius * math.cos(heading), radius * math.sin(heading)
+    angle = heading + math.pi + sweep
+    end = (writer.rounded(i + radius * math.cos(angle)), writer.rounded(j + radius * math.sin(angle)))
+    centre = writer.centre(i, j, end)
+    for value, wanted in zip(centre, (i, j), strict=True):
+        assert value / place == pytest.approx(round(value / place), abs=1e-6)
+        assert abs(value - wanted) <= 2.51 * place
+    plain = writer.rounded(i), writer.rounded(j)
+    assert apart(centre, end) <= apart(plain, end) + 1e-9
+    near = [(plain[0] + a * place, plain[1] + b * place) for a in (-1, 0, 1) for b in (-1, 0, 1)]
+    best = min(apart(one, end) + math.dist(one, (i, j)) / 4 for one in near)
+    assert apart(plain, end) <= AGREEING or apart(centre, end) + math.dist(centre, (i, j)) / 4 <= best + 1e-6
+
 
 GOLDEN = """\
 (program bracket, LinuxCNC)

@@ -1,5 +1,6 @@
 """Heights at which a plate counts as cut through, windows around loose pieces, edges that hold: in closed form."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -46,6 +47,19 @@ def test_over_air_a_cut_is_through_where_it_meets_that() -> None:
             opened = levels[max(levels)]
         # The air, and what is near it: never less, and no more than some cells around.
         assert 50.0 < np.count_nonzero(opened) * CELL**2 < (10 + 4 * CELL) * (5 + 4 * CELL)
+
+
+def test_air_counts_in_the_cells_whose_middle_is_so_near_to_it_and_in_no_others() -> None:
+    """Around a corner of it as well, where what is near is round; one cell is half a millimetre."""
+    found, shape = grid(), shapely.box(0.13, -7.29, 10.37, 5.11)
+    list(footprint._openings(found, replace(plate_job(), tabs=(), gone=(Air(shape, -0.1),))))
+    rows, columns = np.indices(found.cut.shape)
+    middles = shapely.points(found.x + (columns + 0.5) * CELL, found.y + (rows + 0.5) * CELL)
+    away, near = shapely.distance(shape, middles), footprint.UNSURE * CELL
+    assert near == pytest.approx(CELL * (0.75 + math.sqrt(0.5)))
+    opened = found.cut == BEFORE
+    assert opened[away < near - 0.01 * CELL].all()
+    assert not opened[away > near + 0.01 * CELL].any()
 
 
 def test_a_window_reaches_so_many_cells_beyond_its_piece_and_ends_with_the_plate() -> None:

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from shop import MILL
 from test_proof_parts import paths_of
 
 from mechwright_cam.proof import depth_of_cut
@@ -41,6 +42,36 @@ def test_a_window_is_on_end_if_the_one_before_is_large_as_well() -> None:
     assert depth_of_cut._on_end(loads, large).tolist() == [1, 2]  # type: ignore[arg-type]
     assert depth_of_cut._on_end(loads, np.ones(6, dtype=np.bool_)).tolist() == [1, 2, 4, 5]  # type: ignore[arg-type]
     assert depth_of_cut._on_end(loads, np.zeros(6, dtype=np.bool_)).size == 0  # type: ignore[arg-type]
+
+
+def suspects(lines: str, limit: float) -> list[tuple[int, float]]:
+    """Cuts, from 0 on, that are deeper than this without a cut before them, and how much of each, mm; 6 mm mill."""
+    paths = paths_of(f"G0 X-20 Y0\n{lines}")
+    steps, lengths = depth_of_cut._suspects(depth_of_cut._Cuts(paths), MILL, limit, 2.0)
+    return [(step - int(paths.cuts[0]), length) for step, length in zip(steps, lengths, strict=True)]
+
+
+def test_of_a_deep_move_as_much_is_suspected_as_no_cut_before_has_opened() -> None:
+    """Places stand a diameter of 6 mm apart; one that a cut before has passed within 1 mm is open."""
+    assert suspects("G1 Z-5 F100\nX40", 2.0) == [(1, 60.0)]
+    assert suspects("G1 Z-5 F100\nX40", 5.0) == []
+    opened = "G1 Z-3 F100\nX10\nG0 Z1\nX-20\nG1 Z-5\nX40"
+    assert suspects(opened, 3.0) == [(5, 30.0)]  # the first goes as deep as it may, and reaches half the way
+    assert suspects(opened, 2.5) == [(1, 30.0), (5, 30.0)]
+    beside = "G1 Z-3 F100\nX40\nG0 Z1\nX-20 Y{}\nG1 Z-5\nX40"
+    assert suspects(beside.format(0.99), 3.0) == []
+    assert suspects(beside.format(1.01), 3.0) == [(5, 60.0)]
+    # What comes later opens nothing for what was before.
+    assert suspects("G1 Z-5 F100\nX40\nG0 Z1\nX-20\nG1 Z-3\nX40", 3.0) == [(1, 60.0)]
+
+
+def test_a_window_is_excused_by_its_own_arcs_alone() -> None:
+    """A straight cut before a small hole, and one behind it, may not be fed as the hole may."""
+    paths = paths_of("G1 X20 F100\nG3 I-2\nG1 X40")
+    line, hole, on = paths.cuts[-3:].tolist()
+    for first, last, times in ((line, line, 1.0), (line, hole, 2.5), (hole, hole, 2.5), (on, on, 1.0)):
+        loads = SimpleNamespace(first=[first], last=[last], radius=[3.0], down=[False])
+        assert at_the_edge(loads, paths, 0) == pytest.approx(times)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -102,6 +102,9 @@ def test_what_is_handed_on_is_at_floors_tabs_corners_and_points() -> None:
     assert carried._heights(paths_of("G1 Z-2 F100"), job) == floors
     noses = {-6.0 + share * 3.0 for share in SHARES}
     assert carried._heights(paths_of("G1 Z-2 F100", BALL), job) == floors | noses
+    bull = MILL.model_copy(update={"kind": ToolKind.BULL_NOSE, "corner_radius": 0.8})
+    noses = {round(-6.0 + share * 0.8, 3) for share in SHARES}
+    assert carried._heights(paths_of("G1 Z-2 F100", bull), job) == floors | noses
     drill = MILL.model_copy(update={"kind": ToolKind.DRILL, "diameter": 8.0})
     point = 4.0 / math.tan(math.radians(59.0))
     for z in (-2.0, -5.0, -7.5):
@@ -109,7 +112,8 @@ def test_what_is_handed_on_is_at_floors_tabs_corners_and_points() -> None:
         assert carried._heights(paths_of(f"G1 Z{z} F100", drill), job) == floors | {
             max(h, -6.0) for h in down if h < 0
         }
-    assert carried._heights(paths_of("G0 Z-2\nG1 Z-1 F100", drill), job) == floors  # up, and at a rapid
+    for aside in ("G0 Z-2\nG1 Z-1 F100", "G0 Z-2\nG1 X1 F100"):  # down at a rapid; up, or along
+        assert carried._heights(paths_of(aside, drill), job) == floors
 
 
 def test_floors_chamfers_and_threads_are_handed_on() -> None:

@@ -1,5 +1,7 @@
 """Where tabs stand beside recesses that reach the rim."""
 
+import math
+
 import pytest
 import shapely
 from by_control import asked, posted, prove
@@ -68,3 +70,19 @@ def test_behind_a_thin_wall_tabs_end_at_its_opening(wall):
         inner = 20.0 - shapely.distance(tab.shape, shapely.Point(0, 0))
         assert inner == pytest.approx(min(wall, 1.0), abs=0.03)
     assert asked("tabs", posted(of), of).passed
+
+
+@pytest.mark.parametrize(("through", "angle"), [(0.1, 20), (0.6, 20), (1.2, 12)])
+def test_a_ramped_tab_begins_where_no_cutter_gets_around_it_as_low_as_it_goes(through, angle):
+    """In a disc the chord of its base, drawn out to where the cutters are below the underside, is in the part."""
+    radius, width, high, slope = 40.0, 3.0, 1.0, math.tan(math.radians(angle))
+    disc = part(Loop((circle((0, 0), radius),)))
+    hold = {"tabs": 3, "tab_shape": "ramped", "tab_angle": angle, "tab_width": width, "tab_height": high}
+    of = job(disc, "mill-6", hold=hold, breakthrough=through, ramp_angle=20)
+    half = width / 2 + (high + through) / slope
+    deep = radius - math.sqrt(radius**2 - half**2)
+    steps = math.ceil(math.log(deep, 1.25) - 1e-9)
+    for tab in of.tabs:
+        assert tab.width == width
+        assert -tab.ends[0] == pytest.approx(1.25 ** max(steps, 0))
+        assert -tab.ends[0] >= deep

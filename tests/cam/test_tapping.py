@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from by_control import BY_NAME, asked, interpret
 from golden_case import CORE, MORE, SHARP, hole
@@ -80,6 +81,18 @@ def test_every_control_reads_in_and_out_at_the_pitch() -> None:
             assert run.end[down, 2] == pytest.approx(-(4 + tool.point_length))
             assert run.end[up, 2] == pytest.approx(run.start[down, 2])
             assert run.feed[[down, up]] == pytest.approx(795.0)
+
+
+def test_a_tap_waits_at_the_bottom_as_long_as_p_says() -> None:
+    """Once for each hole, where it has come down and before it goes up; without P it does not wait."""
+    head = "G17 G21 G40 G80 G90 G94\nG54 G0 X0. Y0.\nZ9.\nS500 M3\n"
+    for word, seconds in (("", []), ("P750", [0.75, 0.75])):
+        run = interpret(f"{head}G98 G84 X1. Y0. Z-3. R5. {word} F500.\nX2.\nG80\nM30\n", BY_NAME["fanuc"])
+        waits = np.flatnonzero(run.kind == Kind.DWELL)
+        assert run.seconds[waits].tolist() == seconds
+        assert (run.end[waits, 2] == -3.0).all()
+        assert (run.kind[waits - 1] == Kind.FEED).all()
+        assert (run.kind[waits + 1] == Kind.FEED).all()
 
 
 def test_after_rigid_tapping_the_spindle_of_fanuc_and_haas_stands() -> None:

@@ -1,4 +1,5 @@
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -6,6 +7,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright_cam.plane import runs
 from mechwright_cam.plane.arcfit import fit, fit_all
 from mechwright_cam.plane.offsets import grow, rings
 from mechwright_cam.plane.path import Path, arc, circle, line, polyline
@@ -226,3 +228,28 @@ def test_growing_a_point_is_within_the_chord_error(radius):
     disc = grow(shapely.Point(0, 0), radius, 0.0003)
     inner = np.hypot(*shapely.get_coordinates(shapely.segmentize(disc, radius / 500)).T).min()
     assert radius - 0.00032 <= inner <= radius
+
+
+reaches = st.lists(st.tuples(st.integers(1, 4), st.integers(0, 4)), min_size=1, max_size=9)
+
+
+@given(reaches, st.sampled_from([1, 2, 3]))
+def test_a_way_is_divided_into_the_fewest_runs_and_goes_on_along_an_arc_where_two_are_as_few(reach, per_arc):
+    """How far a line goes from each vertex, and an arc, at least as far; against every choice there is."""
+    last = len(reach)
+    by_line = [min(here + line, last) for here, (line, _) in enumerate(reach)] + [last]
+    by_arc = [min(here + line + more, last) for here, (line, more) in enumerate(reach)] + [last]
+
+    def least(here):
+        """Of all ways on from a vertex the least in lines, and whether an arc is first."""
+        if here == last:
+            return 0, False
+        by = 1 + least(by_line[here])[0], per_arc + least(by_arc[here])[0]
+        return (by[0], False) if by_line[here] == by_arc[here] or by[0] < by[1] else (by[1], True)
+
+    nodes, lines = runs._chain(np.array(by_line), np.array(by_arc), per_arc)
+    assert (nodes[0], nodes[-1]) == (0, last)
+    assert sum(1 if straight else per_arc for straight in lines) == least(0)[0]
+    for (here, there), straight in zip(pairwise(nodes.tolist()), lines.tolist(), strict=True):
+        assert straight != least(here)[1]
+        assert there == (by_line if straight else by_arc)[here]

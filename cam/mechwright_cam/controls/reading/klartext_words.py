@@ -24,7 +24,6 @@ NO_CYCLE = "cycles are not read; post the moves"
 _SHIFT = "shifts or turns the work; set a preset with CYCL DEF 247"
 NO_JUMP = "parameters, jumps and calls are not read; post the program without them"
 _ROUNDED = "write L, C with CC, CR or CP"
-_M = "post the program without it"
 CYCLES = {
     **dict.fromkeys((7, 8, 10, 11, 19, 26), _SHIFT),
     12: NO_JUMP,
@@ -128,7 +127,7 @@ def refused(number: int, word: str) -> ProgramError:
         return fail(number, f"{word} is a Q parameter; write {worked[1]} with a plain number")
     found = _NAMED.match(word)
     name = word if word in REFUSED or found is None else found[0]
-    what = REFUSED.get(name, _M if name == "M" else "post the program without it")
+    what = REFUSED.get(name, "post the program without it")
     return fail(number, f"{word} is no word that is read in programs for {NAME}; {what}")
 
 
