@@ -78,6 +78,7 @@ def test_a_pair_that_jams_is_refused_with_a_backlash_that_works(tight):
     )
     assert finding.parameter == "backlash"
     assert finding.value < 0 == finding.limit
+    assert " jam: " in finding.message  # with its axes where they belong, not only with them off
     assert "make backlash 0.067" in finding.remedy
     better = with_backlash(params, least_backlash(params))
     # The walls keep what they keep: the same stock on the flanks of the better pair.
@@ -106,7 +107,7 @@ def test_what_check_cannot_know_build_finds_out(command_line, tmp_path):
     assert (code, "warning [gear.backlash]" in out) == (0, True)
     code, _, err = command_line("build", str(path), "-o", str(tmp_path / "out"))
     assert code == 1
-    assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam" in err
+    assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam: " in err
     assert "make backlash 0.067" in err
 
 
