@@ -39,6 +39,14 @@ def test_the_pair_of_the_readme_turns_at_every_position_over_its_tolerances():
             ahead, behind = pair.gaps.play((off, 0.0), sign * pair.corridor)
             assert (ahead + behind).min() > 2e-4
     assert pair.spare(OFF_CENTRE).min() > 0
+    (curve,) = said.curves
+    ahead, behind = pair.gaps.play()
+    assert 0 <= curve.x[0] < curve.x[-1] < 360
+    assert (np.diff(curve.x) >= 0).all()
+    at = np.argmin(np.abs(np.exp(1j * np.radians(curve.x))[:, None] - np.exp(1j * pair.gaps.theta)), axis=1)
+    np.testing.assert_allclose(curve.lines["as made"], 1e6 * (ahead + behind)[at])
+    assert (curve.lines["in the worst case"] < curve.lines["as made"]).all()
+    assert (curve.lines["as drawn"] > 0).all()
 
 
 def test_both_ways_agree_within_a_hundredth():
