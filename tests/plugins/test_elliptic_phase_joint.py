@@ -321,6 +321,9 @@ def test_circles_without_room_are_refused(code, table, mend):
 def test_a_phase_without_a_hole_is_moved_no_farther_than_it_must(steps, e):
     phases = tuple(5.0 * step for step in steps)
     first = placed(phases, e, 4.0, 20.0)
+    middles = np.array([first.centre(hole) for hole in first.holes])
+    apart = np.abs(np.subtract.outer(middles, middles))[np.triu_indices(len(middles), 1)]
+    assert apart.min(initial=np.inf) >= PITCH * 4 - 1e-8
     found = phases_that_work(first, phases, e)
     if first.crowded is None:
         assert found == sorted(phases)
