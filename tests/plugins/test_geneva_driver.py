@@ -199,6 +199,17 @@ def test_the_force_in_the_middle_is_that_of_the_places_beside_it(table):
     assert len(set(found.wall.tolist())) == 1
 
 
+@pytest.mark.parametrize(("load", "out"), [(0.0, RIGHT), (30.0, LEFT)])
+def test_walls_of_a_straight_slot(load, out):
+    """The pin pushes ahead on the way in; on the way out the wheel pushes it, unless the load holds it back."""
+    m = mechanism_of(GenevaParams(law="straight", entry_radius=100, load_torque=load))
+    u = np.linspace(0.02, 0.98, 97)
+    found = contact(m, m.stroke(u))
+    assert set(found.wall[u < 0.49].tolist()) == {RIGHT}
+    assert set(found.wall[u > 0.51].tolist()) == {out}
+    assert (found.pressure_angle == 0).all()
+
+
 def test_the_wall_of_the_channel_is_the_one_of_torque_and_lever():
     params = GenevaParams(**WORKED, load_torque=0.5)
     motion = Geneva().solve(params, 3601)

@@ -14,6 +14,7 @@ from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.figures import limits
+from mechwright_slider_crank.outlines import crank_outline
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import body_poses, layout_of, masses_of, parts_of, standing_sizes
 from mechwright_slider_crank.sizes import filled_in, sizes_of
@@ -40,6 +41,16 @@ def test_nothing_collides_over_a_turn(design):
     report = interference(parts_of(design), family.solve(design, 181), solids=False)
     assert report.collisions == ()
     assert report.pairs >= 10
+
+
+@pytest.mark.parametrize("shape", ["arm", "disc"])
+def test_a_crank_reaches_as_far_as_its_walls_about_shaft_and_pin(shape):
+    params = SliderCrankParams(crank_shape=shape)
+    sizes, outline = sizes_of(params), crank_outline(params)
+    far = params.crank + sizes.pin_boss
+    behind = sizes.shaft / 2 + sizes.wall if shape == "arm" else far
+    assert outline.bounds[::2] == pytest.approx((-behind, far))
+    assert sizes.pin_boss == pytest.approx(sizes.pin / 2 + sizes.wall)
 
 
 def test_a_bent_crank_pin_place_is_seen(design):
