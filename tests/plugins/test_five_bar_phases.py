@@ -99,7 +99,9 @@ def test_places_that_are_near_are_set_in_arc_slots_about_a0_and_b1():
 @pytest.mark.parametrize("angle", [83.0, 90.0, -90.0])
 def test_marks_stand_at_the_angles_that_are_written_beside_them(monkeypatch, angle):
     seen = []
-    monkeypatch.setattr(marks, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written)))
+    monkeypatch.setattr(
+        marks, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
+    )
     phases = ({"crank_turn": 6, "rocker_turn": 11}, {"crank_turn": -4, "rocker_turn": -5})
     params = in_phase(reference(phases=phases, setting_angle=angle))
     marks.scales(params)

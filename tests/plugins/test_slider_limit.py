@@ -167,9 +167,15 @@ def test_the_margin_of_the_rod_is_said():
 
 @settings(deadline=None)
 @given(
-    st.floats(5, 100), st.floats(5, 100), st.floats(-80, 80), st.floats(-180, 180), st.sampled_from([0.0, 0.02])
+    st.floats(5, 100),
+    st.floats(5, 100),
+    st.floats(-80, 80),
+    st.floats(-180, 180),
+    st.sampled_from([0.0, 0.02]),
 )
-def test_the_ways_of_a_crank_are_all_angles_at_which_the_rod_reaches_the_slide(crank, rod, offset, slide, least):
+def test_the_ways_of_a_crank_are_all_angles_at_which_the_rod_reaches_the_slide(
+    crank, rod, offset, slide, least
+):
     design = params(crank, rod, offset, slide_direction=slide)
     angles = np.linspace(-math.pi, math.pi, 721)[:-1]
     off = np.abs(offset - crank * np.sin(angles - math.radians(slide))) - rod * math.cos(least)
