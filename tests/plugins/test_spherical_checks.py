@@ -165,6 +165,23 @@ def test_the_radius_that_is_asked_for_is_enough():
         assert found("spherical.shafts", radius=0.97 * wished)
 
 
+@pytest.mark.parametrize(("arc", "link"), [("input", "crank"), ("output", "rocker")])
+def test_bores_of_a_short_link_stand_side_by_side_on_the_radius_that_is_named(arc, link):
+    def too_near(radius):
+        said = f"the pins of the {link}"
+        design = {**FOUR_BAR, "radius": radius, "four_bar": {arc: 5}}
+        return [one for one in found("spherical.shafts", **design) if one.message.startswith(said)]
+
+    (one,) = too_near(40)
+    assert too_near(one.limit) == []
+    (less,) = too_near(one.limit - 0.2)
+    assert less.limit == one.limit
+    # There discs of that width across both axes touch.
+    there = float(re.search(r"at ([\d.]+) mm from the centre", less.message)[1])
+    width = float(re.search(r"apart, and ([\d.]+) mm", less.message)[1])
+    assert there == pytest.approx(width / 2 / math.tan(math.radians(5) / 2), abs=0.3)
+
+
 def test_longer_projections_need_larger_spheres():
     """Arcs shrink as 1/d, and with them the room for shafts."""
     limits = [
