@@ -7,6 +7,7 @@ functions, and whoever survived, is tried by a new interpreter on a copy of the 
 
 import contextlib
 import gc
+import importlib
 import os
 import shutil
 import signal
@@ -38,9 +39,9 @@ Reached = dict[str, tuple[float, dict[str, list[int]]]]
 
 
 class Suite:
-    """The tests of some files, collected in this process."""
+    """The tests of some files, collected in this process, and the modules that faults are planted in."""
 
-    def __init__(self, files: Iterable[str], temporary: Path) -> None:
+    def __init__(self, files: Iterable[str], temporary: Path, paths: Iterable[str] = ()) -> None:
         os.chdir(ROOT)
         sys.dont_write_bytecode = True
         arguments = [*QUIET, f"--basetemp={temporary}", *files]
@@ -50,6 +51,8 @@ class Suite:
         self.config.hook.pytest_sessionstart(session=self.session)
         self.session.perform_collect()
         self.items = {item.nodeid: item for item in self.session.items}
+        for path in paths:  # a test may load them on its way alone
+            importlib.import_module(module(path))
         self.functions: dict[tuple[str, str, int], list[FunctionType]] = defaultdict(list)
         gc.unfreeze()
         for one in gc.get_objects():
@@ -80,6 +83,11 @@ class Suite:
                         function.__code__ = new[place]
                         done = True
         return done
+
+
+def module(path: str) -> str:
+    """The name by which a file of the project is imported: the tail of its path."""
+    return ".".join(Path(path).with_suffix("").parts[1:]).removesuffix(".__init__")
 
 
 def codes(text: str, file: str) -> list[CodeType]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import TOLERANCES, Finding, until_error
 from mechwright.contracts.finding import Change
+from mechwright.geometry.keyway import LEAST_WIDTH
 from mechwright.mechanics.openings import keyed_findings, opening_of, too_small
 from mechwright.tolerances import falls_short
 from mechwright_cam_follower.cycle import cycle_of
@@ -60,15 +61,31 @@ def farthest_of(params: CamParams) -> float:
     return 0.0 if opening is None else float(np.hypot(*opening.loop().flatten().T).max())
 
 
+def _largest_bore(params: CamParams, inner: float) -> float | None:
+    """The largest bore up to the present one, mm, whose opening leaves the wall inside of a radius; None if none."""
+    bore = params.bore
+    while True:
+        # A keyway's corners stand out of a smaller bore farther than of a larger one.
+        beyond = farthest_of(params.model_copy(update={"bore": bore})) - bore / 2
+        most = math.floor(20 * (inner - params.least_wall - beyond)) / 10
+        if most >= bore:
+            return bore
+        if most < max(LEAST_WIDTH, params.keyway_width):
+            return None
+        bore = most
+
+
 def _cam_walls(params: CamParams) -> Iterator[Finding]:
     out = farthest_of(params)
     inner = min(extremes_of(params, second).innermost.value for second in cams_of(params))
-    if params.bore > 0:
-        bore = math.floor(2 * (inner - params.least_wall - (out - params.bore / 2)) * 10) / 10
-        yield from _thin(
-            "bore", "the opening for the shaft", inner - out, params,
-            f"make bore at most {bore:g}, or base_radius larger", {"parameters.bore": bore},
-        )  # fmt: skip
+    if params.bore > 0 and falls_short(inner - out, params.least_wall):
+        most = _largest_bore(params, inner)
+        remedy = "make base_radius larger"
+        changes: tuple[Change, ...] = ()
+        if most is not None:
+            remedy = f"make bore at most {most:g}, or base_radius larger"
+            changes = ({"parameters.bore": most},)
+        yield from _thin("bore", "the opening for the shaft", inner - out, params, remedy, *changes)
     if params.screw_diameter == 0:
         return
     ring, hole = params.screw_circle / 2, params.screw_diameter / 2

@@ -125,6 +125,12 @@ def test_pieces_join_without_a_step(one, gap, height, waves):
         assert abs(np.diff(sides.s)[0]) < 1e-9 * scale
         assert abs(np.diff(sides.v)[0]) < 1e-9 * max(1.0, law.peaks.a)
     assert float(law.at(1.0).s) == pytest.approx(1)
+    dense = law.at(np.linspace(0, 1, 4001))
+    for name in ("v", "a", "j"):
+        seen, said = np.abs(getattr(dense, name)).max(), getattr(law.peaks, name)
+        assert seen <= said * (1 + 1e-12)
+        assert said <= seen * (1 + 1e-2)
+    assert law.least_velocity == pytest.approx(dense.v.min(), abs=1e-3 * law.peaks.v)
 
 
 class TestTable:

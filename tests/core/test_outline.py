@@ -53,6 +53,9 @@ def test_moments_of_a_circle(x, y, r):
 def test_moments_of_a_rectangle(w, h):
     wanted = [w * h, w * w * h / 2, w * h * h / 2, w**3 * h / 3, w * h**3 / 3, w * w * h * h / 4]
     np.testing.assert_allclose(rectangle(w, h).moments, wanted, rtol=1e-12)
+    plate = Outline(rectangle(w, h))
+    assert plate.polar_moment == pytest.approx(w * h * (w * w + h * h) / 3)
+    assert plate.centroid == pytest.approx((w / 2, h / 2))
 
 
 @pytest.mark.parametrize("degree", range(1, 11))

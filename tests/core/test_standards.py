@@ -8,7 +8,7 @@ import pytest
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.materials import material
 from mechwright.errors import DesignError, GeometryError
-from mechwright.geometry.keyway import KEYS, key_for_bore
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore
 from mechwright.standards.bearings import bearing, bearing_for, bearings, thinner
 from mechwright.standards.bushes import bush_for, bushes
 from mechwright.standards.circlips import bore_circlip, bore_circlips, shaft_circlip, shaft_circlips
@@ -167,6 +167,43 @@ def test_dowels_are_sold_in_steps():
         dowel_for(6, 13)
     with pytest.raises(DesignError, match="ISO 8734 has no 7 mm"):
         dowel_for(7, 20)
+
+
+@pytest.mark.parametrize("size", KEYS, ids=lambda size: f"{size.width:g}")
+def test_a_key_stands_on_its_seat_and_does_not_reach_the_floor(size):
+    opening = Opening(size.bore_to, size.width, size.hub_depth)
+    seat = size.bore_to / 2 - opening.seat_depth
+    assert opening.key_top - seat == pytest.approx(size.height)
+    gap = size.shaft_depth + size.hub_depth - size.height
+    assert opening.floor - opening.key_top == pytest.approx(gap)
+    assert opening.mouth < opening.key_top < opening.floor
+    assert max(x for x, _ in opening.key_section()) == opening.key_top
+
+
+@pytest.mark.parametrize("size", KEYS[:8:3], ids=lambda size: f"{size.width:g}")
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.999])
+def test_the_opening_of_a_shaft_has_the_area_of_its_parts(size, share):
+    radius, half = size.bore_to / 2, size.width / 2
+    assert Opening(size.bore_to).loop().area == pytest.approx(-math.pi * radius**2)
+    sharp = Opening(size.bore_to, size.width, size.hub_depth)
+    deep = sharp.floor - sharp.mouth
+    assert sharp.greatest_relief == pytest.approx(math.sqrt(2) * min(half, deep))
+    relief = share * sharp.greatest_relief
+    # A disc without what lies beyond the chord of the keyway's mouth, the keyway, and in both corners half a
+    # disc outside of the right angle over its diameter.
+    angle = math.asin(half / radius)
+    disc = radius**2 * (math.pi - angle + math.sin(angle) * math.cos(angle))
+    corners = 2 * (math.pi / 8 - 1 / 4) * relief**2
+    loop = Opening(size.bore_to, size.width, size.hub_depth, relief).loop()
+    assert -loop.area == pytest.approx(disc + 2 * half * deep + corners)
+
+
+@pytest.mark.parametrize(("depth", "gap"), [(2.0, 0.2), (0.4, 0.2), (0.3, 0.15), (0.1, 0.05)])
+def test_a_key_of_no_standard_width_leaves_a_gap_of_a_fifth_or_half_its_depth(depth, gap):
+    opening = Opening(20.0, 5.5, depth)
+    assert opening.floor == 10 + depth
+    assert opening.floor - opening.key_top == pytest.approx(gap)
+    assert opening.seat_depth == depth
 
 
 def test_keys_are_those_of_the_keyways():

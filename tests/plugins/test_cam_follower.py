@@ -13,6 +13,7 @@ from numpy.testing import assert_allclose
 from mechwright.contracts.finding import Severity, errors
 from mechwright_cam_follower.as_made import error_of
 from mechwright_cam_follower.checks import findings
+from mechwright_cam_follower.cures import sound
 from mechwright_cam_follower.cycle import cycle_of
 from mechwright_cam_follower.extremes import cams_of, extremes_of, face_of, greatest, weakest_of
 from mechwright_cam_follower.geometry import geometry_of
@@ -282,6 +283,18 @@ def test_undercut_is_named_and_mended():
     )
     nearly = findings(cam(**{**UNDERCUT, "base_radius": base - 0.05}))
     assert "follower.undercut" in {one.code for one in nearly}
+
+
+@pytest.mark.parametrize(
+    "table",
+    [{"offset": 70.0}, {"follower": "oscillating", "centre_distance": 200.0, "arm_length": 20.0}],
+)
+def test_a_cam_that_its_follower_does_not_reach_is_not_sound(table):
+    (found,) = errors(findings(cam(**table)))
+    assert not sound(cam(**table), steep=False)
+    (change,) = found.proposed
+    ((key, value),) = change.items()
+    assert sound(cam(**table | {key.split(".")[1]: value}), steep=False)
 
 
 def test_steep_cam_is_mended():

@@ -161,3 +161,24 @@ def test_a_top_beyond_the_first_parabolas_is_followed():
     found = FAMILY.evaluate(one, asked)
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, asked, Stage.PARTS))
     assert (found.forbidden == 0).all()
+
+
+LEVER = {"follower": "oscillating", "swings": [10, 10, 0, 0]}
+
+
+@pytest.mark.parametrize(
+    ("table", "hole"),
+    [
+        ({"pin_diameter": 8}, 8),
+        ({**LEVER, "pin_diameter": 4, "pivot_bore": 9}, 9),
+        ({**LEVER, "pin_diameter": 9, "pivot_bore": 5}, 9),
+    ],
+)
+def test_a_bar_is_refused_that_leaves_less_than_a_wall_beside_its_hole(table, hole):
+    wall = 1.5
+    widths = hole + 2 * wall + np.array([-1.0, -0.01, 0.01, 4.0])
+    few = Batch(CamParams, {**table, "least_wall": wall}, {"follower_width": widths})
+    found = FAMILY.evaluate(few, ())
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, (), Stage.PARTS))
+    assert found.counts == {"follower.wall": 2}
+    assert (found.forbidden > 0).tolist() == [True, True, False, False]

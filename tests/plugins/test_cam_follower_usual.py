@@ -50,3 +50,23 @@ def test_small_cams_and_rollers_have_bores_and_studs_that_fit(kind, base, roller
     assert "follower.wall" not in [one.code for one in FAMILY.check(params)]
     given = CamParams.model_validate({**kind, "base_radius": base, "bore": 15, "pin_diameter": 8})
     assert (given.bore, given.pin_diameter) == (15, 8)
+
+
+@pytest.mark.parametrize("keyway", [{}, {"keyway_width": 8.0}])
+def test_a_bore_that_leaves_no_wall_is_told_the_largest_that_does(keyway):
+    def thin(bore):
+        found = FAMILY.check(CamParams(base_radius=30.0, screw_diameter=0, bore=bore, **keyway))
+        return [one for one in found if (one.code, one.parameter) == ("follower.wall", "bore")]
+
+    (one,) = thin(58.0)
+    (change,) = one.proposed
+    most = change["parameters.bore"]
+    assert 40 < most < 58
+    assert thin(most) == []
+    assert thin(most + 0.2)
+
+
+def test_a_cam_without_room_for_its_keyway_is_not_told_of_a_bore() -> None:
+    found = FAMILY.check(CamParams(base_radius=13.0, screw_diameter=0, bore=20, keyway_width=12.0))
+    (one,) = [one for one in found if (one.code, one.parameter) == ("follower.wall", "bore")]
+    assert (one.proposed, one.remedy) == ((), "make base_radius larger")

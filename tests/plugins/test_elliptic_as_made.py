@@ -39,6 +39,14 @@ def test_the_pair_of_the_readme_turns_at_every_position_over_its_tolerances():
             ahead, behind = pair.gaps.play((off, 0.0), sign * pair.corridor)
             assert (ahead + behind).min() > 2e-4
     assert pair.spare(OFF_CENTRE).min() > 0
+    (curve,) = said.curves
+    ahead, behind = pair.gaps.play()
+    assert 0 <= curve.x[0] < curve.x[-1] < 360
+    assert (np.diff(curve.x) >= 0).all()
+    at = np.argmin(np.abs(np.exp(1j * np.radians(curve.x))[:, None] - np.exp(1j * pair.gaps.theta)), axis=1)
+    np.testing.assert_allclose(curve.lines["as made"], 1e6 * (ahead + behind)[at])
+    assert (curve.lines["in the worst case"] < curve.lines["as made"]).all()
+    assert (curve.lines["as drawn"] > 0).all()
 
 
 def test_both_ways_agree_within_a_hundredth():
@@ -78,6 +86,7 @@ def test_a_pair_that_jams_is_refused_with_a_backlash_that_works(tight):
     )
     assert finding.parameter == "backlash"
     assert finding.value < 0 == finding.limit
+    assert " jam: " in finding.message  # with its axes where they belong, not only with them off
     assert "make backlash 0.067" in finding.remedy
     better = with_backlash(params, least_backlash(params))
     # The walls keep what they keep: the same stock on the flanks of the better pair.
@@ -106,7 +115,7 @@ def test_what_check_cannot_know_build_finds_out(command_line, tmp_path):
     assert (code, "warning [gear.backlash]" in out) == (0, True)
     code, _, err = command_line("build", str(path), "-o", str(tmp_path / "out"))
     assert code == 1
-    assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam" in err
+    assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam: " in err
     assert "make backlash 0.067" in err
 
 

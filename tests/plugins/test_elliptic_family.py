@@ -1,14 +1,16 @@
 """The family as a plugin: contracts, parts, cuts, and random designs."""
 
+import math
 import subprocess
 import sys
 from functools import cache
 
 import numpy as np
 import pytest
+import scipy.special
 import shapely
 from by_night import examples
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
@@ -30,6 +32,17 @@ def test_the_plugin_registers_the_family():
     host.add(plugin, "mechwright", "elliptic-gears")
     assert host.broken == []
     assert isinstance(host.family("elliptic-gears"), EllipticGears)
+
+
+@given(st.floats(0, 0.8), st.integers(15, 99), st.floats(0.3, 3), st.booleans())
+def test_a_bore_that_is_left_out_is_the_largest_that_leaves_the_rim(e, teeth, module, by_axis):
+    a = module * math.pi * teeth / (4 * float(scipy.special.ellipe(e * e)))
+    params = Params(eccentricity=e, teeth=teeth, **({"semi_major": a} if by_axis else {"module": module}))
+    # From the near vertex to the roots, then 1.2 heights of a tooth; a module adds 1 and 1.25 of them.
+    room = 2 * (a * (1 - e) - (1.25 + 1.2 * 2.25) * module)
+    sold = (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
+    assume(min(abs(room - one) for one in sold) > 1e-3 * a)
+    assert params.bore == next((one for one in sold if one < room), 10.0)
 
 
 def test_nothing_heavy_is_imported_with_the_plugin_or_by_a_check():

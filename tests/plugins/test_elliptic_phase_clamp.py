@@ -152,6 +152,22 @@ def test_a_clamp_without_room_is_refused():
     assert errors(FAMILY.check(Params(**table, phases=change["parameters.phases"]))) == []
 
 
+@pytest.mark.parametrize("screws", range(3, 9))
+@pytest.mark.parametrize("screw", [2.0, 3.0, 4.0, 6.0])
+@pytest.mark.parametrize("bore", [3.0, 6.0, 12.0])
+def test_heads_and_walls_of_a_clamp_are_apart_and_no_more_than_they_need(bore, screw, screws):
+    clamp = clamp_of(Params(**CLAMP | {"bore": bore}, clamp_screw=screw, clamp_screws=screws))
+    hole, head = clamp.hole, clamp.of.head
+    between_heads = 2 * clamp.circle * math.sin(math.pi / screws) - head - 0.5
+    inside = clamp.circle - bore / 2 - hole
+    for spare in (between_heads, inside):
+        assert spare >= -1e-9
+    # Radii are whole halves of a millimetre, so that one of them has less than that to spare.
+    assert min(between_heads / (2 * math.sin(math.pi / screws)), inside) < 0.5
+    assert 0 <= clamp.register - clamp.circle - hole + 1e-9 < 0.5
+    assert clamp.outside == max(clamp.register + 4, math.ceil(2 * clamp.circle + head - 1e-9) / 2)
+
+
 SOLD = {2.0: 20, 2.5: 25, 3.0: 30, 4.0: 40, 5.0: 50, 6.0: 50, 8.0: 50, 10.0: 50, 12.0: 50}
 """Thread to the longest screw that is kept, mm."""
 

@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from designed import designed
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
@@ -16,7 +18,7 @@ from mechwright.contracts.holes import joined
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.interference import interference, interference_findings, smooth_motion
-from mechwright_elliptic_gears.dividing import PITCH, START, direction
+from mechwright_elliptic_gears.dividing import PITCH, START, direction, phases_that_work, placed
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear_parts import gears_of
@@ -312,3 +314,26 @@ def test_circles_without_room_are_refused(code, table, mend):
     assert faults
     if mend:
         assert errors(FAMILY.check(Params(**PINS | table | {"dowel_circle": mend}))) == []
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.lists(st.integers(0, 72), min_size=3, max_size=7, unique=True), st.floats(0, 0.6))
+def test_a_phase_without_a_hole_is_moved_no_farther_than_it_must(steps, e):
+    phases = tuple(5.0 * step for step in steps)
+    first = placed(phases, e, 4.0, 20.0)
+    middles = np.array([first.centre(hole) for hole in first.holes])
+    apart = np.abs(np.subtract.outer(middles, middles))[np.triu_indices(len(middles), 1)]
+    assert apart.min(initial=np.inf) >= PITCH * 4 - 1e-8
+    found = phases_that_work(first, phases, e)
+    if first.crowded is None:
+        assert found == sorted(phases)
+        return
+    assert placed(tuple(found), e, 4.0, 20.0).crowded is None
+    gone, come = set(phases) - set(found), set(found) - set(phases)
+    if len(gone) == 1:
+        (old,), (new,) = gone, come
+        kept = tuple(phase for phase in phases if phase != old)
+        nearer = np.arange(0.5, abs(new - old), 0.5)
+        for phase in (*(old + nearer), *(old - nearer)):
+            if 0 <= phase <= 360:
+                assert placed((*kept, float(phase)), e, 4.0, 20.0).crowded is not None

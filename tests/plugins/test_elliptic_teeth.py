@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mechwright.mechanics.gearing import FIT, SIDES, gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.gear import outline_of, teeth_of
+from mechwright_elliptic_gears.gear import OFFSET_SLACK, offset_miss, offsets_that_mesh, outline_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams as Params
 
 
@@ -32,6 +32,16 @@ def test_the_frame_is_that_of_the_curve(e, u):
     np.testing.assert_allclose((after.normal - before.normal) / rate * here.radius, here.tangent, atol=1e-5)
     assert here.tangent @ here.normal == pytest.approx(0, abs=1e-15)
     assert here.normal @ (here.point - [ellipse.focal_distance, 0]) > 0
+
+
+@given(st.floats(0, 1), st.integers(8, 200))
+def test_an_offset_misses_by_what_it_is_from_one_of_a_row_of_halves(offset, teeth):
+    first, second = offsets_that_mesh(teeth)
+    # Twice the offset is half of one less than the number of teeth, but for whole pitches.
+    assert (2 * first - (teeth - 1) / 2) % 1 == (2 * second - (teeth - 1) / 2) % 1 == 0
+    away = 2 * (offset - first)
+    exact = abs(away - round(away)) / 2
+    assert offset_miss(offset, teeth) == pytest.approx(exact if exact > OFFSET_SLACK else 0.0, abs=1e-12)
 
 
 def test_a_circle_has_involute_teeth():

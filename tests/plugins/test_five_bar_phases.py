@@ -1,5 +1,6 @@
 """A five-bar that is set to several phases: the same plates, other places of A and C, another offset."""
 
+import cmath
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ from five_bar_reference import FACTS, NEAR, POINTS, reference
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
+from mechwright_five_bar import marks
 from mechwright_five_bar.clamp_checks import setting_findings
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.hub import hub_of
@@ -92,6 +94,28 @@ def test_places_that_are_near_are_set_in_arc_slots_about_a0_and_b1():
     assert sorted(arcs) == [1, 4, 4]
     (scale_a, scale_c) = parts["coupler"].details
     assert min(len(scale_a.strokes), len(scale_c.strokes)) > 3
+
+
+@pytest.mark.parametrize("angle", [83.0, 90.0, -90.0])
+def test_marks_stand_at_the_angles_that_are_written_beside_them(monkeypatch, angle):
+    seen = []
+    monkeypatch.setattr(
+        marks, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
+    )
+    phases = ({"crank_turn": 6, "rocker_turn": 11}, {"crank_turn": -4, "rocker_turn": -5})
+    params = in_phase(reference(phases=phases, setting_angle=angle))
+    marks.scales(params)
+    loop = close(bar_of(params), math.radians(angle))
+    b1 = complex(loop.joint_b)
+    arms = (cmath.rect(1, math.radians(angle)), complex(loop.joint_c) - b1)
+    turns = ([0, 6, -4], [0, 11, -5])
+    for (slot, places, written), arm, turn in zip(seen, arms, turns, strict=True):
+        assert max(abs(one) for one in written) <= 180
+        along = np.array(places) - slot.centre
+        # The coupler carries its slots, and lies at one angle while both are set.
+        np.testing.assert_allclose(np.angle(along / along[0]), np.radians(turn), atol=1e-9)
+        turned = np.exp(1j * np.radians(written)) / (arm / abs(arm))
+        np.testing.assert_allclose(np.angle(turned), np.radians(turn), atol=1e-9)
 
 
 def test_studs_reach_from_their_heads_to_the_coupler():

@@ -40,7 +40,9 @@ def test_the_family_gives_designs_whose_point_meets_the_line():
     bar, point = bar_of(best.params), best.params.coupler_point
     first = best.figures["first_crank_angle"].value
     assert abs(path(bar, pivot_of(best.params), point, np.array([first]))[0] - LINE[0]) < 1e-8
-    sense = 1 if best.figures["crank_turn"].value > 0 else -1
+    turn = best.figures["crank_turn"].value
+    assert abs(path(bar, pivot_of(best.params), point, np.array([first + turn]))[0] - LINE[-1]) < 1e-8
+    sense = 1 if turn > 0 else -1
     assert best.params.direction == ("ccw" if sense > 0 else "cw")
 
 

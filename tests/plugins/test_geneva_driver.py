@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from mechwright.mechanics.planar import Turning
 from mechwright.testing.compare import assert_derivative
-from mechwright_geneva.contact import loads
+from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.driver import driver_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.figures import rate_peaks
@@ -188,6 +188,26 @@ def test_inertia_alone_is_carried_by_one_wall_both_ways(table, wall):
         assert switches(mechanism_of(params)) == ()
         walls = Geneva().solve(params, 721).channels["contact_wall"].values
         assert set(walls.tolist()) == {0.0, float(wall)}
+
+
+@pytest.mark.parametrize("table", [{"load_inertia": 3e-4}, {"load_inertia": 2.0, "speed": 20}])
+def test_the_force_in_the_middle_is_that_of_the_places_beside_it(table):
+    m = worked(**table)  # there the lever and the torque are 0, and their ratio is a limit
+    found = contact(m, m.stroke(np.array([0.499, 0.5, 0.501])))
+    assert found.force[1] == pytest.approx((found.force[0] + found.force[2]) / 2, rel=1e-3)
+    assert found.pressure[1] == pytest.approx((found.pressure[0] + found.pressure[2]) / 2, rel=1e-3)
+    assert len(set(found.wall.tolist())) == 1
+
+
+@pytest.mark.parametrize(("load", "out"), [(0.0, RIGHT), (30.0, LEFT)])
+def test_walls_of_a_straight_slot(load, out):
+    """The pin pushes ahead on the way in; on the way out the wheel pushes it, unless the load holds it back."""
+    m = mechanism_of(GenevaParams(law="straight", entry_radius=100, load_torque=load))
+    u = np.linspace(0.02, 0.98, 97)
+    found = contact(m, m.stroke(u))
+    assert set(found.wall[u < 0.49].tolist()) == {RIGHT}
+    assert set(found.wall[u > 0.51].tolist()) == {out}
+    assert (found.pressure_angle == 0).all()
 
 
 def test_the_wall_of_the_channel_is_the_one_of_torque_and_lever():

@@ -292,3 +292,28 @@ def test_the_groove_is_the_union_of_its_discs(table):
     swept = shapely.LineString(np.column_stack((track.real, track.imag))).buffer(m.groove, quad_segs=256)
     missing = groove.intersection(disc).symmetric_difference(swept.intersection(disc)).area
     assert missing < 1e-3 * groove.length
+
+
+class Whole:
+    """A law of which nobody says that it is its own mirror image."""
+
+    symmetric = False
+
+    def __init__(self, law):
+        self.law = law
+
+    def __getattr__(self, name):
+        return getattr(self.law, name)
+
+
+@pytest.mark.parametrize("slots", [4, 6])
+def test_a_whole_stroke_is_judged_as_its_half_and_the_mirror_image(slots):
+    half, offset, radius = random_designs(np.random.default_rng(slots), 40, slots)
+    frame, law = columns(slots, half, offset, 100), LAWS["modified-sine"]()
+    one, other = (measure(frame, each, radius[:, None], 161) for each in (law, Whole(law)))
+    for figure in ("side", "mouth", "web", "nearest"):
+        ours, theirs = getattr(one, figure), getattr(other, figure)
+        some = (ours > 0) | (theirs > 0) | (figure != "web")  # below 0 there is no web
+        np.testing.assert_allclose(theirs[some], ours[some], atol=0.02, err_msg=figure)
+    bends = radius < 0.9 * one.island_limit
+    assert ((other.width > 0) == (one.width > 0))[bends].all()

@@ -4,13 +4,17 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mechwright import KinematicsError, Severity, Stage
 from mechwright.contracts.finding import errors
 from mechwright.testing.compare import assert_derivative
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.rules import motion_faults
+from mechwright_slider_crank.course import ways
 from mechwright_slider_crank.family import SliderCrankFamily
+from mechwright_slider_crank.motion import peaks
 
 RATES = (
     ("phi", "omega_a"),
@@ -159,3 +163,35 @@ def test_the_margin_of_the_rod_is_said():
     assert errors(FAMILY.check(params(30, 40.02, 10))) == [
         one for one in errors(FAMILY.check(params(30, 40.02, 10))) if one.code != "slider-crank.crank-turn"
     ]
+
+
+@settings(deadline=None)
+@given(
+    st.floats(5, 100),
+    st.floats(5, 100),
+    st.floats(-80, 80),
+    st.floats(-180, 180),
+    st.sampled_from([0.0, 0.02]),
+)
+def test_the_ways_of_a_crank_are_all_angles_at_which_the_rod_reaches_the_slide(
+    crank, rod, offset, slide, least
+):
+    design = params(crank, rod, offset, slide_direction=slide)
+    angles = np.linspace(-math.pi, math.pi, 721)[:-1]
+    off = np.abs(offset - crank * np.sin(angles - math.radians(slide))) - rod * math.cos(least)
+    inside = np.zeros(angles.shape, bool)
+    for low, high in ways(design, least):
+        inside |= (angles - low) % math.tau <= high - low
+    clear = np.abs(off) > 1e-9 * (crank + rod)
+    assert (inside == (off <= 0))[clear].all()
+
+
+@given(st.floats(0, math.tau), st.sampled_from([math.tau, math.inf]))
+def test_a_peak_is_found_wherever_it_is_and_nothing_beyond_the_end_is_asked(where, end):
+    def functions(t):
+        assert end == math.inf or 0 <= t.min() <= t.max() <= end
+        return {"one": 3 + np.cos(t - where), "other": -np.abs(t - where)}
+
+    found = peaks(functions, end)
+    assert found["one"] == pytest.approx(4, abs=1e-12)
+    assert found["other"] == pytest.approx(0, abs=1e-6)

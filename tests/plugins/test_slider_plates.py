@@ -14,9 +14,10 @@ from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.figures import limits
+from mechwright_slider_crank.outlines import crank_outline
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import body_poses, layout_of, masses_of, parts_of, standing_sizes
-from mechwright_slider_crank.sizes import filled_in, sizes_of
+from mechwright_slider_crank.sizes import clear_overhang, filled_in, sizes_of
 
 DESIGNS = (
     {"crank": 51.23710482942299, "rod": 113.28305527097052, "offset": 50},
@@ -40,6 +41,29 @@ def test_nothing_collides_over_a_turn(design):
     report = interference(parts_of(design), family.solve(design, 181), solids=False)
     assert report.collisions == ()
     assert report.pairs >= 10
+
+
+@pytest.mark.parametrize("shape", ["arm", "disc"])
+def test_a_crank_reaches_as_far_as_its_walls_about_shaft_and_pin(shape):
+    params = SliderCrankParams(crank_shape=shape)
+    sizes, outline = sizes_of(params), crank_outline(params)
+    far = params.crank + sizes.pin_boss
+    behind = sizes.shaft / 2 + sizes.wall if shape == "arm" else far
+    assert outline.bounds[::2] == pytest.approx((-behind, far))
+    assert sizes.pin_boss == pytest.approx(sizes.pin / 2 + sizes.wall)
+
+
+@pytest.mark.parametrize("ends", [(60.0, 160.0), (10.0, 70.0), (-30.0, 90.0)])
+@pytest.mark.parametrize("crank", [20.0, 45.0])
+def test_dowels_of_rails_stand_outside_of_what_crank_and_rod_sweep(crank, ends):
+    sizes, clearance = sizes_of(SliderCrankParams()), 1.5
+    overhang = clear_overhang(sizes, crank, ends, clearance)
+    half = (ends[1] - ends[0] + sizes.slider_length) / 2 + overhang
+    # The nearer of both dowels from the crank's axis, half a rail's width from the end of the rail.
+    dowel = half - sizes.rail / 2 - abs(ends[0] + ends[1]) / 2
+    spare = dowel - (crank + max(sizes.pin_boss, sizes.rod_boss) + sizes.spacer + clearance)
+    assert spare >= 0
+    assert spare < 2 or overhang == sizes.rail
 
 
 def test_a_bent_crank_pin_place_is_seen(design):

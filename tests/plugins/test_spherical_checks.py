@@ -131,6 +131,13 @@ def test_finding(code, table, parameter):
         assert one.remedy
 
 
+def test_points_along_the_travel_are_in_order_however_near_they_are():
+    path = {"path_n": [[0, 2]] * 3}
+    for angles, wrong in (([-8, -10, -20], None), ([-8, -8, -20], None), ([-8, -20, -10], -10)):
+        order = found("spherical.order", five_bar={**path, "path_angles_n": angles})
+        assert [one.value for one in order] == ([] if wrong is None else [pytest.approx(wrong)])
+
+
 def test_every_error_and_warning_is_caused_above():
     folder = Path(findings.__wrapped__.__code__.co_filename).parent
     text = "".join(
@@ -156,6 +163,23 @@ def test_the_radius_that_is_asked_for_is_enough():
         wished = max(one.limit for one in found("spherical.shafts", radius=radius))
         assert found("spherical.shafts", radius=wished) == []
         assert found("spherical.shafts", radius=0.97 * wished)
+
+
+@pytest.mark.parametrize(("arc", "link"), [("input", "crank"), ("output", "rocker")])
+def test_bores_of_a_short_link_stand_side_by_side_on_the_radius_that_is_named(arc, link):
+    def too_near(radius):
+        said = f"the pins of the {link}"
+        design = {**FOUR_BAR, "radius": radius, "four_bar": {arc: 5}}
+        return [one for one in found("spherical.shafts", **design) if one.message.startswith(said)]
+
+    (one,) = too_near(40)
+    assert too_near(one.limit) == []
+    (less,) = too_near(one.limit - 0.2)
+    assert less.limit == one.limit
+    # There discs of that width across both axes touch.
+    there = float(re.search(r"at ([\d.]+) mm from the centre", less.message)[1])
+    width = float(re.search(r"apart, and ([\d.]+) mm", less.message)[1])
+    assert there == pytest.approx(width / 2 / math.tan(math.radians(5) / 2), abs=0.3)
 
 
 def test_longer_projections_need_larger_spheres():

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from by_night import by_night
+from hypothesis import given
+from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
@@ -206,3 +208,22 @@ def test_the_example_builds_without_a_warning(tmp_path):
     made = {file.name for file in (tmp_path / "out").iterdir()}
     assert {"assembly.step", "ground.step", "flat-ground.nc", "flat-ground-2.nc"} <= made
     assert json.loads((tmp_path / "out" / "proof.json").read_text(encoding="utf-8"))
+
+
+@given(st.floats(0.3, 1.2), st.floats(0.1, 1.2), st.floats(-1.0, 1.0))
+def test_a_pin_beside_the_middle_of_an_arc_is_as_far_as_its_latitude(latitude, half, turn):
+    def at(azimuth, elevation):
+        return np.array([
+            [math.cos(elevation) * math.cos(azimuth)], [math.cos(elevation) * math.sin(azimuth)], [math.sin(elevation)]
+        ])  # fmt: skip
+
+    radius, pin, arc, disc = 50.0, 3.0, 4.0, 6.0
+    link = at(turn - half, 0.0), at(turn + half, 0.0)
+    beside = latitude - math.atan(pin / radius) - math.atan(arc / radius)
+    end = math.acos(math.cos(latitude) * math.cos(half)) - math.atan(pin / radius) - math.atan(disc / radius)
+    found = pin_apart(at(turn, latitude), link, pin, arc, disc, radius)
+    assert found == pytest.approx(radius * min(beside, end))
+    # Beyond an end of the arc it is that end's disc which is near.
+    far = turn + half + latitude
+    found = pin_apart(at(far, 0.0), link, pin, arc, disc, radius)
+    assert found == pytest.approx(radius * (latitude - math.atan(pin / radius) - math.atan(disc / radius)))
