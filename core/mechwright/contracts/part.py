@@ -15,7 +15,9 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.guard import later
 from mechwright.contracts.result import maker
+from mechwright.contracts.shape import Shape
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
@@ -236,6 +238,8 @@ class Part:
             form = self.turned or self.bought
             if form is not None and form.shape is not None:
                 object.__setattr__(self, "build", form.shape.solid)
+        elif self.build is not None and not isinstance(getattr(self.build, "__self__", None), Shape):
+            object.__setattr__(self, "build", later(self.build, f"the solid of part {self.name!r}"))
         if (self.outline is None) == (self.build is None):
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
         if self.outline is not None and not self.thickness > 0:
