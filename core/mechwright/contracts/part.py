@@ -31,6 +31,8 @@ NAME_PATTERN = r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?"
 """What can be a file name anywhere."""
 
 _NAME = re.compile(NAME_PATTERN)
+_DEVICES = frozenset(("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))))
+"""With any ending, ``con.step``, they are no files there."""
 
 
 def check_name(name: str, what: str = "name") -> str:
@@ -44,6 +46,8 @@ def check_name(name: str, what: str = "name") -> str:
             f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
             "a letter or digit at both ends"
         )
+    if name in _DEVICES:
+        raise DesignError(f"{what} {name!r} is that of a device on Windows; use another, such as {name}-1")
     return name
 
 
