@@ -101,7 +101,7 @@ def test_two_parts_of_one_name_are_refused(
     monkeypatch.setattr(odd, "names", ("plate", "plate"))
     code, _, err = run("model", "-o", tmp_path / "out")
     assert code == 2
-    assert "two files would be called 'plate.step'" in err
+    assert "plugin odd of odd-mechanisms: family odd: parts(): two parts are called 'plate'" in err
     assert not (tmp_path / "out").exists()
 
 

@@ -1,5 +1,6 @@
 """What everybody in a process shares is as it was after a call into a plugin, and the plugin is told."""
 
+import decimal
 import gc
 import json
 import locale
@@ -60,6 +61,8 @@ SPOILS: dict[str, tuple[Callable[..., Any], str]] = {
     "random": (seeded, "the state of random numbers"),
     "of numpy": (drawn, "the state of numpy's random numbers"),
     "errors": (lambda _: np.seterr(all="raise"), "what numpy does about errors"),
+    "decimals": (lambda _: setattr(decimal.getcontext(), "prec", 2), "the context of decimal numbers"),
+    "other decimals": (lambda _: decimal.setcontext(decimal.BasicContext), "the context of decimal numbers"),
     "output": (lambda _: setattr(sys, "stdout", None), "standard output or standard error"),
 }
 

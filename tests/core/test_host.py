@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mechwright.contracts import guard
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
@@ -111,6 +112,8 @@ def test_what_is_not_installed_is_named_with_what_is(plugin, what, known):
         ("raise SystemExit", "SystemExit"),
         ("raise RuntimeError('first line\\nsecond line')", "RuntimeError: first line"),
         ("raise KeyError('colour')", "KeyError: 'colour'"),
+        ("raise GeneratorExit", "GeneratorExit"),
+        ("class Own(BaseException): pass\nraise Own('mine')", "Own: mine"),
     ],
 )
 def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
@@ -118,6 +121,28 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
     (said,) = reasons(host)
     assert said.startswith(f"plugin bad of shaky is not used: {reason}")
     assert "second line" not in said
+    assert list(host.of(Family)) == ["cam"]
+
+
+@pytest.mark.skipif(not hasattr(guard.signal, "setitimer"), reason="the system has no alarm")
+@pytest.mark.parametrize(
+    ("source", "where"),
+    [
+        ("while True: pass", ""),
+        (FAMILY.replace("return [Cam]", "while True: pass"), "mechwright_register: "),
+        (
+            FAMILY.replace(
+                "def check(self", "def __init__(self):\n        while 1: pass\n    def check(self"
+            ),
+            "Cam(): ",
+        ),
+    ],
+    ids=["module", "hook", "class"],
+)
+def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
+    monkeypatch.setattr(guard, "LOADING", 0.2)
+    host = load([plugin(source, "bad", "shaky"), plugin(FAMILY)])
+    assert reasons(host) == [f"plugin bad of shaky is not used: {where}takes more than 0.2 s"]
     assert list(host.of(Family)) == ["cam"]
 
 
@@ -162,6 +187,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
         ),
         ("return [Cam]", "raise ValueError('no')", "mechwright_register: ValueError: no"),
         ("return [Cam]", "raise SystemExit(3)", "mechwright_register: SystemExit: 3"),
+        ("return [Cam]", "raise GeneratorExit", "mechwright_register: GeneratorExit"),
         ('name = "cam"', 'name = "cam"; api = 1', "Cam was written for hook API 1; this is 2"),
         ('name = "cam"', 'name = "cam"; api = None', "Cam was written for hook API None; this is 2"),
         ('name = "cam"', "name = 7", "Cam has no name"),
@@ -182,6 +208,16 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
             "Cam(): ZeroDivisionError",
         ),
         ("def check(self", "def __init__(self): exit()\n    def check(self", "Cam(): SystemExit"),
+        (
+            "def check(self",
+            "def __init__(self): raise GeneratorExit\n    def check(self",
+            "Cam(): GeneratorExit",
+        ),
+        (
+            "def check(self",
+            "def __init__(self): self.solve = self.check = print\n    def check(self",
+            "Cam(): sets check, solve; a method stands in the class",
+        ),
     ],
 )
 def test_a_broken_registration_is_named_and_the_rest_goes_on(plugin, old, new, reason):

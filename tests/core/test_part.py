@@ -50,6 +50,13 @@ def test_names_that_cannot_be_files_anywhere(name):
         Part(name, Outline(BOX), 6.0, "steel")
 
 
+@pytest.mark.parametrize("name", ["con", "nul", "aux", "prn", "com1", "lpt9"])
+def test_names_that_are_devices_on_windows(name):
+    with pytest.raises(DesignError, match=f"part name '{name}' is that of a device on Windows; use another"):
+        Part(name, Outline(BOX), 6.0, "steel")
+    Part(f"{name}-1", Outline(BOX), 6.0, "steel")
+
+
 @pytest.mark.parametrize("name", ["a", "gear-2", "a" * 64, "crank_pin", "0"])
 def test_names_that_can(name):
     assert check_name(name) == name

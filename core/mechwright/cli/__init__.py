@@ -38,7 +38,7 @@ def _run() -> None:
 
     from mechwright.cli import failure
     from mechwright.cli.app import make_app
-    from mechwright.cli.stopping import stopped
+    from mechwright.cli.stopping import StoppedError, stopped
     from mechwright.errors import ProofError
 
     warnings.showwarning = failure.warned
@@ -51,7 +51,9 @@ def _run() -> None:
         if error.code and stopped():  # typer ends without a word what is stopped between its commands
             raise KeyboardInterrupt from error
         raise
-    except Exception as error:
+    except (KeyboardInterrupt, StoppedError):
+        raise
+    except BaseException as error:  # a command of a plugin may raise any kind
         if stopped():
             raise KeyboardInterrupt from error
         # A traceback is of no use to a machinist.

@@ -15,7 +15,7 @@ _NO_ROOM = "failed to map segment"
 """What the loader says of a library for which there is no memory."""
 
 
-def lines(error: Exception) -> list[str]:
+def lines(error: BaseException) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
     said = str(error) if isinstance(error, MechwrightError) else shortened(_unexpected(error))
     shown = [_printable(line) for line in said.splitlines()]
@@ -44,7 +44,7 @@ def _printable(line: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
-def _unexpected(error: Exception) -> str:
+def _unexpected(error: BaseException) -> str:
     if isinstance(error, MemoryError) or (isinstance(error, ImportError) and _NO_ROOM in str(error)):
         return "there is not enough memory for this; nothing was written"
     if isinstance(error, OSError) and error.strerror:
@@ -55,7 +55,7 @@ def _unexpected(error: Exception) -> str:
     return f"{_owner(error)} failed: {reason} ({place}); please report it, with what {TRACEBACK}=1 shows"
 
 
-def _owner(error: Exception) -> str:
+def _owner(error: BaseException) -> str:
     """The plugin whose code was running, innermost first; the program itself if it was none."""
     from mechwright.plugins.host import host
 

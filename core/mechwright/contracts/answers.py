@@ -1,12 +1,15 @@
 """What a family's methods may give: findings, a motion, parts; anything else is refused by name."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 
+from mechwright.contracts.declared import Declared, shown
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.guard import UnsoundError
+from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.motion import Motion, Poses
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
@@ -27,31 +30,79 @@ def sound(method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
         What is wrong with it; the guard says whose it is.
     """
     check = _CHECKS.get(method)
-    return answer if check is None else check(answer, arguments)
+    if check is not None:
+        return check(answer, arguments)
+    kind = _kinds().get(method)
+    if kind is not None:
+        _declared(answer, kind, _LOOSE if method != "evaluate" else _EMPTY)
+    return answer
+
+
+_LOOSE = Declared(finite=False)
+"""A recess without an end, a figure that no design has, are numbers too."""
+_EMPTY = Declared(finite=False, nan=True)
+"""Of designs that are forbidden a column has nothing."""
+_STRICT = Declared(leave=(Poses,))
+"""Poses may be worked out as they are asked for, and have a check of their own."""
+
+
+@cache
+def _kinds() -> Mapping[str, Any]:
+    """What methods of a family give that have no check of their own; imported as it is first asked for."""
+    from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.evaluation import Columns
+    from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
+    from mechwright.contracts.parameters import Parameters
+    from mechwright.contracts.synthesis import Synthesis
+    from mechwright.contracts.target import Target
+    from mechwright.contracts.tolerances import ToleranceModel
+    from mechwright.contracts.transmission import Transmission
+
+    return {
+        "breaks": Sequence[float],
+        "mounting": Mounting | GroundPlate | Flange | None,
+        "transmission": Transmission | None,
+        "settings": Mapping[str, Parameters],
+        "as_made": AsMade,
+        "tolerances": ToleranceModel | None,
+        "synthesise": Synthesis[Parameters],
+        "measures": Mapping[str, str],
+        "evaluate": Columns,
+        "targets": Sequence[Target],
+    }
+
+
+def _declared(answer: Any, kind: Any, asked: Declared = _STRICT) -> None:
+    found = asked.fault(answer, kind)
+    if found is not None:
+        where, said = found
+        raise UnsoundError(
+            f"what it gives {said}" if not where else f"{where.lstrip('.')} of what it gives {said}"
+        )
 
 
 def _findings(answer: Any, _: tuple[Any, ...]) -> Sequence[Finding]:
     found = _several(answer, Finding, "findings")
     for one in found:
-        figures = [x for x in (one.value, one.limit) if x is not None]
-        if any(x != x for x in figures):
+        if any(x != x for x in (one.value, one.limit)):
             raise UnsoundError(f"the finding {one.code!r} has a figure that is not a number")
+    _declared(found, Sequence[Finding])
     return found
 
 
 def _several(answer: Any, kind: type[Any], what: str) -> Sequence[Any]:
     if isinstance(answer, (str, bytes)) or not isinstance(answer, Iterable):
-        raise UnsoundError(f"gives {_shown(answer)}; {what} are wanted, in a list or tuple")
+        raise UnsoundError(f"gives {shown(answer)}; {what} are wanted, in a list or tuple")
     found = answer if isinstance(answer, Sequence) else tuple(answer)
     for one in found:
         if not isinstance(one, kind):
-            raise UnsoundError(f"gives {_shown(one)} among its {what}; each is a {kind.__name__}")
+            raise UnsoundError(f"gives {shown(one)} among its {what}; each is a {kind.__name__}")
     return found
 
 
 def _motion(answer: Any, arguments: tuple[Any, ...]) -> Motion:
     if not isinstance(answer, Motion):
-        raise UnsoundError(f"gives {_shown(answer)}; a Motion is wanted")
+        raise UnsoundError(f"gives {shown(answer)}; a Motion is wanted")
     wanted = arguments[1] if len(arguments) > 1 else answer.samples
     if answer.samples != wanted:
         raise UnsoundError(f"gives {answer.samples} samples; {wanted} are asked for")
@@ -61,7 +112,22 @@ def _motion(answer: Any, arguments: tuple[Any, ...]) -> Motion:
         _numbers(np.asarray(scalar.value), f"figure {name!r}")
     for body, poses in answer.poses.items():
         _poses(poses, body)
+        far = max(np.abs(np.asarray(values)).max(initial=0.0) for values in poses.given[:2])
+        if far > GREATEST:
+            raise UnsoundError(
+                f"body {body!r} is {far:.3g} mm away from the origin; the limit is {GREATEST:,.0f} mm"
+            )
+    _declared(answer, Motion)
     return answer
+
+
+def _stretch(answer: Any, arguments: tuple[Any, ...]) -> Motion:
+    """One of the motions that follow each other; whoever gives them together gives something else."""
+    if arguments:
+        raise UnsoundError(
+            f"gives {shown(answer)}; motions are wanted, one after the other, as yield gives them"
+        )
+    return _motion(answer, ())
 
 
 def _numbers(values: Any, what: str) -> None:
@@ -87,6 +153,7 @@ def _poses(poses: Poses, body: str) -> None:
 
 def _parts(answer: Any, _: tuple[Any, ...]) -> Sequence[Part]:
     found = _several(answer, Part, "parts")
+    _declared(found, Sequence[Part])
     for part in found:
         for outline in part.outlines:
             x0, y0, x1, y1 = outline.bounds
@@ -100,11 +167,31 @@ def _parts(answer: Any, _: tuple[Any, ...]) -> Sequence[Part]:
                 outline.polygon()
             except GeometryError as error:
                 raise UnsoundError(f"part {part.name!r}: {error}") from error
+        _place(part)
+    names = [part.name for part in found]
+    for name in names:
+        if names.count(name) > 1:
+            raise UnsoundError(f"two parts are called {name!r}; each has files of its name")
     return found
 
 
-def _shown(answer: Any) -> str:
-    return f"{answer!r:.80}"
+def _place(part: Part) -> None:
+    """Whether it is of something, and where and in which colour its copies stand."""
+    if part.kind in {"plate", "turned"} and part.material not in MATERIALS:
+        raise UnsoundError(
+            f"part {part.name!r} is of {part.material!r}; materials are {', '.join(sorted(MATERIALS))}"
+        )
+    colours = (part.colour, *(one.colour for one in part.instances if one.colour is not None))
+    for colour in colours:
+        if not all(0 <= share <= 1 for share in colour):
+            raise UnsoundError(f"part {part.name!r} has the colour {colour}; red, green and blue are 0 to 1")
+    corners = [number for outline in part.outlines for number in outline.bounds]
+    for far in (*corners, *(one.z for one in part.instances)):
+        if not abs(far) <= GREATEST:
+            raise UnsoundError(
+                f"part {part.name!r} has something {far:.3g} mm away from the origin; the limit is "
+                f"{GREATEST:,.0f} mm"
+            )
 
 
 _CHECKS: Mapping[str, Callable[[Any, tuple[Any, ...]], Any]] = {
@@ -112,5 +199,6 @@ _CHECKS: Mapping[str, Callable[[Any, tuple[Any, ...]], Any]] = {
     "judge": _findings,
     "check_cut": _findings,
     "solve": _motion,
+    "stretches": _stretch,
     "parts": _parts,
 }

@@ -189,6 +189,21 @@ def _numpy(state: tuple[Any, ...]) -> None:
     numpy.seterr(**dict(state))
 
 
+_DECIMAL = ("prec", "rounding", "Emin", "Emax", "capitals", "clamp")
+
+
+def _decimal(decimal: Any) -> tuple[Any, ...]:
+    context = decimal.getcontext()
+    traps = frozenset(one for one, caught in context.traps.items() if caught)
+    return (traps, *(getattr(context, name) for name in _DECIMAL))
+
+
+def _decimals(was: tuple[Any, ...]) -> None:
+    traps, *rest = was
+    decimal: Any = sys.modules["decimal"]
+    decimal.setcontext(decimal.Context(**dict(zip(_DECIMAL, rest, strict=True)), traps=list(traps)))
+
+
 def _filters(was: list[Any]) -> None:
     filters: Any = warnings.filters
     filters[:] = was
@@ -223,5 +238,6 @@ PIECES: tuple[Piece, ...] = (
         _of("numpy", lambda numpy: _twister(numpy.random)),
         _twisted,
     ),
+    Piece("the context of decimal numbers", _of("decimal", _decimal), _decimals),
     Piece("what numpy does about errors", _of("numpy", lambda numpy: tuple(numpy.geterr().items())), _numpy),
 )

@@ -16,6 +16,7 @@ The keyboard, and a want of memory, pass through as they are.
 """
 
 import functools
+import inspect
 import os
 import signal
 import sys
@@ -24,6 +25,7 @@ import traceback
 import types
 from collections.abc import Callable, Generator, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -35,8 +37,12 @@ LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
 SECONDS = 600.0
 """Without it; the slowest call of a family that is built in takes a sixth of that."""
 
+LOADING = 60.0
+"""Seconds to load a module and make what it registers: those of this program take a hundredth of that."""
+
 OWN = "mechwright"
 """The distribution whose families say what is wrong with a design in words of their own."""
+_OURS = f" of {OWN}: "
 
 _lock = threading.Lock()
 _inside: list[str] = []
@@ -63,15 +69,29 @@ class UnsoundError(Exception):
     """What is wrong with an answer, in words that follow who gave it."""
 
 
-class _TimeUp(BaseException):
+class TimeUpError(BaseException):
     """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
 
 
 def guard(cls: "type[Called]", contract: type["Called"]) -> None:
-    """Wrap the methods of a contract that a class has of its own."""
-    for name, function in list(vars(cls).items()):
-        if isinstance(function, types.FunctionType) and not name.startswith("_") and name in vars(contract):
-            setattr(cls, name, _wrapped(function, contract))
+    """Wrap the methods of a contract that a class has of its own, whatever they are and wherever from.
+
+    A method may be a function of the class or of a base that is no plugin, under any name, kept by a cache,
+    or anything else that can be called.
+    """
+    for name in methods_of(contract):
+        home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
+        if not (home in contract.__mro__ or getattr(own, _MARK, False)):
+            setattr(cls, name, _wrapped(own, name, contract))
+
+
+def methods_of(contract: "type[Called]") -> list[str]:
+    """What is called of the plugins of a contract."""
+    return [
+        name
+        for name, one in vars(contract).items()
+        if isinstance(one, types.FunctionType) and not name.startswith("_")
+    ]
 
 
 def now() -> str:
@@ -90,28 +110,33 @@ def during(who: str) -> Iterator[None]:
         del _inside[before:]
 
 
-def _wrapped(function: Callable[..., Any], contract: "type[Called]") -> Callable[..., Any]:
-    method = function.__name__
+_MARK = "_goes_through_the_guard"
 
-    @functools.wraps(function)
+
+def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., Any]:
+    code = getattr(inspect.unwrap(own) if callable(own) else own, "__code__", _wrapped.__code__)
+
+    @functools.wraps(own, updated=("__dict__",) if isinstance(own, types.FunctionType) else ())
     def called(self: "Called", *arguments: Any, **named: Any) -> Any:
-        with _guarded(self, function, contract, arguments):
-            found = function(self, *arguments, **named)
-            if not isinstance(found, types.GeneratorType):
+        with _guarded(self, method, code, contract, arguments):
+            function = own.__get__(self, type(self)) if hasattr(own, "__get__") else own
+            found = function(*arguments, **named)
+            if not isinstance(found, Iterator):
                 return contract.sound(method, found, (*arguments, *named.values()))
-        return _pieces(self, function, contract, found)
+        return _pieces(self, method, code, contract, found)
 
+    setattr(called, _MARK, True)
     return called
 
 
 def _pieces(
-    plugin: "Called", function: Callable[..., Any], contract: "type[Called]", found: Iterator[Any]
+    plugin: "Called", method: str, code: types.CodeType, contract: "type[Called]", found: Iterator[Any]
 ) -> Generator[Any, None, None]:
     """What a method gives one after the other, each asked for under the guard."""
     while True:
-        with _guarded(plugin, function, contract, ()):
+        with _guarded(plugin, method, code, contract, ()):
             try:
-                one = next(found)
+                one = contract.sound(method, next(found), ())
             except StopIteration:
                 return
         yield one
@@ -119,27 +144,34 @@ def _pieces(
 
 @contextmanager
 def _guarded(
-    plugin: "Called", function: Callable[..., Any], contract: "type[Called]", arguments: tuple[Any, ...]
+    plugin: "Called",
+    method: str,
+    code: types.CodeType,
+    contract: "type[Called]",
+    arguments: tuple[Any, ...],
 ) -> Iterator[None]:
-    method = function.__name__
-    who = f"{who_of(plugin)}: {method}()"
     limited = contract.limited and method not in contract.unlimited
     seconds = _seconds() if limited else 0.0
-    before = repr(arguments[0]) if limited and arguments and not _inside else ""
-    try:
-        with _aside(who), _in_time(seconds), _kept(plugin, function):
-            yield
+    with _watched(f"{who_of(plugin)}: {method}()", seconds, code, own=_is_own(plugin)):
+        before = repr(arguments[0]) if limited and arguments and len(_inside) == 1 else ""
+        yield
         if before and repr(arguments[0]) != before:
             raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
-    except (MemoryError, KeyboardInterrupt, GeneratorExit):
+
+
+@contextmanager
+def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> Iterator[None]:
+    """Have what goes wrong meanwhile be told with who was called, in a time if it is above 0."""
+    try:
+        with _aside(who), _in_time(seconds), _ground(who, code):
+            yield
+    except (MemoryError, KeyboardInterrupt):
         raise
-    except _TimeUp:
-        raise PluginFaultError(
-            f"{who}: takes more than {seconds:g} s; {LIMIT} in the environment sets another limit"
-        ) from None
+    except TimeUpError as error:
+        raise PluginFaultError(f"{who}: {error}; {LIMIT} in the environment sets another limit") from None
     except MechwrightError as error:
         # Which design is wrong the families of others mostly leave to whoever draws a line.
-        if type(error) in {GeometryError, KinematicsError} and not _is_own(plugin) and who not in str(error):
+        if type(error) in {GeometryError, KinematicsError} and not own and who not in str(error):
             raise type(error)(f"{who}: {error}") from error
         raise
     except UnsoundError as error:
@@ -148,22 +180,53 @@ def _guarded(
         raise PluginFaultError(
             f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
         ) from error
-    except Exception as error:
+    except BaseException as error:  # GeneratorExit, or a kind of its own: nobody above expects one
         raise PluginFaultError(f"{who}: {_said(error)}") from error
+
+
+@dataclass(frozen=True)
+class CalledLater:
+    """A function that a call has given, to be called when the call is long over: its faults are told alike.
+
+    Examples
+    --------
+    >>> solid = CalledLater(lambda: 1 / 0, "plugin rod of rods: family rod: parts()", "the solid")
+    >>> solid()
+    Traceback (most recent call last):
+    mechwright.errors.PluginFaultError: plugin rod of rods: family rod: parts(): the solid: ...
+    """
+
+    function: Callable[..., Any]
+    who: str = field(compare=False)
+    what: str = field(compare=False)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """What the function gives."""
+        if not self.who:
+            return self.function(*arguments)
+        code = getattr(self.function, "__code__", CalledLater.__call__.__code__)
+        with _watched(f"{self.who}: {self.what}", _seconds(), code, own=_OURS in self.who):
+            return self.function(*arguments)
+
+
+def later(function: Callable[..., Any], what: str) -> CalledLater:
+    """A function that the call under way gives away, which knows whose it is; one that does is as it was."""
+    return function if isinstance(function, CalledLater) else CalledLater(function, now(), what)
 
 
 @contextmanager
 def loading(who: str, module: str) -> Iterator[None]:
-    """Have what a plugin's module prints while it is loaded go to standard error, and keep the ground."""
-    with _aside(who), kept(f"{module}.py", 1):
+    """Load a plugin's module: what it prints goes to standard error, the ground is kept, and it has a time.
+
+    Raises TimeUpError in the module.
+    """
+    with _aside(who), _in_time(LOADING), kept(f"{module}.py", 1):
         yield
 
 
-def _kept(plugin: "Called", function: Callable[..., Any]) -> AbstractContextManager[None]:
+def _ground(who: str, code: types.CodeType) -> AbstractContextManager[None]:
     """The ground, but under plugins of this distribution: their tests watch them, and it takes its time."""
-    if plugin.registered_by.endswith(f" of {OWN}"):
-        return nullcontext()
-    return kept(function.__code__.co_filename, function.__code__.co_firstlineno)
+    return nullcontext() if _OURS in who else kept(code.co_filename, code.co_firstlineno)
 
 
 def who_of(plugin: "Called") -> str:
@@ -176,10 +239,13 @@ def _is_own(plugin: "Called") -> bool:
     return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
 
 
-def _said(error: Exception) -> str:
+def _said(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     at = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
-    reason = " ".join(str(error).split())
+    try:
+        reason = " ".join(str(error).split())
+    except Exception:  # words of its own may fail as well
+        reason = ""
     return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + at
 
 
@@ -229,7 +295,7 @@ def _seconds() -> float:
 
 @contextmanager
 def _in_time(seconds: float) -> Iterator[None]:
-    """Raise _TimeUp after some seconds, where the system has an alarm and this thread hears it."""
+    """Raise TimeUpError after some seconds, where the system has an alarm and this thread hears it."""
     if (
         not seconds
         or not hasattr(signal, "setitimer")
@@ -239,13 +305,22 @@ def _in_time(seconds: float) -> Iterator[None]:
         yield
         return
 
+    over = []
+
     def up(*_: object) -> None:
-        raise _TimeUp
+        over.append(True)
+        raise TimeUpError(f"takes more than {seconds:g} s")
 
     before = signal.signal(signal.SIGALRM, up)
     try:
         signal.setitimer(signal.ITIMER_REAL, seconds)
         yield
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        if over:  # a compiled module that it stops while it loads makes an error of its own of it
+            raise TimeUpError(f"takes more than {seconds:g} s") from error
+        raise
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

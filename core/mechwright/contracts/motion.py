@@ -25,6 +25,9 @@ TIME = "time"
 _PARTS_COLUMNS = frozenset(",;\"'")
 """What a name cannot have that heads a column: tables of programs part their columns by it, or quote them."""
 
+LONGEST_NAME = 100
+"""Characters of a name: columns are read by people."""
+
 _KEPT = 100_000
 """Poses of more samples than this are worked out when they are asked for: 100 bytes each, for every body."""
 
@@ -42,6 +45,12 @@ def name_fault(name: str, unit: str = "") -> str:
         return "is empty"
     if name[0] in "=+-@":
         return f"begins with {name[0]!r}, which makes it a formula of a spreadsheet"
+    if not (name[0].isalnum() or name[0] == "_"):
+        return f"begins with {name[0]!r}"  # a blank, or a wide sign that some spreadsheets take for a narrow one
+    if name[-1].isspace():
+        return "ends with a blank"
+    if len(name) > LONGEST_NAME:
+        return f"has {len(name)} characters, more than {LONGEST_NAME}"
     wrong = next((c for c in name + unit if c in _PARTS_COLUMNS or not c.isprintable()), "")
     return f"has {wrong!r}" if wrong else ""
 
@@ -259,7 +268,7 @@ class Motion:
             if fault := name_fault(name, channel.unit):
                 raise KinematicsError(
                     f"the channel {name!r} [{channel.unit}] cannot head a column: it {fault}; name it by "
-                    "printable characters without quotes, commas and semicolons, a letter first"
+                    "printable characters without quotes, commas and semicolons, a letter or digit first"
                 )
         n = self.samples
         shapes: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {

@@ -15,7 +15,9 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.guard import later
 from mechwright.contracts.result import maker
+from mechwright.contracts.shape import Shape
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
@@ -31,6 +33,8 @@ NAME_PATTERN = r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?"
 _NAME = re.compile(NAME_PATTERN)
 _OTHER = re.compile(r"[^a-z0-9_]+")
 _LONGEST = 64
+_DEVICES = frozenset(("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))))
+"""With any ending, ``con.step``, they are no files there."""
 
 
 def check_name(name: str, what: str = "name") -> str:
@@ -44,6 +48,8 @@ def check_name(name: str, what: str = "name") -> str:
             f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
             "a letter or digit at both ends"
         )
+    if name in _DEVICES:
+        raise DesignError(f"{what} {name!r} is that of a device on Windows; use another, such as {name}-1")
     return name
 
 
@@ -247,6 +253,8 @@ class Part:
             form = self.turned or self.bought
             if form is not None and form.shape is not None:
                 object.__setattr__(self, "build", form.shape.solid)
+        elif self.build is not None and not isinstance(getattr(self.build, "__self__", None), Shape):
+            object.__setattr__(self, "build", later(self.build, f"the solid of part {self.name!r}"))
         if (self.outline is None) == (self.build is None):
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
         if self.outline is not None and not self.thickness > 0:

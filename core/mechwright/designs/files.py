@@ -1,6 +1,7 @@
 """Reading files that people write: sizes, encodings, and what lies beside a design file."""
 
 import hashlib
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +15,15 @@ from mechwright.reading import read_bytes as read_bytes
 
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
+
+
+DEEPEST = 64
+"""Parts of a key, ``a.b.c``: no table has five, and what reads them takes the square of their number."""
+
+_DEEP = re.compile(
+    rf"""(?:^|[\[{{,])[ \t]*+(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}}""",
+    re.MULTILINE,
+)
 
 
 def read_text(
@@ -46,6 +56,8 @@ def digest_of(content: str | bytes) -> str:
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
     text, digest = read_text(path)
+    if _DEEP.search(text):
+        raise DesignError(f"{path}: is no valid TOML: a key with more than {DEEPEST} parts; nested too deep")
     try:
         content = tomllib.loads(text)
     except RecursionError as error:

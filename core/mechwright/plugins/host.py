@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import pluggy
 
-from mechwright.contracts.guard import loading
+from mechwright.contracts.guard import TimeUpError, loading, methods_of
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.contracts.result import Result, found_by
 from mechwright.errors import PluginError, did_you_mean, shortened
@@ -32,8 +32,6 @@ DISABLE = "MECHWRIGHT_DISABLE_PLUGINS"
 HOOK = hookspecs.mechwright_register.__name__
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 _SUFFIX = re.compile(r"(\.[a-z0-9]+)+")
-# A plugin may fail in any way; sys.exit() at import is one of them. Only the keyboard stops the host.
-_ANY_FAILURE = (Exception, SystemExit)
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Plugin)
@@ -123,7 +121,9 @@ class Host:
                 fail(reason)
         try:
             classes = _call(manager.hook.mechwright_register)
-        except _ANY_FAILURE as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
             fail(f"{HOOK}: {_reason(error)}")
             return
         for cls in classes:
@@ -133,8 +133,14 @@ class Host:
                 continue
             try:
                 made = cls()
-            except _ANY_FAILURE as error:
+            except KeyboardInterrupt:
+                raise
+            except BaseException as error:
                 fail(f"{cls.__name__}(): {_reason(error)}")
+                continue
+            contract = contract_of(cls)
+            if contract is not None and (hidden := vars(made).keys() & methods_of(contract)):
+                fail(f"{cls.__name__}(): sets {', '.join(sorted(hidden))}; a method stands in the class")
                 continue
             self._file(cls)[cls.name] = Registered(made, distribution, plugin)
 
@@ -158,7 +164,9 @@ def _hook_fault(module: object, name: str) -> str:
         value = getattr(module, name)
         marked = isinstance(getattr(value, f"{hookspecs.PROJECT}_impl", None), dict)
         marks_others = isinstance(getattr(value, f"{hookspecs.PROJECT}_spec", None), dict)
-    except _ANY_FAILURE:
+    except KeyboardInterrupt:
+        raise
+    except BaseException:
         return ""  # A lazy attribute that fails is no hook.
     looks_like = name.startswith(HOOK) and callable(value) and not marks_others
     if not (marked or looks_like):
@@ -204,12 +212,16 @@ def _class_fault(cls: Any) -> str:
         return f"{cls.__name__}: suffix {suffix!r} is not a dot with lower-case letters and digits"
     try:
         fault = cls.fault()
-    except _ANY_FAILURE as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         fault = f"fault(): {_reason(error)}"
     return f"{cls.__name__}: {fault}" if fault else ""
 
 
 def _reason(error: BaseException) -> str:
+    if isinstance(error, TimeUpError):
+        return str(error)
     text = str(error).strip().splitlines()
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
     return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
@@ -236,7 +248,9 @@ def load(
         with _guarded(distribution, point):
             try:
                 module = point.load()
-            except _ANY_FAILURE as error:
+            except KeyboardInterrupt:
+                raise
+            except BaseException as error:
                 found.broken.append(Broken(distribution, point.name, _reason(error)))
                 continue
             found.add(module, distribution, point.name)
@@ -266,7 +280,9 @@ def hook_points(
                 if point.group == group:
                     # An editable install can be listed twice; the first on the path counts.
                     points.setdefault((name, point.name, point.value), (name, point))
-        except _ANY_FAILURE as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
             broken.append(Broken(name, "entry_points.txt", _reason(error)))
     ordered = sorted(points.values(), key=lambda item: (item[0] != BUILT_IN, item[0], item[1].name))
     return ordered, broken

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.motion import TIME, Motion
 from mechwright.contracts.parameters import Parameters
@@ -98,10 +98,6 @@ def finding_faults(finding: Finding, params: type[Parameters]) -> list[str]:
     where, found = f"finding {finding.code!r}", []
     if not _CODE.fullmatch(finding.code):
         found.append(f"{where}: a code is lower-case words with dots, such as 'gear.undercut'")
-    if finding.severity not in set(Severity):
-        found.append(f"{where}: severity {finding.severity!r}")
-    if finding.stage not in set(Stage):
-        found.append(f"{where}: stage {finding.stage!r}")
     if not finding.message.strip() or "\n" in finding.message + finding.remedy:
         found.append(f"{where}: the message is one line, not {finding.message!r}")
     if finding.severity is not Severity.NOTE and not (finding.remedy.strip() and finding.parameter):

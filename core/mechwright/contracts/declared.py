@@ -1,0 +1,186 @@
+"""Whether a value is what an annotation declares, a dataclass field by field.
+
+Python keeps nobody from building a ``Part`` with a text where a height is wanted. Whoever reads that height
+fails much later, and looks guilty. So the guard asks here of all that a plugin gives, before it is read.
+"""
+
+import inspect
+import math
+import sys
+import types
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from functools import cache
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+SHOWN = 80
+"""Characters that are shown of what is none."""
+
+_WANTED = " is wanted"
+
+Fault = tuple[str, str]
+"""Where in the value, as ``.instances[0].z``, and what is wrong there."""
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What is asked of values.
+
+    Parameters
+    ----------
+    leave
+        Classes whose values are not looked into.
+    finite
+        Whether numbers have to be finite.
+    nan
+        Whether arrays may have NaN, for what there is not.
+    """
+
+    leave: tuple[type, ...] = ()
+    finite: bool = True
+    nan: bool = False
+
+    def fault(self, value: Any, kind: Any) -> Fault | None:
+        """The first thing in a value that is not what its annotation says; None if there is none.
+
+        What an annotation names that cannot be found, as it is imported for type checkers alone, may be
+        anything.
+
+        >>> Declared().fault((1.0, "a"), tuple[float, ...])
+        ('[1]', "is 'a'; a finite number is wanted")
+        >>> Declared().fault({"a": 1.0}, Mapping[str, float])
+        """
+        return next(_Walk(self).faults(value, kind), None)
+
+
+def shown(value: Any) -> str:
+    """A value in few characters, whatever its own words do."""
+    try:
+        return " ".join(repr(value).split())[:SHOWN]
+    except Exception:  # words of a plugin's own may fail in any way
+        return f"a {type(value).__name__}"
+
+
+_PLAIN = {int: "a whole number", str: "a text", bool: "True or False", bytes: "bytes"}
+
+
+class _Walk:
+    """One way through a value, on which no dataclass is looked into twice."""
+
+    def __init__(self, asked: Declared) -> None:
+        self._asked = asked
+        self._seen: dict[int, Any] = {}
+
+    def faults(self, value: Any, kind: Any) -> Iterator[Fault]:
+        origin, arguments = get_origin(kind), get_args(kind)
+        if origin in {Union, types.UnionType}:
+            yield from self._any(value, arguments)
+        elif origin is Literal:
+            if not any(type(value) is type(one) and value == one for one in arguments):
+                yield _wrong(value, f"one of {', '.join(map(repr, arguments))}")
+        elif origin is np.ndarray:
+            yield from self._array(value)
+        elif origin is not None and not is_dataclass(origin):
+            yield from self._many(value, origin, arguments)
+        elif isinstance(kind, TypeVar):
+            yield from self.faults(value, kind.__bound__ or Any)
+        elif kind is float:
+            yield from self._number(value)
+        elif kind in _PLAIN:
+            # A class of somebody's own may do anything where it is compared or printed.
+            if type(value) is not kind and not (isinstance(value, kind) and isinstance(value, Enum)):
+                yield _wrong(value, _PLAIN[kind])
+        elif kind is not Any and isinstance(whole := origin or kind, type):
+            yield from self._class(value, whole)
+
+    def _number(self, value: Any) -> Iterator[Fault]:
+        if not isinstance(value, (int, float)) or math.isnan(value):
+            yield _wrong(value, "a number")
+        elif self._asked.finite and math.isinf(value):
+            yield _wrong(value, "a finite number")
+
+    def _any(self, value: Any, kinds: Sequence[Any]) -> Iterator[Fault]:
+        found = []
+        for kind in kinds:
+            first = next(self.faults(value, kind), None)
+            if first is None:
+                return
+            found.append(first)
+        # It may be of one of the kinds, but for something in it.
+        inner = next((one for one in found if one[0] or not one[1].endswith(_WANTED)), None)
+        wanted = (one[1].rpartition("; ")[2].removesuffix(_WANTED) for one in found)
+        yield inner or _wrong(value, " or ".join(dict.fromkeys(wanted)))
+
+    def _many(self, value: Any, origin: Any, kinds: Sequence[Any]) -> Iterator[Fault]:
+        if not isinstance(value, origin) or isinstance(value, (str, bytes)):
+            yield _wrong(value, "something to call" if origin is Callable else _a(origin))
+        elif origin is Callable:
+            pass
+        elif issubclass(origin, Mapping):
+            for key, one in value.items():
+                yield from self._within(f"[{shown(key)}]", key, kinds[0])
+                yield from self._within(f"[{shown(key)}]", one, kinds[1])
+        elif origin is tuple and Ellipsis not in kinds:
+            if len(value) != len(kinds):
+                yield _wrong(value, f"a tuple of {len(kinds)}")
+            for place, (one, kind) in enumerate(zip(value, kinds, strict=False)):
+                yield from self._within(f"[{place}]", one, kind)
+        elif issubclass(origin, Collection):
+            for place, one in enumerate(value):
+                yield from self._within(f"[{place}]", one, kinds[0])
+
+    def _array(self, value: Any) -> Iterator[Fault]:
+        if type(value) is not np.ndarray:
+            yield _wrong(value, "an array of numpy")
+        elif value.dtype.kind not in "fiu":
+            yield "", f"is of the type {value.dtype}; real numbers are wanted"
+        else:
+            bad = np.isnan(value) & (not self._asked.nan) | np.isinf(value) & self._asked.finite
+            if bad.any():
+                place = int(np.argmax(bad))
+                yield "", f"is {np.ravel(value)[place]} at sample {place}; finite numbers are wanted"
+
+    def _class(self, value: Any, kind: Any) -> Iterator[Fault]:
+        if not isinstance(value, kind):
+            yield _wrong(value, "None" if kind is types.NoneType else _a(kind))
+        elif is_dataclass(value) and not isinstance(value, self._asked.leave) and id(value) not in self._seen:
+            self._seen[id(value)] = value
+            own: Any = type(value)
+            for name, declared in _fields(own):
+                yield from self._within(f".{name}", getattr(value, name), declared)
+
+    def _within(self, where: str, value: Any, kind: Any) -> Iterator[Fault]:
+        for further, said in self.faults(value, kind):
+            yield where + further, said
+
+
+def _a(kind: Any) -> str:
+    name = kind.__name__ if kind.__module__.partition(".")[0] != "collections" else kind.__name__.lower()
+    return f"an {name}" if name[0] in "AEIOUaeiou" else f"a {name}"
+
+
+def _wrong(value: Any, wanted: str) -> Fault:
+    own = " of Python" if isinstance(value, np.generic) else ""  # float32 and int64 are in no JSON
+    return "", f"is {shown(value)}; {wanted}{own}{_WANTED}"
+
+
+@cache
+def _fields(cls: Any) -> tuple[tuple[str, Any], ...]:
+    """The fields of a dataclass and their kinds, without those whose kind cannot be found."""
+    found = {}
+    for base in reversed(cls.__mro__):
+        for name, declared in inspect.get_annotations(base).items():
+            with suppress(NameError):
+                found[name] = _resolved(declared, base.__module__)
+    return tuple((one.name, found[one.name]) for one in fields(cls) if one.name in found)
+
+
+def _resolved(declared: Any, module: str) -> Any:
+    def named() -> None: ...
+
+    named.__annotations__ = {"it": declared}
+    return get_type_hints(named, vars(sys.modules[module]))["it"]
