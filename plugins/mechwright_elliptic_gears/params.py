@@ -158,7 +158,7 @@ class EllipticGearParams(Parameters):
         1.25,
         ge=0.4,
         le=2,
-        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a higher addendum.",
+        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
         json_schema_extra=FITTED,
     )
     tip_radius: Ratio = Field(

@@ -1,4 +1,4 @@
-"""What a design leaves out and follows from the rest: heights of the teeth, their number, face width, bore."""
+"""What a design leaves out and follows from the rest: heights and number of teeth, face width, bore."""
 
 import math
 from collections.abc import Callable, Container
@@ -11,22 +11,21 @@ from mechwright.mechanics.gearing.usual import (
     DEDENDUM,
     FACE,
     MOST_TEETH,
+    RIM,
+    SHAFTS,
     TIP_RADIUS,
     addendum_beside,
     dedendum_beside,
     face_width,
+    shaft_bore,
     straight_depth,
     teeth_without_undercut,
     tip_radius_beside,
 )
-from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.gear import offset_miss
 
-BORE = 10.0
-"""mm: the default of the table."""
-
 TEETH = 25
-"""The same of the number of teeth."""
+"""The default of the table."""
 
 USUAL = {
     "addendum": ADDENDUM,
@@ -34,15 +33,9 @@ USUAL = {
     "tip_radius": TIP_RADIUS,
     "teeth": TEETH,
     "thickness": FACE,
-    "bore": BORE,
+    "bore": SHAFTS[0],
 }
 """Parameters that follow where they are left out, in the order in which they do, and what is usual."""
-
-SHAFTS = (BORE, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
-"""mm: the usual one, and smaller shafts that are sold."""
-
-RIM = 1.2
-"""Material between bore and roots over the height of a tooth, as the checks of a rim want it."""
 
 TRAIN = 3.0
 """Of a train, semi-major axis over bore: beside its shafts it has dowels and the joints of its coupler."""
@@ -76,7 +69,7 @@ def following(table: Table, given: Container[str]) -> dict[str, Any]:
 
 
 def _teeth(table: Table) -> Any:
-    """The usual number of teeth, or the least greater one without undercut; one that a given offset meshes with.
+    """The usual number of teeth, or the least greater one without undercut, which meshes at a given offset.
 
     Where none up to :data:`MOST_TEETH` is without, it is the usual one.
     """
@@ -118,11 +111,7 @@ def _bore(table: Table) -> Any:
     A keyway belongs to its bore, which then is the usual one; where none leaves the rim it is so too.
     """
     a, module = _sizes(table)
-    least = RIM * (table("addendum") + table("dedendum")) + table("dedendum")
-    pair, keyed = np.asarray(table("stages")) == 1, np.asarray(table("keyway_width")) > 0
-    e = np.asarray(table("eccentricity"))
-    fits = [
-        ~np.asarray(falls_short(a * (1 - e) - one / 2, least * module)) & (pair | (one <= a / TRAIN))
-        for one in SHAFTS
-    ]
-    return np.select([keyed, *fits], [BORE, *SHAFTS], BORE)
+    wall = (RIM * (table("addendum") + table("dedendum")) + table("dedendum")) * module
+    most = np.where(np.asarray(table("stages")) == 1, math.inf, a / TRAIN)
+    found = shaft_bore(a * (1 - np.asarray(table("eccentricity"))), wall, most)
+    return np.where(np.asarray(table("keyway_width")) > 0, SHAFTS[0], found)

@@ -77,8 +77,8 @@ class NoncircularParams(Parameters):
     sines: Annotated[tuple[Amplitude, ...], Field(max_length=MOST_HARMONICS)] | None = Field(
         None,
         description=(
-            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, with three mate_lobes '
-            "and more 30 over their number, or none beside cosines."
+            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, with more than two '
+            "mate_lobes 30 over their number, or none beside cosines."
         ),
         json_schema_extra=FIRST,
     )
@@ -229,7 +229,7 @@ class NoncircularParams(Parameters):
         1.25,
         ge=0.4,
         le=2,
-        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a higher addendum.",
+        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
         json_schema_extra=FITTED,
     )
     tip_radius: Annotated[float, Field(ge=0, le=0.6), Unit("")] | None = Field(
@@ -253,7 +253,12 @@ class NoncircularParams(Parameters):
     )
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
-        10.0, ge=0, le=300, description="Diameter of both shaft bores; 0 for none.", json_schema_extra=FIRST
+        10.0,
+        ge=0,
+        le=300,
+        description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
+        "below that leaves the rim of a small gear.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def pair_together(params: "NoncircularParams") -> None:
-    """Raise ValueError for a law, a ring or sectors that lack something, and for fields that are not theirs."""
+    """Raise ValueError where a law, a ring or sectors lack something, or fields are not theirs."""
     _law_together(params)
     _ring_together(params)
     _sector_together(params)

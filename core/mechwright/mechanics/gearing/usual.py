@@ -16,6 +16,7 @@ import numpy as np
 
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
+from mechwright.tolerances import falls_short
 
 ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
 """The basic rack of ISO 53, profile A."""
@@ -40,8 +41,8 @@ FACE = 10.0
 """mm: the usual face width."""
 
 COARSE = 1.5
-"""Module, mm, from which on an end mill of 1.5 mm runs down to the roots; its flutes are longer than the usual
-face width."""
+"""Module, mm, from which on an end mill of 1.5 mm runs down to the roots; its flutes are longer than the
+usual face width."""
 
 FLUTES = 4.5
 """Face width in modules that finer teeth have at most: the mill that cuts them is about a module wide, and
@@ -49,6 +50,12 @@ has flutes of five diameters, a part of which goes below the plate."""
 
 PLATES = (6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.5)
 """Thicknesses of plates that are sold, mm, below the usual one."""
+
+SHAFTS = (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
+"""mm: the usual bore, and smaller shafts that are sold."""
+
+RIM = 1.2
+"""Material between bore and roots over the height of a tooth, as the checks of a rim want it."""
 
 _HUNDREDTHS = 100
 """Of a module: what is less than usual is rounded so."""
@@ -67,7 +74,7 @@ def dedendum_beside(addendum: Any) -> Any:
 def tip_radius_beside(dedendum: Any, pressure_angle: Any) -> Any:
     """The usual tip radius of a rack, or as much as its teeth have room for at their ends.
 
-    The angle is in degrees. Where flanks meet before the end of a tooth no radius fits, and it is the usual one.
+    The angle is in degrees. Where flanks meet before the end of a tooth no radius fits: it is the usual one.
 
     Examples
     --------
@@ -88,9 +95,9 @@ def straight_depth(dedendum: Any, tip_radius: Any, pressure_angle: Any) -> Any:
 def teeth_without_undercut(bend: Any, depth: Any, dedendum: Any, pressure_angle: Any) -> Any:
     """The least number of teeth of which none is undercut, wherever on its pitch curve it stands.
 
-    With module m, radius of curvature ρ and flanks straight down to ``depth`` h, the regularity of a flank falls
-    to 1 - h m / (ρ sin²α), and the length of the curve is π m z. Roots lie within ρ as well. The angle is in
-    degrees.
+    With module m, radius of curvature ρ and flanks straight down to ``depth`` h, the regularity of a flank
+    falls to 1 - h m / (ρ sin²α), and the length of the curve is π m z. Roots lie within ρ as well. The angle
+    is in degrees.
 
     Examples
     --------
@@ -114,6 +121,20 @@ def face_width(module: Any) -> Any:
     return np.select(
         [np.asarray(module) >= COARSE, *(most >= one for one in PLATES)], [FACE, *PLATES], PLATES[-1]
     )
+
+
+def shaft_bore(radius: Any, wall: Any, most: Any = math.inf) -> Any:
+    """The usual bore, or the largest smaller one up to ``most``, mm; the usual one where none fits.
+
+    ``radius`` is where the pitch curve comes nearest to the axis, and ``wall`` what stays of it, mm.
+
+    Examples
+    --------
+    >>> float(shaft_bore(12.0, 6.0)), float(shaft_bore(6.0, 2.6)), float(shaft_bore(1.0, 2.0))
+    (10.0, 6.0, 10.0)
+    """
+    fits = [~np.asarray(falls_short(radius - one / 2, wall)) & (one <= most) for one in SHAFTS]
+    return np.select(fits, SHAFTS, SHAFTS[0])
 
 
 def chosen(params: Parameters, usual: Mapping[str, float]) -> Iterator[Finding]:
