@@ -27,6 +27,7 @@ from mechwright.mechanics.gearing.checks import (
     profile_findings,
     tip_findings,
 )
+from mechwright.mechanics.gearing.usual import chosen
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import (
     backlash_of,
@@ -51,6 +52,7 @@ from mechwright_elliptic_gears.strength_checks import strength_findings
 from mechwright_elliptic_gears.tip_reach import may_collide, that_clear
 from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
+from mechwright_elliptic_gears.usual import USUAL
 
 
 @kept
@@ -188,6 +190,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:
     rack, ellipse, outline = rack_of(params), ellipse_of(params), outline_of(params)
+    yield from chosen(params, USUAL)
     whole, inertia = body(outline, params.thickness, params.material)
     yield Finding.note(
         "gear.size",

@@ -19,6 +19,7 @@ from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.geometry.keyway import LEAST_WIDTH
 from mechwright.mechanics.gearing import driven_torque
 from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_CLEARANCE, LEAST_RIM, LEAST_TIP
+from mechwright.mechanics.gearing.usual import LEAST_REGULARITY
 from mechwright.mechanics.linkage.areas import circle_area
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
@@ -30,8 +31,7 @@ from mechwright_elliptic_gears.many_areas import areas_of
 from mechwright_elliptic_gears.many_columns import columns_of
 from mechwright_elliptic_gears.params import LEAST_MODULE
 from mechwright_elliptic_gears.tip_reach import DOUBT
-from mechwright_elliptic_gears.undercut import LEAST_REGULARITY
-from mechwright_elliptic_gears.usual import DECIDES, bores
+from mechwright_elliptic_gears.usual import following
 
 BLOCK = 256
 """Gears whose teeth are followed at once: arrays of a tenth of a megabyte."""
@@ -64,9 +64,10 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
         return None
     if common.tooth_offset is not None or (stage is Stage.MACHINING and common.backlash is not None):
         return None
-    if "bore" not in {*designs.varied, *common.model_fields_set} and DECIDES & set(designs.varied):
-        # Each has the bore that it would have by itself.
-        designs = Designs(common, {**designs.varied, "bore": bores(designs.__getitem__)})
+    # Each has what it would have by itself.
+    left = following(designs.__getitem__, {*designs.varied, *common.model_fields_set})
+    follow = {name: value for name, value in left.items() if np.ndim(value)}
+    designs = Designs(common, {**designs.varied, **follow})
     said = Answer(len(designs))
     if stage is not Stage.MOTION:
         _judge(designs, said)

@@ -127,8 +127,8 @@ class EllipticGearParams(Parameters):
         25,
         ge=LEAST_TEETH,
         le=MOST_TEETH,
-        description="Number of teeth of each gear.",
-        json_schema_extra=FIRST,
+        description="Number of teeth of each gear; left out, 25, or the least greater one without undercut.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
         None, description="Pitch on the ellipse over π; give this or semi_major."
@@ -146,10 +146,28 @@ class EllipticGearParams(Parameters):
         ),
     )
     pressure_angle: Degrees = Field(20.0, ge=10, le=30, description="Pressure angle of the generating rack.")
-    addendum: Ratio = Field(1.0, ge=0.3, le=1.5, description="Tooth height over the pitch curve, in modules.")
-    dedendum: Ratio = Field(1.25, ge=0.4, le=2, description="Depth below the pitch curve, in modules.")
+    addendum: Ratio = Field(
+        1.0,
+        ge=0.3,
+        le=1.5,
+        description="Tooth height over the pitch curve, in modules; left out, 1, or 0.25 below a dedendum "
+        "that is given.",
+        json_schema_extra=FITTED,
+    )
+    dedendum: Ratio = Field(
+        1.25,
+        ge=0.4,
+        le=2,
+        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
+        json_schema_extra=FITTED,
+    )
     tip_radius: Ratio = Field(
-        0.38, ge=0, le=0.6, description="Radius at the tip of the generating rack, in modules."
+        0.38,
+        ge=0,
+        le=0.6,
+        description="Radius at the tip of the generating rack, in modules; left out, 0.38, or what its tooth "
+        "has room for.",
+        json_schema_extra=FITTED,
     )
     backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
         None,
@@ -158,7 +176,13 @@ class EllipticGearParams(Parameters):
             "with which gears as made turn: 0.067 at e = 0.4, of a train 0.107."
         ),
     )
-    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
+    thickness: Millimetres = Field(
+        10.0,
+        ge=0.1,
+        le=200,
+        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
+        json_schema_extra={**FIRST, **FITTED},
+    )
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
         10.0,
@@ -254,13 +278,13 @@ class EllipticGearParams(Parameters):
     )
 
     def fitted(self) -> Mapping[str, Any]:
-        """The bore, smaller than usual in small gears."""
-        from mechwright_elliptic_gears.usual import bores
+        """Teeth that can be cut, and a bore that is smaller than usual in small gears."""
+        from mechwright_elliptic_gears.usual import following
 
-        unsized = self.module is None and self.semi_major is None  # which is refused
-        if unsized or "bore" in self.model_fields_set:
+        if self.module is None and self.semi_major is None:  # which is refused
             return {}
-        return {"bore": float(bores(partial(getattr, self)))}
+        found = following(partial(getattr, self), self.model_fields_set)
+        return {name: int(value) if name == "teeth" else float(value) for name, value in found.items()}
 
     @field_validator("band", mode="before")
     @classmethod

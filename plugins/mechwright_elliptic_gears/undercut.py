@@ -6,15 +6,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding
+from mechwright.mechanics.gearing.usual import LEAST_REGULARITY, MOST_TEETH
 from mechwright_elliptic_gears.gear import ellipse_of, offset_miss, rack_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-LEAST_REGULARITY = 1e-4
-"""Share of its regularity on the pitch curve that a flank keeps to its end: at 0 it ends in a cusp, where a
-fitted curve could turn back."""
-
-MOST_PROPOSED = 300
-"""Teeth that a remedy proposes at most: finer ones are for those who ask for them."""
 
 
 def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
@@ -68,7 +62,7 @@ def greatest_eccentricity(params: EllipticGearParams) -> float | None:
 
 def _finest(params: EllipticGearParams) -> int:
     """The greatest number of teeth that is proposed and that the tooth offset allows."""
-    most = max(MOST_PROPOSED, params.teeth)
+    most = max(MOST_TEETH, params.teeth)
     if params.tooth_offset is None or offset_miss(params.tooth_offset, most) == 0:
         return most
     return most - 1
@@ -83,9 +77,9 @@ def least_teeth(params: EllipticGearParams) -> EllipticGearParams | None:
     """The same design with the least greater number of teeth that is free of undercut.
 
     A tooth offset that the table gives is kept, so that only numbers of one parity come into question.
-    None if no number up to ``MOST_PROPOSED`` is such.
+    None if no number up to ``MOST_TEETH`` is such.
     """
-    for teeth in range(params.teeth + 1, MOST_PROPOSED + 1):
+    for teeth in range(params.teeth + 1, MOST_TEETH + 1):
         if params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
             continue
         candidate = params.model_copy(update={"teeth": teeth})

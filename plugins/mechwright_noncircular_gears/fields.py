@@ -32,8 +32,11 @@ LAW_FIELDS = {
 }
 """Law to the fields that make it; no other law has a use for them."""
 
+USUAL_SINE, MOST_SWING = 15.0, 30.0
+"""Degrees: the amplitude of a law that names none, and what it is at most times the driven gear's lobes: the
+share of its mean by which the ratio swings."""
+
 USUAL: dict[str, Any] = {
-    "sines": (15.0,),
     "cosines": (),
     "window_ratio": 0.85,
     "window": 100.0,

@@ -8,24 +8,22 @@ from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
-from mechwright.mechanics.formula import LONGEST, Formula, FormulaError
+from mechwright.mechanics.formula import LONGEST
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_noncircular_gears.fields import (
     ALSO,
-    LAW_FIELDS,
     LEAST_MODULE,
     LEAST_TEETH,
-    MOST_HALF_TURN,
     MOST_HARMONICS,
     MOST_LOBES,
     MOST_SECTOR,
+    MOST_SWING,
     MOST_TEETH,
-    RING_FIELDS,
-    SECTOR_LAWS,
     USUAL,
     USUAL_OF,
+    USUAL_SINE,
 )
-from mechwright_noncircular_gears.nodes import check_nodes, check_open_nodes
+from mechwright_noncircular_gears.together import pair_together
 
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
@@ -79,8 +77,8 @@ class NoncircularParams(Parameters):
     sines: Annotated[tuple[Amplitude, ...], Field(max_length=MOST_HARMONICS)] | None = Field(
         None,
         description=(
-            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, or none beside '
-            "cosines."
+            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, with more than two '
+            "mate_lobes 30 over their number, or none beside cosines."
         ),
         json_schema_extra=FIRST,
     )
@@ -173,9 +171,10 @@ class NoncircularParams(Parameters):
         le=MOST_TEETH,
         description=(
             "Number of teeth of the driver; the driven gear has teeth × N2/N1. Of sectors, pitches of the "
-            "travel; there are teeth for half a pitch more at each end."
+            "travel; there are teeth for half a pitch more at each end. Left out, 40, or the least greater "
+            "number without undercut."
         ),
-        json_schema_extra=FIRST,
+        json_schema_extra={**FIRST, **FITTED},
     )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
         2.0,
@@ -222,11 +221,21 @@ class NoncircularParams(Parameters):
         None, description="Pitch radius of the shaper's cutter, in modules; left out, 9."
     )
     addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
-        None, description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8."
+        None,
+        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8, "
+        "and at most 0.25 below dedendum.",
     )
-    dedendum: Ratio = Field(1.25, ge=0.4, le=2, description="Depth below the pitch curve, in modules.")
+    dedendum: Ratio = Field(
+        1.25,
+        ge=0.4,
+        le=2,
+        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
+        json_schema_extra=FITTED,
+    )
     tip_radius: Annotated[float, Field(ge=0, le=0.6), Unit("")] | None = Field(
-        None, description="Radius at the tip of the cutter, in modules; left out, 0.38, with a shaper 0.2."
+        None,
+        description="Radius at the tip of the cutter, in modules; left out, 0.38, with a shaper 0.2, "
+        "or what its tooth has room for.",
     )
     backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
         None,
@@ -235,14 +244,21 @@ class NoncircularParams(Parameters):
             "gears as made turn."
         ),
     )
-    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
+    thickness: Millimetres = Field(
+        10.0,
+        ge=0.1,
+        le=200,
+        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
+        json_schema_extra={**FIRST, **FITTED},
+    )
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: Millimetres = Field(
         10.0,
         ge=0,
         le=300,
-        description="Diameter of both shaft bores, 0 for none; left out, 10, or what a frame or a chain asks for.",
-        json_schema_extra=FIRST | FITTED,
+        description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
+        "below that leaves the rim of a small gear, or what a frame or a chain asks for.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."
@@ -262,6 +278,18 @@ class NoncircularParams(Parameters):
         description="Constant torque against the turning of the driven gear.",
         json_schema_extra=FIRST,
     )
+
+    def fitted(self) -> Mapping[str, Any]:
+        """Teeth that can be cut, and a face width that mills reach."""
+        from mechwright_noncircular_gears.usual import following
+
+        try:
+            pair_together(self)
+        except ValueError:  # which is refused
+            return {}
+        if (self.module is None) == (self.centre_distance is None):
+            return {}
+        return following(self.model_copy())
 
     @field_validator("sector", mode="before")
     @classmethod
@@ -285,12 +313,10 @@ class NoncircularParams(Parameters):
         if (self.module is None) == (self.centre_distance is None):
             raise ValueError("give exactly one of module and centre_distance")
         keyed_together(self)
-        self._of_the_law()
-        self._of_the_ring()
-        self._of_the_sector()
+        pair_together(self)
         if self.shaper_radius is not None and self.cutter == "rack":
             raise ValueError('shaper_radius is for cutter = "shaper"; leave one of both out')
-        if self.teeth * self.mate_lobes % self.lobes:
+        if self.teeth * self.mate_lobes % self.lobes and "teeth" in self.model_fields_set:
             step = self.lobes // math.gcd(self.lobes, self.mate_lobes)
             more = -(-self.teeth // step) * step
             raise ValueError(
@@ -299,85 +325,13 @@ class NoncircularParams(Parameters):
             )
         return self
 
-    def _of_the_ring(self) -> None:
-        if not self.internal:
-            for name in RING_FIELDS:
-                if getattr(self, name) is not None:
-                    raise ValueError(f"{name} is for a ring; leave it out, or set internal = true")
-            return
-        if self.mate_lobes <= self.lobes:
-            raise ValueError(
-                f"a ring goes round slower than the gear in it, and has more lobes; set mate_lobes to "
-                f"{self.lobes + 1} or more"
-            )
-        if self.cutter == "rack":
-            raise ValueError('no rack goes into a ring; leave cutter out, or set cutter = "shaper"')
-        if self.ring_holes == 0 and self.ring_hole is not None:
-            raise ValueError("ring_hole is the size of no hole; leave it out, or set ring_holes")
-
-    def _of_the_sector(self) -> None:
-        if self.sector is None:
-            if self.law == "spiral":
-                raise ValueError('law = "spiral" does not close; set sector, the travel of the driver')
-            if self.sector_hub is not None:
-                raise ValueError("sector_hub is for sectors; leave it out, or set sector")
-            return
-        if self.law not in SECTOR_LAWS:
-            raise ValueError(
-                f'law = "{self.law}" goes all the way round; leave sector out, or take one of '
-                + ", ".join(SECTOR_LAWS)
-            )
-        if self.internal or self.lobes != 1 or self.mate_lobes != 1:
-            raise ValueError("sectors are gears beside each other and have no lobes; leave sector out")
-
-    def _of_the_law(self) -> None:
-        own = LAW_FIELDS[self.law]
-        for law, names in LAW_FIELDS.items():
-            for name in names:
-                if name not in own and getattr(self, name) is not None:
-                    raise ValueError(f'{name} is for law = "{law}"; leave it out, or set that law')
-        if self.law in {"slider", "geneva", "eccentric-circle"} and self.lobes != 1:
-            raise ValueError(f'law = "{self.law}" has one lobe on the driver; set lobes = 1')
-        if self.law in {"slider", "geneva"} and self.internal:
-            raise ValueError(
-                f'law = "{self.law}" turns its crank once a turn, and a ring goes round slower; '
-                "set internal = false and mate_lobes = 1"
-            )
-        if self.law in {"slider", "geneva"} and self.mate_lobes != 1:
-            raise ValueError(f'law = "{self.law}" turns its crank once a turn; set mate_lobes = 1')
-        if self.law == "geneva" and self.value("window") / 2 + self.value("blend") > MOST_HALF_TURN:
-            most = math.floor(MOST_HALF_TURN - self.value("window") / 2)
-            raise ValueError(
-                f"window / 2 and blend take {self.value('window') / 2 + self.value('blend'):g} degrees, "
-                f"at most {MOST_HALF_TURN:g}; make "
-                + (f"blend {most}, or window smaller" if most > 0 else "window smaller")
-            )
-        if self.law == "slider" and self.value("stroke_start") >= self.value("stroke_end"):
-            start, end = self.value("stroke_start"), self.value("stroke_end")
-            raise ValueError(f"stroke_end of {end:g} must be above stroke_start of {start:g}; exchange them")
-        if self.law == "table":
-            if self.sector is None:
-                check_nodes(self.nodes, self.lobes, self.mate_lobes)
-            else:
-                check_open_nodes(self.nodes, self.sector)
-        if self.law in {"ratio", "angle"}:
-            self._formula(getattr(self, self.law))
-
-    def _formula(self, text: str | None) -> None:
-        if text is None:
-            raise ValueError(f'law = "{self.law}" needs {self.law}, a formula of phi')
-        try:
-            Formula(text, "phi")
-        except FormulaError as error:
-            raise ValueError(f"{self.law}: {error}") from None
-
     def value(self, name: str) -> Any:
         """A field of the law or the ring, or what it is where it is left out; in the units of the table."""
         given = getattr(self, name)
         if given is not None:
             return given
-        if name == "sines" and self.cosines is not None:
-            return ()
+        if name == "sines":
+            return () if self.cosines is not None else (min(USUAL_SINE, MOST_SWING / self.mate_lobes),)
         return USUAL_OF.get((self.law, name), USUAL[name])
 
     @property

@@ -5,6 +5,12 @@ from dataclasses import dataclass
 
 from mechwright import kept
 from mechwright.mechanics.gearing import Rack, Shaper
+from mechwright.mechanics.gearing.usual import (
+    ADDENDUM,
+    TIP_RADIUS,
+    addendum_beside,
+    tip_radius_beside,
+)
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
@@ -14,7 +20,7 @@ FLATTEST = 1e-4
 SHAPER_RADIUS = 9.0
 """Modules: a cutter of 18 teeth."""
 
-USUAL_PROFILE = {"rack": (1.0, 0.38), "shaper": (0.8, 0.2)}
+USUAL_PROFILE = {"rack": (ADDENDUM, TIP_RADIUS), "shaper": (0.8, 0.2)}
 """Cutter to addendum and tip radius, modules: tips of hollow arcs reach farther into their mates."""
 
 
@@ -61,6 +67,8 @@ def profile_of(params: NoncircularParams) -> CutterProfile:
     if cutter is None:
         cutter = "rack" if convex(params) and params.shaper_radius is None else "shaper"
     addendum, tip = USUAL_PROFILE[cutter]
+    addendum = min(addendum, float(addendum_beside(params.dedendum)))
+    tip = min(tip, float(tip_radius_beside(params.dedendum, params.pressure_angle)))
     radius = None
     if cutter == "shaper":
         radius = SHAPER_RADIUS if params.shaper_radius is None else params.shaper_radius

@@ -7,18 +7,12 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.gearing.usual import LEAST_REGULARITY, MOST_TEETH
 from mechwright_noncircular_gears.gear import NAMES, pair_of, rack_of, teeth_of
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import FLATTEST, profile_of
 from mechwright_noncircular_gears.softer import nearest, said
-
-LEAST_REGULARITY = 1e-4
-"""Share of its regularity on the pitch curve that a flank keeps to its end: at 0 it ends in a cusp, where a
-fitted curve could turn back."""
-
-MOST_PROPOSED = 300
-"""Teeth that a remedy proposes at most: finer ones are for those who ask for them."""
 
 
 def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Iterator[Finding]:
@@ -27,14 +21,11 @@ def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Ite
     A softer law is sought only to ``advise``.
     """
     found, a, cutter = extremes_of(params), pair_of(params).distance, profile_of(params)
-    hollow = _hollowest(params)
-
-    def works(one: NoncircularParams) -> bool:
-        return all(least.value >= _hollowest(one) for least in extremes_of(one).curvatures)
-
+    flattest = _hollowest(params)
     for name, least in zip(NAMES, found.curvatures, strict=True):
-        if least.value < hollow:
-            words, changes = said(nearest(params, works) if advise else None, _slower(params))
+        if least.value < flattest:
+            softer = nearest(params, lambda one: not hollow(one)) if advise else None
+            words, changes = said(softer, _slower(params))
             if cutter.shaper_radius is None:
                 words, changes = (
                     f'set cutter = "shaper", or {words}',
@@ -53,7 +44,7 @@ def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Ite
                     else f"a cutter of {cutter.shaper_radius:g} modules does not fit into it"
                 ),
                 least.value / a,
-                hollow / a,
+                flattest / a,
                 "1/mm",
                 words,
                 proposed=changes,
@@ -63,9 +54,7 @@ def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Ite
     for name, sharp in zip(NAMES, found.sharpest, strict=True):
         if deep * sharp.value >= a:
             radius = a / sharp.value
-            more = math.ceil(params.teeth * deep / radius * 1.05)
-            step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
-            more = -(-more // step) * step
+            more = whole(params, math.ceil(params.teeth * deep / radius * 1.05))
             yield Finding.error(
                 "gear.convexity",
                 "teeth",
@@ -83,15 +72,26 @@ def convexity_findings(params: NoncircularParams, *, advise: bool = True) -> Ite
 def _finer(params: NoncircularParams) -> int | None:
     """The teeth with which a shaper of so many modules is small enough for the hollows; None up to 300."""
     least = min(one.value for one in extremes_of(params).curvatures)
-    step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
     # The radius of the cutter is to the centre distance as one is to the number of teeth.
     share = (FLATTEST - least) / (FLATTEST - _hollowest(params))
-    more = math.ceil(params.teeth * share * (1 + _SPARE) / step) * step
-    return more if more <= MOST_PROPOSED else None
+    more = whole(params, math.ceil(params.teeth * share * (1 + _SPARE)))
+    return more if more <= MOST_TEETH else None
 
 
 _SPARE = 0.01
 """Share of teeth beyond those with which a cutter just fits: as made, it has room."""
+
+
+def hollow(params: NoncircularParams) -> bool:
+    """Whether a pitch curve is more hollow than the cutter can follow."""
+    flattest = _hollowest(params)
+    return any(least.value < flattest for least in extremes_of(params).curvatures)
+
+
+def whole(params: NoncircularParams, teeth: int) -> int:
+    """So many teeth of the driver, or the next greater number of which the driven gear has whole ones too."""
+    step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
+    return -(-teeth // step) * step
 
 
 def _hollowest(params: NoncircularParams) -> float:
@@ -154,7 +154,7 @@ def least_teeth(params: NoncircularParams) -> int | None:
         return rack_of(found).dedendum * sharpest < pair_of(found).distance and not is_undercut(found)
 
     # Finer teeth reach less deeply into the same curve: the limit is found by halving, then looked at.
-    low, high = params.teeth // step, MOST_PROPOSED // step
+    low, high = params.teeth // step, MOST_TEETH // step
     if high <= low or not works(high * step):
         return None
     while high - low > 1:
