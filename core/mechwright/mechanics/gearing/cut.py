@@ -1,6 +1,6 @@
 """What the chosen cutters leave of gears: whether a pair still meshes, and whether a key goes in."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
