@@ -241,7 +241,7 @@ class NoncircularParams(Parameters):
         10.0,
         ge=0,
         le=300,
-        description="Diameter of both shaft bores, 0 for none; left out, 10, or what a frame or a chain asks for.",
+        description="Diameter of both shaft bores, 0 for none; left out, 10, or what a chain asks for.",
         json_schema_extra=FIRST | FITTED,
     )
     keyway_width: Millimetres = Field(

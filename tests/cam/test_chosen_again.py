@@ -63,5 +63,7 @@ def test_mills_without_data_for_a_material_say_which_they_cut():
     mills = [tool for tool in LIBRARY.tools if tool.name in {"mill-6", "mill-3"}]
     brass = [tool.model_copy(update={"cutting": {"brass": tool.cutting["brass"]}}) for tool in mills]
     job = make_job(plate(bore(5), material="steel"), settings, brass)
-    with pytest.raises(mw.MechwrightError, match=r'none has cutting data for steel; .*use material = "brass"'):
+    with pytest.raises(
+        mw.MechwrightError, match=r'none has cutting data for steel; .*use material = "brass"'
+    ):
         usable_mills(job, 5.0)

@@ -187,9 +187,12 @@ def test_a_byte_order_mark_is_ignored(tmp_path: Path, host: Host) -> None:
 
 
 @pytest.mark.parametrize(
-    ("stem", "name"), [("Pair m0.5", "pair-m0-5"), ("gear_2", "gear_2"), ("齿", "design"), ("x" * 80, "x" * 64)]
+    ("stem", "name"),
+    [("Pair m0.5", "pair-m0-5"), ("gear_2", "gear_2"), ("齿", "design"), ("x" * 80, "x" * 64)],
 )
-def test_a_design_without_a_name_gets_one_from_any_file(tmp_path: Path, host: Host, stem: str, name: str) -> None:
+def test_a_design_without_a_name_gets_one_from_any_file(
+    tmp_path: Path, host: Host, stem: str, name: str
+) -> None:
     """The file was refused for a name that nobody had given."""
     path = tmp_path / f"{stem}.toml"
     path.write_text(PREFIX, encoding="utf-8")
