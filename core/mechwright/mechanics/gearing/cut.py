@@ -1,6 +1,6 @@
 """What the chosen cutters leave of gears: whether a pair still meshes, and whether a key goes in."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,7 +87,8 @@ def cut_mesh(proof: MeshProof, thickness: float, larger: Iterable[Change] = ()) 
             depth,
             proof.allowance,
             "mm",
-            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through, or larger teeth",
+            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through, or larger "
+            "teeth",
             proposed=(
                 *_SMALLER,
                 *({"parameters.thickness": share * thickness} for share in _THINNER),
