@@ -164,7 +164,7 @@ def test_what_a_proposal_brings_to_light_is_followed(in_a_shop: Callable[[str], 
     """Tabs have no room, the clamp is too wide then, and only tape and a thinner plate do."""
 
     def judged(design: Design) -> Finding | None:
-        hold, thickness = settings_of(design).cam.hold, design.params.thickness
+        hold, thickness = settings_of(design).cam.hold, vars(design.params)["thickness"]
         if hold.method == "tabs":
             ways = ({"cam.hold.method": "bore"}, {"cam.hold.method": "none", "cam.hold.bed": "tape"})
             return Finding.error("cam.cannot-cut", "cam.hold.tabs", "no room", proposed=ways)
