@@ -95,8 +95,8 @@ def test_the_page_draws_each_part_of_the_torque_and_says_it_the_same_way_twice(t
 @pytest.mark.parametrize(
     ("table", "fixed"),
     [
-        ('load = 0.3\nmotor = "NEMA 17 - 34"', "machine.motor"),
-        ('load = 0.6\nmotor = "37D 18.75:1"\nspeed = 30', "machine.motor"),
+        ('load = 0.3\nmotor = "NEMA 17 - 34"', "machine.gear"),
+        ('load = 0.6\nmotor = "37D 18.75:1"\nspeed = 30', "machine.gear"),
         ('speed = 3000\nmotor = "NEMA 23 - 76"\nup = "y"', "machine.speed"),
         ('load = 40\nmotor = "NEMA 23 - 76"\nspeed = 60', "machine.load"),
     ],
@@ -113,6 +113,8 @@ def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fi
     (told,) = (one for one in proposed_tried(build, inspection, [fault]) if one.code == "machine.motor")
     assert told.fix is not None
     assert list(told.fix) == [fixed]
+    motors = ["machine.motor" in change for change in fault.proposed]
+    assert motors == sorted(motors)  # another motor is what is proposed last
     changed = build.design.changed(told.fix)
     again = MachineDrive().findings(Build(changed, host()))
     assert not [one for one in again if one.severity is Severity.ERROR]
@@ -192,5 +194,5 @@ def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, com
     assert code == 1
     findings = {one["code"]: one for one in json.loads(out)["findings"]}
     assert findings["machine.motor"]["severity"] == "error"
-    assert list(findings["machine.motor"]["fix"]) == ["machine.motor"]
+    assert list(findings["machine.motor"]["fix"]) == ["machine.gear"]  # the motor is at hand
     assert findings["machine.torque"]["stage"] == "parts"

@@ -3,17 +3,22 @@
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from by_night import by_night
 
+from mechwright.contracts.finding import Finding
 from mechwright.designs.change import rewritten
 from mechwright.designs.design import Design, load
 from mechwright.plugins.host import host
-from mechwright.remedies import Limits, of_family
-from mechwright.remedies.keys import keys_of
+from mechwright.remedies import Bench, Limits, of_family
+from mechwright.remedies.keys import Key, keys_of
+from mechwright.remedies.remedied import with_proposed
+from mechwright.remedies.values import ladder
 from mechwright.remedies.words import said
+from mechwright_cam.shop.table import settings_of
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -122,3 +127,60 @@ def test_what_the_file_says_goes_back_to_what_the_shop_lends(in_a_shop: Callable
     assert (key.now(design.content), key.default, key.lender) == (9, 7, "shop")
     assert said(of_family(design, Limits()), {"cam.clearance": None}) == "leave out cam.clearance (now 9)"
     assert keys_of(design)["machine.plates"].lender == ""  # the design has no machine that plates could be of
+
+
+def _found(design: Design, ask: Callable[[Design], Finding | None]) -> Finding:
+    """What is told of a design where ``ask`` finds an error, with what it proposes tried."""
+    finding = ask(design)
+    assert finding is not None
+    bench = Bench(design, lambda changed: [one for one in [ask(changed)] if one is not None])
+    return with_proposed(bench, finding)
+
+
+def test_tools_that_the_shop_lends_are_not_left_out_but_left_to_the_program(
+    in_a_shop: Callable[[str], Design], tmp_path: Path
+) -> None:
+    """Leaving ``cam.tools`` out would leave the two mills of the shop as they are."""
+
+    def lacks(design: Design) -> Finding | None:
+        tools = settings_of(design).cam.tools
+        free = ({"cam.tools": None},)
+        return Finding.error("cam.cannot-cut", "cam.tools", "no mill fits", proposed=free) if tools else None
+
+    in_a_shop("")
+    shop = tmp_path / "shop.toml"
+    shop.write_text(SHOP.replace("clearance = 7", 'clearance = 7\ntools = ["mine-6"]'))
+    lent = load(tmp_path / "gear.toml", host())
+    told = _found(lent, lacks)
+    assert told.fix == {"cam.tools": []}
+    assert told.remedy == 'set cam.tools = [] (now ["mine-6"], lent by the shop)'
+    assert settings_of(lent.changed(told.fix)).cam.tools == ()
+    shop.write_text(SHOP)
+    said = _found(in_a_shop('tools = ["mine-6"]\n'), lacks)
+    assert said.fix == {"cam.tools": None}
+
+
+def test_what_a_proposal_brings_to_light_is_followed(in_a_shop: Callable[[str], Design]) -> None:
+    """Tabs have no room, the clamp is too wide then, and only tape and a thinner plate do."""
+
+    def judged(design: Design) -> Finding | None:
+        hold, thickness = settings_of(design).cam.hold, vars(design.params)["thickness"]
+        if hold.method == "tabs":
+            ways = ({"cam.hold.method": "bore"}, {"cam.hold.method": "none", "cam.hold.bed": "tape"})
+            return Finding.error("cam.cannot-cut", "cam.hold.tabs", "no room", proposed=ways)
+        if hold.method == "bore":
+            return Finding.error("cam.cannot-cut", "cam.hold.clamp_diameter", "too wide")
+        if thickness > 5:
+            thin = tuple({"parameters.thickness": share * thickness} for share in (0.8, 0.4))
+            return Finding.error("gear.cut-mesh", "cam.tools", "collides", proposed=thin)
+        return None
+
+    told = _found(in_a_shop(""), judged)
+    assert told.fix == {"cam.hold.method": "none", "cam.hold.bed": "tape", "parameters.thickness": 4}
+
+
+def test_a_list_that_was_asked_for_is_not_left_out() -> None:
+    """Leaving out the swings of a lever cures it as well as leaving out the mechanism."""
+    asked = Key("parameters.swings", "other", first=True)
+    assert ladder(asked, [30, 30, 0, 0]) == []
+    assert ladder(replace(asked, first=False), [30, 30, 0, 0]) == [None]

@@ -25,12 +25,13 @@ def sound(params: CamParams, *, steep: bool) -> bool:
     """Whether a design closes, is not undercut, and with ``steep`` keeps to its pressure angle."""
     if closure_findings(params):
         return False
-    for second in cams_of(params):
-        found = extremes_of(params, second)
-        if not found.regular.value >= regular_limit(params):  # nor where it is no number
-            return False
-        if steep and math.degrees(found.pressure.value) > params.steepest:
-            return False
+    with np.errstate(invalid="ignore"):  # a lever that turns just as fast as its cam touches it nowhere
+        for second in cams_of(params):
+            found = extremes_of(params, second)
+            if not found.regular.value >= regular_limit(params):
+                return False
+            if steep and not math.degrees(found.pressure.value) <= params.steepest:
+                return False
     return True
 
 

@@ -1,7 +1,7 @@
 """What mends a cam whose moves are too quick for its follower: longer moves, softer ones, smaller ones.
 
-Each is tried on the design. A lever keeps its proportions whatever the base circle is, so that a larger cam is
-undercut as a smaller one is.
+Each is tried on the design. A lever keeps its proportions whatever the base circle is, so that a larger cam
+is undercut as a smaller one is.
 """
 
 import math

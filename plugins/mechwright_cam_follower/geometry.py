@@ -169,7 +169,7 @@ class Geometry(Generic[V]):
         with np.errstate(divide="ignore", invalid="ignore"):
             along = h_1 / beta_1
             radius = h + (h_2 - along * beta_2) / beta_1**2
-            point: Points = (h + 1j * along) * normal  # none where the lever turns just as fast as the cam
+        point: Points = (h + 1j * along) * normal
         if params.translating:
             return Contact(point, point, normal, normal, np.ones_like(h), radius, radius)
         # The lever rises clockwise about its axis.

@@ -13,6 +13,7 @@ from mechwright_geneva.cures import walls_of
 from mechwright_geneva.figures import peaks_of, straight_peaks
 from mechwright_geneva.horns import clear
 from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_BITE, sound
 from mechwright_geneva.stud_checks import stud_findings
 from mechwright_geneva.walls import switches
@@ -46,7 +47,7 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
         longer = f"make crank_half_angle at least {half:g}, " if _turns_by(m, math.radians(half)) else ""
         yield Finding(
             "geneva.acceleration",
-            Severity.WARNING if m.params.model_fields_set & {"law", "crank_half_angle"} else Severity.NOTE,
+            Severity.NOTE if _chosen(m) else Severity.WARNING,
             "law",
             f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against "
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
@@ -63,6 +64,12 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             0.0,
             remedy="choose a law whose acceleration is 0 at both ends",
         )
+
+
+def _chosen(m: Mechanism) -> bool:
+    """Whether law and angles are those of a design that says nothing of them: nobody is warned of these."""
+    usual = m.params.law == GenevaParams.model_fields["law"].default
+    return usual and "crank_half_angle" in m.params.left_out
 
 
 def _turns_by(m: Mechanism, half: float) -> bool:

@@ -257,7 +257,7 @@ class NoncircularParams(Parameters):
         ge=0,
         le=300,
         description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
-        "below that leaves the rim of a small gear, or what a frame or a chain asks for.",
+        "below that leaves the rim of a small gear, or what a chain asks for.",
         json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: Millimetres = Field(

@@ -184,3 +184,16 @@ def test_a_byte_order_mark_is_ignored(tmp_path: Path, host: Host) -> None:
     path = tmp_path / "bom.toml"
     path.write_bytes(b"\xef\xbb\xbf" + PREFIX.encode())
     assert load(path, host).params == DiscParams()
+
+
+@pytest.mark.parametrize(
+    ("stem", "name"),
+    [("Pair m0.5", "pair-m0-5"), ("gear_2", "gear_2"), ("齿", "design"), ("x" * 80, "x" * 64)],
+)
+def test_a_design_without_a_name_gets_one_from_any_file(
+    tmp_path: Path, host: Host, stem: str, name: str
+) -> None:
+    """The file was refused for a name that nobody had given."""
+    path = tmp_path / f"{stem}.toml"
+    path.write_text(PREFIX, encoding="utf-8")
+    assert load(path, host).name == name

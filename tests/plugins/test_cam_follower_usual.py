@@ -3,9 +3,14 @@
 import numpy as np
 import pytest
 
+import mechwright as mw
 from mechwright import Severity
 from mechwright.contracts.by_arrays import Designs
+from mechwright.contracts.finding import errors
+from mechwright.remedies import tried
+from mechwright_cam_follower.checks import findings
 from mechwright_cam_follower.family import CamFollower
+from mechwright_cam_follower.gentler import gentler
 from mechwright_cam_follower.many import Cams
 from mechwright_cam_follower.params import CamParams
 
@@ -70,3 +75,36 @@ def test_a_cam_without_room_for_its_keyway_is_not_told_of_a_bore() -> None:
     found = FAMILY.check(CamParams(base_radius=13.0, screw_diameter=0, bore=20, keyway_width=12.0))
     (one,) = [one for one in found if (one.code, one.parameter) == ("follower.wall", "bore")]
     assert (one.proposed, one.remedy) == ((), "make base_radius larger")
+
+
+@pytest.mark.parametrize("conjugate", [False, True])
+@pytest.mark.parametrize("swing", [5, 20, 26, 27, 33, 40])
+def test_levers_that_are_left_open_follow_their_swing(swing: float, conjugate: bool) -> None:
+    """Over the usual 120 degrees of the cam nothing is found up to 40: pressure angle, room for the axis."""
+    params = CamParams(follower="oscillating", conjugate=conjugate, swings=(swing, swing, 0, 0))
+    assert [str(one) for one in findings(params) if one.severity is not Severity.NOTE] == []
+
+
+@pytest.mark.parametrize("contact", ["flat", "roller"])
+@pytest.mark.parametrize("swing", [30, 40, 50])
+def test_levers_that_swing_too_far_are_told_a_change_that_works(contact: str, swing: float) -> None:
+    """Longer angles, a softer law, a farther axis; smaller swings last, and never none at all."""
+    table = {"follower": "oscillating", "contact": contact, "swings": [swing, swing, 0, 0]}
+    design = mw.design("cam-follower", **table).design
+    for told in tried(design, design.check()):
+        if told.severity is Severity.ERROR:
+            assert told.fix
+            assert None not in told.fix.values()
+            assert errors(design.changed(told.fix).check()) == []
+
+
+def test_moves_become_smaller_only_where_longer_ones_do_not_help() -> None:
+    flat = {"follower": "oscillating", "contact": "flat"}
+    longer, *_ = gentler(CamParams(**flat, swings=(30, 30, 0, 0)))
+    assert set(longer) == {"parameters.angles"}
+    assert sum(longer["parameters.angles"]) == pytest.approx(360)
+    (smaller,) = gentler(CamParams(**flat, swings=(50, 50, 0, 0)))
+    (swings,) = smaller.values()
+    assert list(smaller) == ["parameters.swings"]
+    assert 20 < max(swings) < 50
+    assert errors(findings(CamParams(**flat, swings=swings))) == []

@@ -230,6 +230,9 @@ def test_the_least_offset_is_the_least():
     assert errors(check(offset_angle=value - 0.021)) != []
 
 
+ACCELERATION = "geneva.acceleration"
+
+
 def test_the_acceleration_warning_starts_at_six_slots():
     """With the crank angle of the straight slot, the cycloidal law is the quicker one to accelerate from n = 6."""
     for slots in range(3, 11):
@@ -245,6 +248,19 @@ def test_the_acceleration_warning_starts_at_six_slots():
         assert not errors(findings), (slots, [str(f) for f in errors(findings)])
         warned = "geneva.acceleration" in [finding.code for finding in findings]
         assert warned == (slots >= 6), slots
+
+
+def test_nobody_is_warned_of_the_law_and_the_angles_that_the_program_has_chosen():
+    """They are a note then; who says one of them is told what he gives away."""
+    left_out = {"slots": 6, "load_inertia": 1e-4}
+    for said, severity in (
+        ({}, Severity.NOTE),
+        ({"law": "3-4-5"}, Severity.WARNING),
+        ({"crank_half_angle": 60}, Severity.WARNING),
+    ):
+        (told,) = (one for one in GENEVA.check(GenevaParams(**left_out, **said)) if one.code == ACCELERATION)
+        assert told.severity is severity
+        assert "against 1.35" in told.message
 
 
 def test_the_acceleration_remedy_cures():

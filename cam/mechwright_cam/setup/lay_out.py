@@ -116,9 +116,9 @@ def _clamp(job: Job) -> Clamp:
     hold = job.settings.hold
     wide = hold.clamp_diameter
     if "clamp_diameter" not in hold.model_fields_set:
-        opening = 2 * shapely.distance(shapely.Point(centre), job.target.boundary)
+        opening = 2 * float(shapely.distance(shapely.Point(centre), job.target.boundary))
         fits = math.floor(10 * _widest_clamp(job, centre)) / 10
-        wide = min(wide, max(fits, float(opening) + 2 * CLAMP_RIM))
+        wide = min(wide, max(fits, math.ceil(10 * (opening + 2 * CLAMP_RIM)) / 10))
     return Clamp(centre, wide, hold.clamp_height)
 
 

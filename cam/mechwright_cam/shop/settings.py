@@ -165,8 +165,8 @@ class CamSettings(Parameters):
         2.0,
         ge=0.1,
         le=20,
-        description="No smaller end mill is chosen for the sake of sharp inside corners; left out, one of 1 or "
-        "0.5 is where the parts as cut would not go together.",
+        description="No smaller end mill is chosen for the sake of sharp inside corners; left out, one of 1 "
+        "or 0.5 is where the parts as cut would not go together.",
     )
     chip_thinning: bool = Field(
         True, description="Raise the feed where a small engagement makes chips thinner than planned."

@@ -95,7 +95,9 @@ def _better(design: D) -> Iterator[D]:
                 left = [one for one in _wishes(other) if one.code == finding.code]
                 if all(one.parameter != finding.parameter for one in left):
                     yield other
-                elif not finding.code.startswith(CHAIN) and all(one.message != finding.message for one in left):
+                elif not finding.code.startswith(CHAIN) and all(
+                    one.message != finding.message for one in left
+                ):
                     changed.append(other)
         yield from changed
 

@@ -147,7 +147,8 @@ def with_proposed(bench: Bench, finding: Finding) -> Finding:
 def _followed(bench: Bench, finding: Finding, change: Change) -> Change | None:
     """A proposal with what the errors propose that it brings to light, with which none of these is left.
 
-    A part too small for tabs is held in another way, and only then it is seen that no mill reaches its corners.
+    A part too small for tabs is held in another way, and only then is it seen that no mill reaches its
+    corners.
     """
     before = bench.errors({}) or []
     for _ in range(FOLLOWED):

@@ -130,22 +130,20 @@ def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Ite
                 stage=Stage.PARTS,
             )
         elif isinstance(above.mounting, GroundPlate):
-            yield from _on_stub(place, lower, after, above.mounting)
+            yield from _on_stub(lower, after, above.mounting)
 
 
-def _alike(before: Placed, lower: Seat, after: Placed, plate: GroundPlate) -> list[tuple[str, float]]:
-    """Keys of a hub and of the shaft in it, with the diameter of the other; one that is left out comes first."""
-    number, key = after.link.number, plate.diameter_key.removeprefix("parameters.")
-    ways = [(before.link, lower.key, plate.diameter), (after.link, key_of(number, key), lower.hub.bore)]
-    said = [name.rpartition(".")[2] in link.params.model_fields_set for link, name, _ in ways]
-    return [(name, size) for _, (_, name, size) in sorted(zip(said, ways, strict=True), key=lambda way: way[0])]
+def _alike(lower: Seat, after: Placed, plate: GroundPlate) -> list[tuple[str, float]]:
+    """Keys of a hub and of the shaft in it, each with the diameter of the other."""
+    key = plate.diameter_key.removeprefix("parameters.")
+    return [(lower.key, plate.diameter), (key_of(after.link.number, key), lower.hub.bore)]
 
 
-def _on_stub(before: Placed, lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
+def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
     """The hub on the shaft's end below a ground plate."""
     number, end = after.link.number, plate.end + after.level
     if abs(lower.hub.bore - plate.diameter) > _SAME:
-        alike = _alike(before, lower, after, plate)
+        alike = _alike(lower, after, plate)
         yield Finding.error(
             "chain.bore",
             lower.key,

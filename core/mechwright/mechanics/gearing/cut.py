@@ -87,7 +87,8 @@ def cut_mesh(proof: MeshProof, thickness: float, larger: Iterable[Change] = ()) 
             depth,
             proof.allowance,
             "mm",
-            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through, or larger teeth",
+            "add a smaller end mill, or take a smaller thickness, which smaller ones cut through, or larger "
+            "teeth",
             proposed=(
                 *_SMALLER,
                 *({"parameters.thickness": share * thickness} for share in _THINNER),

@@ -1,0 +1,51 @@
+"""A hub and the shaft in it: whichever of a chain's stages leaves its size out follows the one that gives it."""
+
+from pathlib import Path
+
+import pytest
+
+from mechwright import host
+from mechwright.designs.design import Design, load
+from mechwright.remedies import tried
+
+
+def _chain(folder: Path, before: str, after: str, first: str = "", second: str = "") -> Design:
+    path = folder / "chain.toml"
+    path.write_text(
+        f'[[stage]]\nfamily = "{before}"\n[stage.parameters]\n{first}\n'
+        f'[[stage]]\nfamily = "{after}"\n[stage.parameters]\n{second}\n',
+        encoding="utf-8",
+    )
+    return load(path, host())
+
+
+BORE, PIN, SHAFT = "stage.1.parameters.bore", "stage.2.parameters.pin_diameter", "stage.2.parameters.shaft"
+
+
+@pytest.mark.parametrize(
+    ("stages", "first", "second", "chosen"),
+    [
+        (("noncircular-gears", "slider-crank"), "", "", {BORE: 6}),
+        (("noncircular-gears", "five-bar"), "", "", {BORE: 8}),
+        (("noncircular-gears", "slider-crank"), "bore = 8", "", {SHAFT: 8}),
+        (("elliptic-gears", "four-bar"), "bore = 8", "", {PIN: 8}),
+        (("elliptic-gears", "slider-crank"), "", "shaft = 8", {BORE: 8}),
+    ],
+)
+def test_what_is_left_out_follows_what_is_given(
+    tmp_path: Path, stages: tuple[str, str], first: str, second: str, chosen: dict[str, float]
+) -> None:
+    design = _chain(tmp_path, *stages, first, second)
+    assert {key: size for key, size in design.chosen.items() if key in {BORE, PIN, SHAFT}} == chosen
+    assert "chain.bore" not in [one.code for one in design.check()]
+
+
+def test_two_sizes_that_are_given_are_told_with_both_ways_out(tmp_path: Path) -> None:
+    """Neither is changed unasked; what is told has been tried."""
+    design = _chain(tmp_path, "elliptic-gears", "four-bar", "bore = 8", "pin_diameter = 6")
+    (told,) = (one for one in tried(design, design.check()) if one.code == "chain.bore")
+    assert f"make both alike: {BORE} = 6 or {PIN} = 8" in str(
+        next(one for one in design.check() if one.code == "chain.bore").remedy
+    )
+    assert told.fix in ({BORE: 6}, {PIN: 8})
+    assert "chain.bore" not in [one.code for one in design.changed(told.fix).check()]
