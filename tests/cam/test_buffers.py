@@ -111,6 +111,8 @@ def test_short_edges_before_a_long_one_are_no_straight_line():
     rim = shapely.Polygon(lobes(2, 26, 8, 2500).flatten())
     shape = shapely.union(rim, shapely.box(20, -2, 40, 2))
     assert off(shape, 8.0) < 0.0005
+    around = shapely.box(-80, -80, 80, 80).difference(shape)  # the same curve around an opening
+    assert off(around, -8.0) < 0.0005
     mixed = shapely.geometrycollections([shapely.LineString([(60, 0), (70, 0)]), shape])
     assert buffered(mixed, 8.0, 90).area == pytest.approx(
         buffered(shape, 8.0, 90).area + 160 + 64 * math.pi, abs=0.05
