@@ -106,11 +106,20 @@ def off(shape, distance):
     return float(np.abs(shapely.distance(edge, shapely.boundary(shape)) - abs(distance)).max(initial=0.0))
 
 
+def test_short_edges_beside_a_bar_that_stands_in_an_opening():
+    """Taken for an outer edge, such an opening is 1.6 mm off behind the bar."""
+    rim = shapely.Polygon(lobes(4, 24, 4.346439254032361, 2500).flatten())
+    opening = shapely.union(rim, shapely.box(20, -2, 40, 2))
+    assert off(shapely.box(-80, -80, 80, 80).difference(opening), -8.0) < 0.0005
+
+
 def test_short_edges_before_a_long_one_are_no_straight_line():
     """GEOS 3.14 goes straight from the end of the bar to the far side of the rim, 8 mm above it in between."""
     rim = shapely.Polygon(lobes(2, 26, 8, 2500).flatten())
     shape = shapely.union(rim, shapely.box(20, -2, 40, 2))
     assert off(shape, 8.0) < 0.0005
+    for way in (8.0, -8.0):
+        assert off(shapely.box(-80, -80, 80, 80).difference(shape), way) < 0.0005  # of an opening, too
     mixed = shapely.geometrycollections([shapely.LineString([(60, 0), (70, 0)]), shape])
     assert buffered(mixed, 8.0, 90).area == pytest.approx(
         buffered(shape, 8.0, 90).area + 160 + 64 * math.pi, abs=0.05

@@ -13,7 +13,7 @@ HEAD = "G17 G21 G40 G90 G94 G54\nG0 X0 Y0 Z5\n"
 @pytest.mark.parametrize("ccw", [False, True])
 @pytest.mark.parametrize("turn", [0.4, 1.3, math.pi / 2, 2.5])
 @pytest.mark.parametrize("size", [0.05, 1.0])
-def test_the_aboutarrives_beside_the_contour_in_its_direction(
+def test_the_tool_arrives_beside_the_contour_in_its_direction(
     side: int, ccw: bool, turn: float, size: float
 ) -> None:
     about, radius = size * np.array((7.0, 4.0)), size * 2.0
@@ -53,3 +53,22 @@ def test_a_start_on_the_tangent_of_the_end_is_led_straight() -> None:
     np.testing.assert_allclose(run.end[step][:2], end, atol=1e-7)
     assert run.sweep[step] == 0
     assert math.atan2(end[1], end[0]) == pytest.approx(turn)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize(("left", "beyond"), [(True, 5.0), (False, 40.0)])
+def test_in_an_inner_corner_of_an_arc_and_a_line_the_tool_touches_both(
+    left: bool, beyond: float, mirrored: bool
+) -> None:
+    """A quarter of a circle of 10 mm, and off at a right angle to the side on which the tool of 2 mm is."""
+    s = -1 if mirrored else 1
+    side = 41 if left != mirrored else 42
+    arc = f"G{2 if mirrored else 3} X20 Y{10 * s} I0 J{10 * s}"
+    lines = ["G0 X-10 Y0", f"G{side}.1 D2 G1 X0 F100", "X10", arc, f"G1 X{beyond}", "G40", "G0 Z9", "M2"]
+    run = interpret("G17 G21 G40 G90 G94 G54\nG0 Z5\n" + "\n".join(lines))
+    (step,) = np.flatnonzero(run.sweep)
+    reach = 9.0 if left else 11.0
+    there = (10 + math.sqrt(reach**2 - 1), 9.0 * s)
+    assert run.end[step, :2] == pytest.approx(there, abs=1e-6)
+    assert run.start[step + 1, :2] == pytest.approx(there, abs=1e-6)
+    assert run.end[step + 1, :2] == pytest.approx((beyond, 9.0 * s), abs=1e-6)

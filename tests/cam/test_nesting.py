@@ -192,6 +192,17 @@ def nested(tmp_path, text, head=PAIR):
     return prepare(design, plates(design.family.parts(design.params)))[1]
 
 
+@given(st.floats(-3.2, 3.2), *[st.floats(-50.0, 50.0)] * 4)
+def test_middles_and_sites_are_turned_as_outlines_are(angle, x, y, px, py):
+    """As numbers of the complex plane: a turn is a product, a shift a sum."""
+    there = (complex(px, py)) * complex(math.cos(angle), math.sin(angle)) + complex(x, y)
+    hole = moved_feature(Bore("bore", (px, py), 8.0, 0.0, 3.0), x, y, angle)
+    square = Loop.polygon([(px, py), (px + 9.0, py), (px + 9.0, py + 9.0), (px, py + 9.0)])
+    rim = moved_feature(Profile("rim", square, "outside", 0.0, 3.0, (((px, py), 4.0),)), x, y, angle)
+    for found in (hole.centre, rim.tab_sites[0][0], rim.loop.flatten()[0]):
+        assert complex(*found) == pytest.approx(there, abs=1e-6)
+
+
 @by_night
 def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
     base = nested(tmp_path, "[cam.nest]\n")

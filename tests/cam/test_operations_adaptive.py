@@ -87,8 +87,12 @@ def test_engagement_in_a_slot_is_a_half_turn():
         ),
     ],
 )
-def test_engagement_stays_below_the_angle(area, angle, climb):
-    for cavity in clear(area, MILL, math.radians(angle), climb):
+def test_engagement_stays_below_the_angle_and_all_that_is_roomy_is_cleared(area, angle, climb):
+    cavities = clear(area, MILL, math.radians(angle), climb)
+    bend = BENDS[-1] * MILL.radius
+    roomy, cleared = area.buffer(-bend).buffer(bend), shapely.union_all([one.cleared for one in cavities])
+    assert roomy.difference(cleared.buffer(0.05)).area < 0.02 * area.area
+    for cavity in cavities:
         found = engagements(cavity, MILL.radius, area.bounds)
         assert found.max() <= angle + BOUND
         assert found.max() > angle / 2  # and is used
@@ -110,15 +114,6 @@ def test_engagement_in_random_areas(seed, angle):
             assert shapely.covers(
                 area.buffer(COARSE_FROM), shapely.LineString(one.path.points(0.5)).buffer(MILL.radius)
             )
-
-
-@by_night
-def test_all_that_is_roomy_is_cleared():
-    bend = BENDS[-1] * MILL.radius
-    for area in (BOX, TEE):
-        cleared = shapely.union_all([cavity.cleared for cavity in clear(area, MILL, math.radians(60), True)])
-        roomy = area.buffer(-bend).buffer(bend)
-        assert roomy.difference(cleared.buffer(0.05)).area < 0.02 * area.area
 
 
 def test_an_area_too_narrow_to_turn_in_is_left():

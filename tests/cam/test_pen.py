@@ -62,7 +62,7 @@ def test_a_helix_as_deep_as_whole_turns_are_steep_has_one_more(count):
 @pytest.mark.parametrize("angle", [1.0, 3.0, 8.0])
 def test_a_way_down_is_fed_between_a_cut_and_a_ramp_as_it_is_steep(angle):
     """Of 0 a cut's feed, from the ramp's own slope on, 3 degrees at most, the ramp's, and evenly between them."""
-    ramp = 333.0
+    ramp = 336.0
     pen = Pen(LIBRARY.get("mill-6"), replace(RATES, ramp=ramp), 10.0, math.tan(math.radians(angle)))
     steep, full = math.tan(math.radians(min(angle, 3.0))), ramp / 0.5
     for share in (0.0, 0.25, 0.6, 0.95):

@@ -228,6 +228,7 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
 
 @given(st.lists(st.text("NGXYZIJRFSgxK0123456789.+- \t(%", max_size=9), max_size=5))
 @example(["S0", "X1S.0", "S-1", "S1", "F0", "F-1"])
+@example(["X1Y2", "X1 N5", "N5X1Y2", "G1X1 F2Z3"])
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
     read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):

@@ -49,9 +49,10 @@ def test_over_air_a_cut_is_through_where_it_meets_that() -> None:
         assert 50.0 < np.count_nonzero(opened) * CELL**2 < (10 + 4 * CELL) * (5 + 4 * CELL)
 
 
-def test_air_counts_in_the_cells_whose_middle_is_so_near_to_it_and_in_no_others() -> None:
+@pytest.mark.parametrize("shift", [0.0, 0.17, 0.3, 0.39])
+def test_air_counts_in_the_cells_whose_middle_is_so_near_to_it_and_in_no_others(shift: float) -> None:
     """Around a corner of it as well, where what is near is round; one cell is half a millimetre."""
-    found, shape = grid(), shapely.box(0.13, -7.29, 10.37, 5.11)
+    found, shape = grid(), shapely.box(0.13 + shift, -7.29 + 0.72 * shift, 10.37, 5.11)
     list(footprint._openings(found, replace(plate_job(), tabs=(), gone=(Air(shape, -0.1),))))
     rows, columns = np.indices(found.cut.shape)
     middles = shapely.points(found.x + (columns + 0.5) * CELL, found.y + (rows + 0.5) * CELL)

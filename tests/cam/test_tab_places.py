@@ -86,3 +86,13 @@ def test_a_ramped_tab_begins_where_no_cutter_gets_around_it_as_low_as_it_goes(th
         assert tab.width == width
         assert -tab.ends[0] == pytest.approx(1.25 ** max(steps, 0))
         assert -tab.ends[0] >= deep
+
+
+@pytest.mark.parametrize(
+    ("tabs", "width", "height", "radius"), [(4, 60, 60, 20.0), (2, 80, 50, 24.9), (2, 100, 40, 19.9)]
+)
+def test_long_tabs_stand_on_straight_walls_where_they_begin_farthest_out(tabs, width, height, radius):
+    """At a corner they would have to begin 1.5 to 2 mm inside of the part; on a straight wall it is 1 mm."""
+    hold = {"tabs": tabs, "tab_shape": "ramped", "tab_angle": 10}
+    of = job(part(rounded_box(width, height, radius)), "mill-6", hold=hold)
+    assert [tab.ends[0] for tab in of.tabs] == [-1.0] * tabs

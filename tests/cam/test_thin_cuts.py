@@ -3,11 +3,15 @@
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
+from hypothesis import given
+from hypothesis import strategies as st
 from planning_parts import bore, job, lobes, part
 
+from mechwright_cam.operations import thin_cuts
 from mechwright_cam.operations.pen import AIR
 from mechwright_cam.operations.thin_cuts import SHARES, stretches
 from mechwright_cam.plane.path import polyline
@@ -87,3 +91,21 @@ def test_a_gap_is_cut_to_and_fro():
             places.append((one, two))
     assert len(places) >= 9
     assert all(one != two for one, two in places)
+
+
+@given(st.lists(st.tuples(st.integers(1, 5), st.sampled_from([1.0, 1.5, 2.0, 3.0])), min_size=1, max_size=7))
+def test_an_edge_is_fed_faster_if_the_one_before_or_behind_is_as_thin(edges) -> None:
+    """Against each edge for itself; a way of two edges has no more than the thicker of both."""
+    ways, shares = ([float(way) for way, _ in edges], [share for _, share in edges])
+    ends = np.cumsum(ways)
+    whole = polyline([(0.0, 0.0), *((float(x), 0.0) for x in ends)])
+    found = thin_cuts._divided(whole, ends, np.array(shares))
+    assert sum(piece.length for piece, _ in found) == pytest.approx(ends[-1])
+    told, done = [], 0.0
+    for piece, share in found:
+        done += piece.length
+        told += [share] * int(np.sum(ends <= done + 1e-6) - len(told))
+    pairs = [min(one, two) for one, two in pairwise(shares)] or shares
+    first, last = [pairs[0], *pairs], [*pairs, pairs[-1]]
+    wanted = [max(a, b) for a, b in zip(first, last, strict=True)] if len(shares) > 1 else shares
+    assert told == wanted
