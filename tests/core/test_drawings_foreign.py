@@ -1,7 +1,9 @@
 """Drawings as twelve programs write them: the bracket comes out of each, or is refused by name."""
 
+import io
 from dataclasses import replace
 
+import ezdxf
 import pytest
 from dxf_habits import AREA, HABITS, HIGH, HOLE, HOLES, WIDE
 
@@ -56,6 +58,21 @@ def test_the_bracket_of_every_program_is_built_or_refused_by_name(program):
         assert [v for place in places for v in place] == pytest.approx(
             [v for p in wanted for v in p], abs=1e-3
         )
+
+
+@pytest.mark.parametrize(("units", "size"), [(1, 25.4), (4, 1.0), (5, 10.0)])
+def test_a_plate_is_read_at_any_height_in_any_unit(units, size):
+    document = ezdxf.new("R2000", units=units)
+    corners = [(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)]
+    for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+        document.modelspace().add_line(start, end)
+    stream = io.StringIO()
+    document.write(stream)
+    part, told = drawn(stream.getvalue().encode())
+    assert (told.faults, [note for note in told.notes if "height" in note]) == ([], [])
+    assert part is not None
+    assert part.outline is not None
+    assert part.outline.area == pytest.approx(8 * size**2)
 
 
 def test_a_gap_that_is_wider_than_asked_for_is_refused_with_its_place_and_both_ends():
