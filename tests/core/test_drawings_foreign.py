@@ -60,19 +60,33 @@ def test_the_bracket_of_every_program_is_built_or_refused_by_name(program):
         )
 
 
-@pytest.mark.parametrize(("units", "size"), [(1, 25.4), (4, 1.0), (5, 10.0)])
-def test_a_plate_is_read_at_any_height_in_any_unit(units, size):
+def dxf(corners, units=4):
     document = ezdxf.new("R2000", units=units)
-    corners = [(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)]
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
         document.modelspace().add_line(start, end)
     stream = io.StringIO()
     document.write(stream)
-    part, told = drawn(stream.getvalue().encode())
+    return stream.getvalue().encode()
+
+
+@pytest.mark.parametrize(("units", "size"), [(1, 25.4), (4, 1.0), (5, 10.0)])
+def test_a_plate_is_read_at_any_height_in_any_unit(units, size):
+    part, told = drawn(dxf([(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)], units))
     assert (told.faults, [note for note in told.notes if "height" in note]) == ([], [])
     assert part is not None
     assert part.outline is not None
     assert part.outline.area == pytest.approx(8 * size**2)
+
+
+@pytest.mark.parametrize("far", [0.0, 100.0, -300.0])
+def test_edges_on_one_line_with_a_notch_between_stay_two(far):
+    notched = [(0, 0), (40, 0), (40, 20), (25, 20), (25, 12), (15, 12), (15, 20), (0, 20)]
+    part, told = drawn(dxf([(x + far, y - far) for x, y in notched]))
+    assert told.faults == []
+    assert part is not None
+    assert part.outline is not None
+    assert part.outline.area == pytest.approx(40 * 20 - 10 * 8)
+    assert len(part.outline.outer.segments) == 8
 
 
 def test_a_gap_that_is_wider_than_asked_for_is_refused_with_its_place_and_both_ends():
