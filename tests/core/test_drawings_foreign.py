@@ -78,6 +78,22 @@ def test_a_plate_is_read_at_any_height_in_any_unit(units, size):
     assert part.outline.area == pytest.approx(8 * size**2)
 
 
+@pytest.mark.parametrize("overlap", [0.0, 20.0])
+def test_a_hole_of_two_arcs_is_one_though_they_overlap(overlap):
+    document = ezdxf.new("R2000", units=4)
+    space = document.modelspace()
+    space.add_lwpolyline([(0, 0), (40, 0), (40, 20), (0, 20)], close=True)
+    space.add_arc((20, 10), 3, 0, 180 + overlap)
+    space.add_arc((20, 10), 3, 180, 360)
+    stream = io.StringIO()
+    document.write(stream)
+    part, told = drawn(stream.getvalue().encode())
+    assert told.faults == []
+    assert part is not None
+    (bore,) = [feature for feature in part.features if isinstance(feature, Bore)]
+    assert (bore.centre, bore.diameter) == ((20, 10), pytest.approx(6))
+
+
 @pytest.mark.parametrize("far", [0.0, 100.0, -300.0])
 def test_edges_on_one_line_with_a_notch_between_stay_two(far):
     notched = [(0, 0), (40, 0), (40, 20), (25, 20), (25, 12), (15, 12), (15, 20), (0, 20)]
