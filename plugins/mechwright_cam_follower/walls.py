@@ -62,7 +62,7 @@ def farthest_of(params: CamParams) -> float:
 
 
 def _largest_bore(params: CamParams, inner: float) -> float | None:
-    """The largest bore up to the present one, mm, whose opening leaves the wall inside of a radius; None if none."""
+    """The largest bore, mm, at most the present one, that leaves the wall within a radius; None if none."""
     bore = params.bore
     while True:
         # A keyway's corners stand out of a smaller bore farther than of a larger one.

@@ -1,7 +1,9 @@
 """Drawings as twelve programs write them: the bracket comes out of each, or is refused by name."""
 
+import io
 from dataclasses import replace
 
+import ezdxf
 import pytest
 from dxf_habits import AREA, HABITS, HIGH, HOLE, HOLES, WIDE
 
@@ -56,6 +58,51 @@ def test_the_bracket_of_every_program_is_built_or_refused_by_name(program):
         assert [v for place in places for v in place] == pytest.approx(
             [v for p in wanted for v in p], abs=1e-3
         )
+
+
+def dxf(corners, units=4):
+    document = ezdxf.new("R2000", units=units)
+    for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+        document.modelspace().add_line(start, end)
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue().encode()
+
+
+@pytest.mark.parametrize(("units", "size"), [(1, 25.4), (4, 1.0), (5, 10.0)])
+def test_a_plate_is_read_at_any_height_in_any_unit(units, size):
+    part, told = drawn(dxf([(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)], units))
+    assert (told.faults, [note for note in told.notes if "height" in note]) == ([], [])
+    assert part is not None
+    assert part.outline is not None
+    assert part.outline.area == pytest.approx(8 * size**2)
+
+
+@pytest.mark.parametrize("overlap", [0.0, 20.0])
+def test_a_hole_of_two_arcs_is_one_though_they_overlap(overlap):
+    document = ezdxf.new("R2000", units=4)
+    space = document.modelspace()
+    space.add_lwpolyline([(0, 0), (40, 0), (40, 20), (0, 20)], close=True)
+    space.add_arc((20, 10), 3, 0, 180 + overlap)
+    space.add_arc((20, 10), 3, 180, 360)
+    stream = io.StringIO()
+    document.write(stream)
+    part, told = drawn(stream.getvalue().encode())
+    assert told.faults == []
+    assert part is not None
+    (bore,) = [feature for feature in part.features if isinstance(feature, Bore)]
+    assert (bore.centre, bore.diameter) == ((20, 10), pytest.approx(6))
+
+
+@pytest.mark.parametrize("far", [0.0, 100.0, -300.0])
+def test_edges_on_one_line_with_a_notch_between_stay_two(far):
+    notched = [(0, 0), (40, 0), (40, 20), (25, 20), (25, 12), (15, 12), (15, 20), (0, 20)]
+    part, told = drawn(dxf([(x + far, y - far) for x, y in notched]))
+    assert told.faults == []
+    assert part is not None
+    assert part.outline is not None
+    assert part.outline.area == pytest.approx(40 * 20 - 10 * 8)
+    assert len(part.outline.outer.segments) == 8
 
 
 def test_a_gap_that_is_wider_than_asked_for_is_refused_with_its_place_and_both_ends():

@@ -286,6 +286,28 @@ def test_a_machine_has_every_hole_that_its_screws_want(motor):
     assert screws == 4 * 3 + 4 + 2 * pillars + (0 if motor is None else motor.face.holes)
 
 
+@pytest.mark.parametrize("motor", motors(), ids=lambda motor: motor.name)
+def test_threads_of_a_motors_pillars_are_half_a_millimetre_deeper_than_their_screws_go(motor):
+    parts, motion = discs(90.0, 44.0)
+    made = frame_around(
+        MachineSettings(frame="base"), two(90.0), parts, motion, Wanted(motor, 0.3, 0.2, 60.0)
+    )
+    (pillar,) = [part for part in made.parts if part.name == "motor-pillar"]
+    low = pillar.instances[0].z
+    high = low + pillar.turned.length
+    depths = {}
+    for part in made.parts:
+        for one in part.instances if part.name.startswith("screw") else ():
+            length = float(part.bought.designation.split(" x ")[-1].split()[0])
+            if one.body == pillar.instances[0].body:
+                depths["upper"] = high - (one.z - length)
+            elif one.body == f"{pillar.instances[0].body}-below":  # which is turned over
+                depths["lower"] = -one.z + length - low
+    assert {thread.end: thread.depth for thread in pillar.turned.threads} == {
+        end: pytest.approx(depth + 0.5) for end, depth in depths.items()
+    }
+
+
 def test_a_plate_that_is_too_thin_for_its_bearings_is_refused_with_the_size_that_works():
     parts, motion = discs(90.0, 44.0)
     keys = MachineSettings(frame="plates", plate_thickness=9.0)

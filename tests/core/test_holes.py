@@ -68,6 +68,22 @@ def test_designations_that_are_none(text, said):
         named(text)
 
 
+@settings(deadline=None, max_examples=30)
+@given(st.floats(1.6, 20))
+def test_the_threads_that_are_named_for_a_hole_are_all_that_go_into_it(diameter):
+    def fits(text):
+        try:
+            threaded(plate(diameter, 20.0, (40.0, 30.0)), "bore-1", text)
+        except GeometryError as error:
+            return error
+        return None
+
+    error = fits("M36")
+    said = str(error).partition("for that there is ")[2]
+    sizes = [f"M{size:g}" for size in COARSE if size < 36]
+    assert [size for size in sizes if fits(size) is None] == ([] if said == "none" else said.split(", "))
+
+
 @settings(deadline=None)
 @given(
     nominal=st.sampled_from([d for d in COARSE if d <= 36]), share=st.floats(0, 1), thickness=st.floats(1, 30)

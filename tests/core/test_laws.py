@@ -130,7 +130,14 @@ def test_pieces_join_without_a_step(one, gap, height, waves):
         seen, said = np.abs(getattr(dense, name)).max(), getattr(law.peaks, name)
         assert seen <= said * (1 + 1e-12)
         assert said <= seen * (1 + 1e-2)
-    assert law.least_velocity == pytest.approx(dense.v.min(), abs=1e-3 * law.peaks.v)
+
+
+@pytest.mark.parametrize("phase", np.linspace(0, math.tau, 7).tolist())
+def test_the_least_velocity_is_found_inside_of_a_wave(phase):
+    law = HarmonicPieces("wave", [Piece(0.2, 6, 0), Piece(1, 2, 30, 4 * math.pi, phase)])
+    seen = law.at(np.linspace(0, 1, 20_001)).v
+    assert law.least_velocity == pytest.approx(seen.min(), abs=1e-5 * law.peaks.v)
+    assert law.peaks.v == pytest.approx(np.abs(seen).max(), rel=1e-5)
 
 
 class TestTable:

@@ -11,7 +11,7 @@ from mechwright import GROUND, Channel, Instance, Joint, Load, Loop, Motion, Out
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.machine import MachineSettings, drive_of
 from mechwright.machine.drive import GRAVITY
-from mechwright.machine.rates import differences
+from mechwright.machine.rates import differences, over_time
 from mechwright.mechanics.planar import BodyMotion, Turning
 
 SAMPLES = 721
@@ -246,3 +246,14 @@ def test_inertia_and_weight_do_no_work_over_a_period(waves, tilt):
         assert abs(np.trapezoid(torque, angle)) <= 1e-7 * (energy_of(drive) + np.abs(torque).max())
     rate, _ = differences(drive.reflected * OMEGA**2 / 2)
     np.testing.assert_allclose(rate / angle[1], drive.inertia, rtol=0, atol=1e-6 * energy_of(drive))
+
+
+@pytest.mark.parametrize("uneven", [0.0, 0.4, -0.4])
+def test_rates_over_time_are_exact_for_polynomials_whatever_the_steps(uneven):
+    share = np.linspace(0, 1, 40)
+    time = 2 * share + uneven * share**2
+    values = np.stack([time, time**2, 3 - time**2 / 2], axis=1)
+    first, second = over_time(values, time)
+    one = np.ones(40)
+    np.testing.assert_allclose(first, np.stack([one, 2 * time, -time], axis=1), atol=1e-9)
+    np.testing.assert_allclose(second, np.stack([0 * one, 2 * one, -one], axis=1), atol=1e-6)

@@ -37,5 +37,12 @@ def test_in_space_links_are_lines(family):
     assert any(np.ptp(shape["at"], axis=0).max() > 1 for shape in found["shapes"]), "nothing moves"
 
 
+def test_points_that_are_asked_for_are_dots_where_they_are():
+    asked = np.array([[10.0, 20.0, 0.0], [-31.25, 4.5, 0.0], [0.0, 0.0, 0.0]])
+    found = moving(mw.design("four-bar", crank=30, coupler=80, follower=70, ground=90), asked)
+    assert found is not None
+    assert found["asked"] == "M10 20h0M-31.25 4.5h0M0 0h0"
+
+
 def test_what_does_not_move_has_none():
     assert moving(mw.design("four-bar", crank=300, coupler=10, follower=10, ground=20)) is None

@@ -360,3 +360,12 @@ def test_a_number_with_a_sign_is_lowered_by_ratios(now):
     assert closest(Key("parameters.load", "number", -1e6, 1e6), now, now / 600, lambda x: abs(x) < 7.3) == (
         pytest.approx(math.copysign(7.0, now))
     )
+
+
+@pytest.mark.parametrize("now", [-170.0, -3.0, 0.0, 42.0, 175.0])
+def test_the_ladder_of_an_angle_keeps_its_bounds_and_goes_both_ways(now):
+    values = ladder(Key("parameters.angle", "number", -180, 180, default=0, unit="deg"), now)
+    assert all(-180 <= value <= 180 for value in values)
+    assert min(values) < now < max(values)
+    away = [abs(value - now) for value in values[:2]]
+    assert max(away) <= 10

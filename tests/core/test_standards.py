@@ -227,6 +227,15 @@ def test_a_key_stands_in_its_seat():
 
 
 @pytest.mark.parametrize("face", motor_faces(), ids=lambda face: face.name)
+def test_a_motors_solid_is_as_large_as_its_table(face):
+    box = face.shape(30.0).solid().BoundingBox()
+    half = face.across / 2
+    assert (box.xmin, box.xmax) == pytest.approx((-face.offset - half, half - face.offset), abs=1e-6)
+    assert (box.ymin, box.ymax) == pytest.approx((-half, half), abs=1e-6)
+    assert (box.zmin, box.zmax) == pytest.approx((-30, face.shaft_length), abs=1e-6)
+
+
+@pytest.mark.parametrize("face", motor_faces(), ids=lambda face: face.name)
 def test_a_motor_face_has_room_for_its_holes(face):
     assert face.shaft < face.pilot < face.spread * (math.sqrt(2) if face.holes == 4 else 1) < 2 * face.across
     assert face.spread + (face.thread or face.hole) < face.across
@@ -285,7 +294,11 @@ def test_every_bought_part_is_one_sound_solid():
         solid = one.shape.solid()
         assert solid.ShapeType() == "Solid", one.designation
         assert solid.isValid(), one.designation
-        assert solid.Volume() > 0, one.designation
+        # Between plastics and steel: a mass that belongs to another size is none of these.
+        assert one.mass is None or 1e-3 < one.mass / solid.Volume() < 8.5e-3, one.designation
+    for of in bushes():
+        bush = bush_for(of.bore, of.lengths[-1]).bought
+        assert bush.mass == pytest.approx(6.6e-3 * bush.shape.solid().Volume(), abs=1e-3)
 
 
 def test_orders_are_told_apart():

@@ -42,6 +42,12 @@ SHAFT = Turned(
 )
 
 
+def test_a_groove_may_end_where_its_step_does():
+    assert replace(SHAFT, grooves=(Groove(7.9, 1.1, 9.0),)).grooves[0].at == 7.9
+    with pytest.raises(GeometryError, match="lies in no one step"):
+        replace(SHAFT, grooves=(Groove(7.91, 1.1, 9.0),))
+
+
 @pytest.mark.parametrize("turned", [SHAFT, tube(8, 12, 6), replace(SHAFT, bore=4.0)])
 def test_the_solid_is_what_the_steps_say(turned):
     solid = turned.shape.solid()

@@ -27,6 +27,8 @@ from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.table import settings_of
+from mechwright_geneva.fixings import driver_room
+from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 
@@ -120,6 +122,15 @@ def test_tabs_of_the_disc_are_in_the_deep_of_its_relief():
     sites = disc.features[-1].tab_sites
     assert len(sites) >= 6
     assert max(math.hypot(*place) for place, _ in sites) < 66 < 70
+
+
+@pytest.mark.parametrize("slots", [4, 6, 8])
+def test_a_relief_of_any_depth_takes_tabs_from_a_tenth_of_its_depth_on(slots):
+    m = mechanism_of(GenevaParams(slots=slots))
+    (disc,) = [part for part in parts_of(m.params) if part.name == "locking-disc"]
+    away = [math.hypot(*place) for place, _ in disc.features[-1].tab_sites]
+    assert away, "without places of its own any place would do, also one on the arc that locks"
+    assert max(away) <= m.lock - 0.1 * (m.lock - driver_room(m)[1])
 
 
 def cutters(part, *tools):

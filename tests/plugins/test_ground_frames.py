@@ -313,3 +313,5 @@ def test_what_a_family_says_of_its_ground_plate_is_so(example):
     moved = replace(ground, holes=ground.moved(ground.out + 1))
     assert len([*ground_faults(moved, parts, motion)]) == 4
     assert [*ground_faults(replace(ground, end=ground.end - 1), parts, motion)]
+    for wrong in (0.2, -0.2):
+        assert len([*ground_faults(replace(ground, hole=ground.hole + wrong), parts, motion)]) == 4

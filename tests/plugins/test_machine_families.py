@@ -15,6 +15,7 @@ from mechwright.designs.design import load
 from mechwright.machine import MachineSettings, drive_of
 from mechwright.machine.drive import SAMPLES
 from mechwright.machine.rates import over_time
+from mechwright.testing.frames import mounting_faults
 from mechwright_elliptic_gears.family import EllipticGears
 
 ROOT = Path(__file__).parents[2]
@@ -129,3 +130,20 @@ def test_the_script_of_the_manual_prints_what_it_says(monkeypatch, capsys):
     (code,) = (block for block in re.findall(r"```python\n(.*?)```", text, re.S) if "drive_of" in block)
     exec(code, {})  # noqa: S102 - our own
     assert capsys.readouterr().out.strip() == code.rpartition("# ")[2].strip()
+
+
+@pytest.mark.parametrize("name", ["elliptic-pair"])
+def test_a_spindle_that_is_no_axis_of_its_body_or_whose_hub_is_elsewhere_is_told(name):
+    found = load(ROOT / "examples" / f"{name}.toml", host())
+    mounting, parts, motion = found.family.mounting(found.params), found.parts(), found.solve(9)
+    assert list(mounting_faults(mounting, parts, motion)) == []
+    one, *others = mounting.spindles
+    x, y = one.point
+    for wrong, said in (
+        (replace(one, hub=replace(one.hub, low=one.hub.low - 500)), "no part of it"),
+        (replace(one, hub=replace(one.hub, high=one.hub.high + 500)), "no part of it"),
+        (replace(one, point=(x, y + 1.0)), "turns 1 mm off"),
+        (replace(one, body="nobody"), "no body 'nobody'"),
+    ):
+        (told,) = mounting_faults(replace(mounting, spindles=(wrong, *others)), parts, motion)
+        assert said in told
