@@ -29,7 +29,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
-from mechwright.contracts.ground import kept, opened_again
+from mechwright.contracts.ground import kept, leave_behind, opened_again
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
@@ -264,12 +264,27 @@ def _aside(who: str) -> Iterator[None]:
         with _lock:
             _inside.remove(who)
             if not _inside:
-                while _files:
-                    number, kept_as = _files.pop()
-                    with suppress(OSError):
-                        os.dup2(kept_as, number)
-                    os.close(kept_as)
-                sys.stdout = opened_again(_streams.pop(), 1)
+                _turn_back()
+
+
+def _turn_back() -> None:
+    while _files:
+        number, kept_as = _files.pop()
+        with suppress(OSError):
+            os.dup2(kept_as, number)
+        os.close(kept_as)
+    if _streams:
+        sys.stdout = opened_again(_streams.pop(), 1)
+
+
+def abandon() -> None:
+    """Let nobody wait for calls that other threads are at; standard output is as before.
+
+    What such a call would give nobody wants any more.
+    """
+    with _lock:
+        _turn_back()
+    leave_behind()
 
 
 def _turned() -> list[tuple[int, int]]:
