@@ -23,7 +23,7 @@ import sys
 import threading
 import traceback
 import types
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -58,6 +58,7 @@ class Called(Protocol):
     kind: ClassVar[str]
     limited: ClassVar[bool]
     unlimited: ClassVar[frozenset[str]]
+    piecewise: ClassVar[frozenset[str]]
     registered_by: str
 
     @classmethod
@@ -121,6 +122,8 @@ def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., A
         with _guarded(self, method, code, contract, arguments):
             function = own.__get__(self, type(self)) if hasattr(own, "__get__") else own
             found = function(*arguments, **named)
+            if isinstance(found, Iterator) and method not in contract.piecewise:
+                found = tuple(found)
             if not isinstance(found, Iterator):
                 return contract.sound(method, found, (*arguments, *named.values()))
         return _pieces(self, method, code, contract, found)
@@ -212,6 +215,24 @@ class CalledLater:
 def later(function: Callable[..., Any], what: str) -> CalledLater:
     """A function that the call under way gives away, which knows whose it is; one that does is as it was."""
     return function if isinstance(function, CalledLater) else CalledLater(function, now(), what)
+
+
+def pieces(given: Iterable[Any], what: str) -> Iterator[bytes]:
+    """Bytes that the call under way gives away one by one, each asked for under the guard."""
+    who, asked = now(), iter(given)
+
+    def one_by_one() -> Iterator[bytes]:
+        while True:
+            with _watched(f"{who}: {what}", 0.0, pieces.__code__, own=_OURS in who):
+                try:
+                    one = next(asked)
+                except StopIteration:
+                    return
+                if not isinstance(one, bytes):
+                    raise UnsoundError(f"gives {one!r:.80} among its pieces; bytes are wanted")
+            yield one
+
+    return one_by_one()
 
 
 @contextmanager
