@@ -68,19 +68,22 @@ def test_pages(gives: object, words: str) -> None:
         registered(Files(), gives).files(None)
 
 
-def test_pieces_of_a_page_are_asked_for_under_the_guard() -> None:
+@pytest.mark.parametrize(
+    ("last", "words"),
+    [(lambda: 3, "gives 3 among its pieces; bytes are wanted"), (sys.exit, "ends the program")],
+)
+def test_pieces_of_a_page_are_asked_for_under_the_guard(last: Any, words: str) -> None:
     def given() -> Iterator[object]:
         yield b"one"
-        yield from ([3] if wrong == "kind" else [sys.exit(0)])
+        yield last()
 
-    for wrong, words in (
-        ("kind", "gives 3 among its pieces; bytes are wanted"),
-        ("exit", "ends the program"),
-    ):
-        found = registered(Files(), {"a.txt": given()}).files(None)["a.txt"]
-        assert next(found) == b"one"
-        with pytest.raises(PluginFaultError, match=rf"page files: files\(\): 'a.txt': {words}"):
-            next(found)
+    found = registered(Files(), {"a.txt": given()}).files(None)["a.txt"]
+    assert next(found) == b"one"
+    with pytest.raises(PluginFaultError, match=rf"page files: files\(\): 'a.txt': {words}"):
+        next(found)
+
+
+def test_texts_and_bytes_stay_what_they_are() -> None:
     assert registered(Files(), {"a": "text", "b": b"bytes"}).files(None) == {"a": "text", "b": b"bytes"}
 
 
