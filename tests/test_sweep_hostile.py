@@ -182,3 +182,39 @@ def test_the_page_is_made_of_every_table_that_was_asked_for(tmp_path, monkeypatc
     assert swept(tmp_path / "out", "--workers", "1", text="refine = 1").exit_code == 0
     assert given == sorted((tmp_path / "out" / "tables").iterdir())
     assert {path.name.partition("-")[0] for path in given} == {"part", "refine"}
+
+
+ENDLESS = """
+import time
+from pathlib import Path
+class Endless:
+    def told(self, task):
+        Path(f"begun-{task}").touch()
+        time.sleep(3600)
+"""
+STOPPED = """
+import os, signal, threading, time
+from pathlib import Path
+from endless import Endless
+from mechwright.sweep.workers import Processes
+def stop():
+    while len(list(Path().glob("begun-*"))) < 2:
+        time.sleep(0.02)
+    os.kill(os.getpid(), signal.SIGINT)
+if __name__ == "__main__":
+    asked = Processes(2)._once(Endless(), ["a", "b", "c"])
+    threading.Thread(target=stop, daemon=True).start()
+    try:
+        next(asked)
+    except KeyboardInterrupt:
+        print("stopped")
+"""
+
+
+def test_workers_end_with_a_sweep_that_is_stopped(tmp_path):
+    """The interpreter would wait at its end for what they are at, which is a minute at times; here an hour."""
+    (tmp_path / "endless.py").write_text(ENDLESS)
+    (tmp_path / "stopped.py").write_text(STOPPED)
+    words = [sys.executable, "stopped.py"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout == "stopped\n"

@@ -186,3 +186,26 @@ def test_hostile_questions_are_told_in_a_few_words(page, what, body):
     assert code in {200, 400}
     assert len(found) < 3_000_000
     assert "please report" not in found.decode()
+
+
+def test_the_keyboard_ends_it_while_answers_are_under_way(tmp_path):
+    """Some take half a minute each; nobody waits for them."""
+    path = tmp_path / "pair.toml"
+    shutil.copy(ROOT / "examples" / "elliptic-pair.toml", path)
+    page = Page(path)
+    asked = json.dumps({"change": {"parameters.teeth": 590}}).encode()
+    with contextlib.ExitStack() as kept:
+        for _ in range(12):
+            kept.enter_context(line(page)).sendall(
+                head(page, f"Content-Length: {len(asked)}", what="parts") + asked
+            )
+        time.sleep(0.5)
+        began = time.monotonic()
+        page.end()
+        assert time.monotonic() - began < 15
+
+
+@pytest.mark.parametrize("key", ["k", "paramters.teeth", "units", "a.b.c"])
+@pytest.mark.parametrize("what", ["motion", "parts", "described"])
+def test_no_key_is_taken_and_not_heeded(page, key, what):
+    assert "error" in page.ask(what, change={key: 1})

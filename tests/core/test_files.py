@@ -56,6 +56,15 @@ def test_the_current_folder_is_not_replaced_under_the_users_feet(
     check_folder(Path("out"))
 
 
+def test_a_folder_below_two_thousand_new_ones_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(OutputError, match=r"cannot be written: .*nothing was changed$"):
+        run(Path("d/" * 1900 + "out"), "solve", x="1")
+    assert names(tmp_path) == set()
+
+
 def test_other_files_stay_and_stale_ones_of_the_same_command_go(tmp_path: Path) -> None:
     target = tmp_path / "out"
     run(target, "solve", motion="1")

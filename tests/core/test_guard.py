@@ -160,7 +160,22 @@ def test_a_shape_that_does_not_fit_names_the_plugin() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["", "a,b", "a\nb", 'a"b', "=cmd|'/c calc'!A1", "+x", "-x", "@x", "\tx", "a;b", " =x", "\uff1dx", "x ", "x" * 101],
+    [
+        "",
+        "a,b",
+        "a\nb",
+        'a"b',
+        "=cmd|'/c calc'!A1",
+        "+x",
+        "-x",
+        "@x",
+        "\tx",
+        "a;b",
+        " =x",
+        "\uff1dx",
+        "x ",
+        "x" * 101,
+    ],
 )
 def test_a_channel_is_named_so_that_it_can_head_a_column(name: str) -> None:
     def solve(_: object, n: int) -> Motion:

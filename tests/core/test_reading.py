@@ -107,6 +107,32 @@ def test_an_integer_of_more_than_64_bits_is_no_toml(value, tmp_path):
     assert read_toml(path)[0]["key"][0] == 2**63 - 1
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a." * 450_000 + "b = 1\n",
+        "[" + "a." * 450_000 + "b]\nc = 1\n",
+        "x = {" + "a . 'b' .\t\"c\"." * 30 + "d = 1}\n",
+        "[" + ".".join("a" * 65) + "]\n",
+    ],
+    ids=["key", "table", "inline", "just"],
+)
+def test_a_key_of_many_parts_is_refused_at_once(text, tmp_path):
+    """Who reads it takes the square of their number: 300,000 took minutes."""
+    path = tmp_path / "a.toml"
+    path.write_text(text)
+    began = time.process_time()
+    with pytest.raises(DesignError, match="a key with more than 64 parts"):
+        read_toml(path)
+    assert time.process_time() - began < 1
+
+
+def test_a_key_of_sixty_four_parts_and_a_text_of_more_are_read(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text('s = "' + "a." * 100 + '"\n[' + ".".join("a" * 64) + "]\n")
+    assert read_toml(path)[0]["s"] == "a." * 100
+
+
 def test_every_message_has_a_length():
     long = f"a.toml: key: {'9' * 100_000!r} is too long; write less"
     for said in (str(DesignError(long)), Finding.error("a.b", "key", long).message):

@@ -6,6 +6,7 @@ import json
 import secrets
 import socket
 from collections.abc import Awaitable, Callable, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
+from mechwright.contracts.guard import abandon
 from mechwright.designs.files import read_toml
 from mechwright.errors import DesignError, MechwrightError, OutputError
 from mechwright.output.templates import templates
@@ -32,6 +34,11 @@ LOOK = 0.4
 WAIT = 20.0
 """Seconds after which a page that waits for news is told that there are none."""
 
+AT_A_TIME = 40
+"""Answers that are worked on together: quick ones pass by those that take long."""
+GRACE = 1
+"""Seconds that answers have which are under way when the server is ended; some would take minutes."""
+
 _SITE = Path(__file__).parent / "site"
 _ANIMATION = Path(__file__).parents[1] / "animation"
 
@@ -41,13 +48,17 @@ class Server:
 
     def __init__(self, path: Path, host: Host, port: int, token: str) -> None:
         self.shown = shown(path, host)
+        self._workers = ThreadPoolExecutor(AT_A_TIME)
         routes = [
             Route("/", _file("text/html; charset=utf-8", _page)),
             Route("/live.js", _file("text/javascript; charset=utf-8", _script)),
             Route("/live.css", _file("text/css; charset=utf-8", _style)),
             Route("/news", self._news),
             *(Route(f"/{name}", _state(state)) for name, state in self.shown.states.items()),
-            *(Route(f"/{name}", _answer(ask), methods=["POST"]) for name, ask in self.shown.asks.items()),
+            *(
+                Route(f"/{name}", _answer(ask, self._workers), methods=["POST"])
+                for name, ask in self.shown.asks.items()
+            ),
         ]
         self.app = Guard(Starlette(routes=routes, lifespan=None), token, port)
 
@@ -62,7 +73,8 @@ class Server:
         return JSONResponse({"digest": digest})
 
     def close(self) -> None:
-        """End what was begun for the page."""
+        """End what was begun for the page; answers that are under way are nobody's any more."""
+        self._workers.shutdown(wait=False, cancel_futures=True)
         self.shown.close()
 
 
@@ -78,13 +90,13 @@ def _state(state: Callable[[], Mapping[str, Any]]) -> Callable[[Request], Awaita
     return respond
 
 
-def _answer(ask: Answering) -> Callable[[Request], Awaitable[Response]]:
+def _answer(ask: Answering, workers: Executor) -> Callable[[Request], Awaitable[Response]]:
     async def respond(request: Request) -> Response:
         try:
             body = json.loads(await request.body())
             if not isinstance(body, dict):
                 raise DesignError("the page sent no question")
-            found = await run_in_threadpool(ask, body)
+            found = await asyncio.get_running_loop().run_in_executor(workers, ask, body)
         except MechwrightError as error:
             found = {"error": str(error)}
         except ClientDisconnect:
@@ -150,7 +162,8 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
         server = Server(path, host, number, token)
         settings = uvicorn.Config(
             server.app,
-            log_level="error",
+            log_level="critical",  # of answers that are broken off it would print tracebacks
+            timeout_graceful_shutdown=GRACE,
             access_log=False,
             server_header=False,
             lifespan="off",
@@ -165,3 +178,4 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
                 uvicorn.Server(settings).run(sockets=[taken])
         finally:
             server.close()
+            abandon()

@@ -2,9 +2,11 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 from mechwright.build.build import Build
+from mechwright.contracts.guard import UnsoundError, pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
 
@@ -25,12 +27,32 @@ class Page(Plugin):
 
     kind = "page"
     plural = "pages"
+    typed = True
     commands: ClassVar[frozenset[str]]
     """Names of the commands that write it."""
     doing: ClassVar[str] = ""
     """What is made, for a progress bar; pages of the same words are one step of it."""
     share: ClassVar[float] = 1.0
     """How long that step takes beside others, such as a page of text, which takes 1."""
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """Files have plain names and texts that can be written; pieces are asked for under the guard."""
+        found = super().sound(method, answer, arguments)
+        if method != "files":
+            return found
+        for name, content in found.items():
+            if name != Path(name).name or name in {"", ".", ".."} or not name.isprintable():
+                raise UnsoundError(f"{name!r} is no plain file name")
+            if isinstance(content, str):
+                try:
+                    content.encode()
+                except UnicodeEncodeError as error:
+                    raise UnsoundError(f"the text of {name!r} cannot be written: {error.reason}") from error
+        return {
+            name: content if isinstance(content, (str, bytes)) else pieces(content, f"{name!r}")
+            for name, content in found.items()
+        }
 
     def warm(self, build: Build) -> None:
         """Start what takes long before the design is even read; by default nothing."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.declared import Declared, shown
+from mechwright.contracts.declared import Declared, refuse, shown
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.guard import UnsoundError
 from mechwright.contracts.materials import MATERIALS
@@ -73,12 +73,7 @@ def _kinds() -> Mapping[str, Any]:
 
 
 def _declared(answer: Any, kind: Any, asked: Declared = _STRICT) -> None:
-    found = asked.fault(answer, kind)
-    if found is not None:
-        where, said = found
-        raise UnsoundError(
-            f"what it gives {said}" if not where else f"{where.lstrip('.')} of what it gives {said}"
-        )
+    refuse(asked.fault(answer, kind))
 
 
 def _findings(answer: Any, _: tuple[Any, ...]) -> Sequence[Finding]:

@@ -17,6 +17,8 @@ from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_
 
 import numpy as np
 
+from mechwright.contracts.guard import UnsoundError
+
 SHOWN = 80
 """Characters that are shown of what is none."""
 
@@ -55,6 +57,23 @@ class Declared:
         >>> Declared().fault({"a": 1.0}, Mapping[str, float])
         """
         return next(_Walk(self).faults(value, kind), None)
+
+
+def hold(contract: Any, method: str, answer: Any) -> None:
+    """Raise UnsoundError where an answer is not what the annotation of a contract's method says it gives."""
+    function = getattr(contract, method)
+    try:
+        kind = _resolved(function.__annotations__["return"], function.__module__)
+    except NameError:  # imported for type checkers alone
+        return
+    refuse(Declared(finite=False).fault(answer, kind))
+
+
+def refuse(found: Fault | None) -> None:
+    """Raise UnsoundError where a fault was found."""
+    if found is not None:
+        where, said = found
+        raise UnsoundError(f"{where.lstrip('.')} of what it gives {said}".removeprefix(" of "))
 
 
 def shown(value: Any) -> str:

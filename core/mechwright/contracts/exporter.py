@@ -17,6 +17,8 @@ class Exporter(Plugin):
 
     kind = "exporter"
     plural = "formats"
+    typed = True
+    piecewise = frozenset({"part", "assembly"})
     texts = ("suffix",)
 
     suffix: ClassVar[str]

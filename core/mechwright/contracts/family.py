@@ -41,6 +41,7 @@ class Family(Plugin, Generic[P]):
     texts = ("title", "summary")
     limited = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
+    piecewise = frozenset({"stretches"})
 
     title: ClassVar[str]
     """A few words, as a heading."""

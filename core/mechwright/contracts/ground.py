@@ -86,6 +86,11 @@ def threads_left() -> bool:
     return any(one.is_alive() for one in _left)
 
 
+def leave_behind() -> None:
+    """Let the program end without waiting for threads that still run: what they would give nobody wants."""
+    _left.extend(one for one in threading.enumerate() if not (one.daemon or one is threading.main_thread()))
+
+
 def _set_back(piece: Piece, was: Any, loaded: bool) -> bool:
     """Whether a piece was changed, and is as it was again."""
     try:

@@ -23,13 +23,13 @@ import sys
 import threading
 import traceback
 import types
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
-from mechwright.contracts.ground import kept, opened_again
+from mechwright.contracts.ground import kept, leave_behind, opened_again
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
@@ -58,6 +58,7 @@ class Called(Protocol):
     kind: ClassVar[str]
     limited: ClassVar[bool]
     unlimited: ClassVar[frozenset[str]]
+    piecewise: ClassVar[frozenset[str]]
     registered_by: str
 
     @classmethod
@@ -121,6 +122,8 @@ def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., A
         with _guarded(self, method, code, contract, arguments):
             function = own.__get__(self, type(self)) if hasattr(own, "__get__") else own
             found = function(*arguments, **named)
+            if isinstance(found, Iterator) and method not in contract.piecewise:
+                found = tuple(found)
             if not isinstance(found, Iterator):
                 return contract.sound(method, found, (*arguments, *named.values()))
         return _pieces(self, method, code, contract, found)
@@ -214,6 +217,24 @@ def later(function: Callable[..., Any], what: str) -> CalledLater:
     return function if isinstance(function, CalledLater) else CalledLater(function, now(), what)
 
 
+def pieces(given: Iterable[Any], what: str) -> Iterator[bytes]:
+    """Bytes that the call under way gives away one by one, each asked for under the guard."""
+    who, asked = now(), iter(given)
+
+    def one_by_one() -> Iterator[bytes]:
+        while True:
+            with _watched(f"{who}: {what}", 0.0, pieces.__code__, own=_OURS in who):
+                try:
+                    one = next(asked)
+                except StopIteration:
+                    return
+                if not isinstance(one, bytes):
+                    raise UnsoundError(f"gives {one!r:.80} among its pieces; bytes are wanted")
+            yield one
+
+    return one_by_one()
+
+
 @contextmanager
 def loading(who: str, module: str) -> Iterator[None]:
     """Load a plugin's module: what it prints goes to standard error, the ground is kept, and it has a time.
@@ -264,12 +285,27 @@ def _aside(who: str) -> Iterator[None]:
         with _lock:
             _inside.remove(who)
             if not _inside:
-                while _files:
-                    number, kept_as = _files.pop()
-                    with suppress(OSError):
-                        os.dup2(kept_as, number)
-                    os.close(kept_as)
-                sys.stdout = opened_again(_streams.pop(), 1)
+                _turn_back()
+
+
+def _turn_back() -> None:
+    while _files:
+        number, kept_as = _files.pop()
+        with suppress(OSError):
+            os.dup2(kept_as, number)
+        os.close(kept_as)
+    if _streams:
+        sys.stdout = opened_again(_streams.pop(), 1)
+
+
+def abandon() -> None:
+    """Let nobody wait for calls that other threads are at; standard output is as before.
+
+    What such a call would give nobody wants any more.
+    """
+    with _lock:
+        _turn_back()
+    leave_behind()
 
 
 def _turned() -> list[tuple[int, int]]:

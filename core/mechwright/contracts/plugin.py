@@ -44,6 +44,10 @@ class Plugin(ABC):
     """Whether a call has a time, and works on parameters that stay as they are."""
     unlimited: ClassVar[frozenset[str]] = frozenset()
     """Methods whose calls have none all the same."""
+    piecewise: ClassVar[frozenset[str]] = frozenset()
+    """Methods that give one thing after the other; what others give so is gathered by the guard."""
+    typed: ClassVar[bool] = False
+    """Whether answers are held to the annotations of the contract."""
     registered_by: str = ""
     """What registered it, in words, where the host did: ``"plugin geneva of mechwright"``."""
 
@@ -56,6 +60,10 @@ class Plugin(ABC):
     @classmethod
     def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:  # noqa: ARG003 - by some
         """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
+        if cls.typed:
+            from mechwright.contracts.declared import hold  # it needs numpy, which listings do not
+
+            hold(cls, method, answer)
         return answer
 
     @classmethod

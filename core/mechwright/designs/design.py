@@ -169,11 +169,17 @@ class Design:
         seconds.
         """
         content = changed(self.content, change)
+        for key in change:
+            if key in {"family", "format", "units"}:
+                raise DesignError(f"{self.path}: {key}: what all else hangs on is changed in the file")
+        name = read_name(
+            content, self.path, (*HEAD, "parameters", STAGE, *(one.name for one in self.readers))
+        )
         chosen = {} if settle else {key: value for key, value in self.chosen.items() if key not in change}
         params = own_params(self.family, changed(content, chosen), self.path)
         touched = {key.partition(".")[0] for key in change}
         tables = table_values(self.readers, content, self.path, self.tables, touched)
-        design = replace(self, params=params, tables=tables, content=content, chosen=chosen)
+        design = replace(self, name=name, params=params, tables=tables, content=content, chosen=chosen)
         return settled(design) if settle else design
 
     def choosing(self, change: Change) -> "Design":

@@ -48,7 +48,7 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     target, old = _examined(target)
     made = 0
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
+        _make_parents(target)
         with staging_folder(target) as staging:
             stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
             kept = {name: entry for name, entry in old.items() if name not in stale}
@@ -72,6 +72,15 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     except (MemoryError, TypeError):  # the second is what becomes of the first where a path is read
         if not made or not target.exists() or target.stat().st_ino != made:
             raise  # else it came after the step that counts: the files are there, and that is what is told
+
+
+def _make_parents(target: Path) -> None:
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except RecursionError as error:
+        raise OutputError(
+            f"{target}: cannot be written: too many folders deep; nothing was changed"
+        ) from error
 
 
 def _written(path: Path, content: bytes | Iterable[bytes]) -> str:

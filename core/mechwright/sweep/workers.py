@@ -92,6 +92,9 @@ class Processes:
                     yield task, content
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+            if running:  # stopped: the interpreter would wait for what they are at, a minute or more
+                for worker in multiprocessing.active_children():
+                    worker.terminate()
 
 
 def _begin() -> None:
