@@ -190,7 +190,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:
     rack, ellipse, outline = rack_of(params), ellipse_of(params), outline_of(params)
-    yield from chosen(params, USUAL)
+    yield from chosen("gear.chosen", params, USUAL)
     whole, inertia = body(outline, params.thickness, params.material)
     yield Finding.note(
         "gear.size",

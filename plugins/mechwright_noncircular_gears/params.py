@@ -222,8 +222,7 @@ class NoncircularParams(Parameters):
     )
     addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
         None,
-        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8, "
-        "and at most 0.25 below dedendum.",
+        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8.",
     )
     dedendum: Ratio = Field(
         1.25,
