@@ -25,7 +25,7 @@ def errors_of(params):
 
 
 @settings(deadline=None, max_examples=40)
-@given(share=st.floats(0.15, 1.65), ground=st.floats(60.0, 160.0))
+@given(share=st.floats(0.15, 1.65), ground=st.floats(110.0, 170.0))
 def test_teeth_reach_over_the_ground_with_any_module_that_some_reach_with(share, ground):
     """Gears of 100, 200 and 200 teeth are the finest, of 18, 18 and 36 the coarsest with the usual ratio."""
     found = FiveBarParams(module=share * ground / 50, ground=ground, gear_thickness=8)
@@ -90,4 +90,4 @@ def test_many_have_gears_as_wide_as_each_by_itself():
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, columns, Stage.PARTS, FAMILY.parts))
     heavy, loaded, bare, light = found.values["mass"]
     assert heavy > loaded
-    assert bare == light == pytest.approx(loaded, rel=1e-9)
+    assert [bare, light] == pytest.approx([loaded, loaded], rel=1e-6)
