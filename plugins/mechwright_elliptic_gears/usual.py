@@ -20,7 +20,7 @@ from mechwright.mechanics.gearing.usual import (
     teeth_without_undercut,
     tip_radius_beside,
 )
-from mechwright_elliptic_gears.gear import offset_miss
+from mechwright_elliptic_gears.offsets import offset_miss
 
 TEETH = 25
 """The default of the table."""

@@ -18,7 +18,8 @@ from mechwright.tolerances import exceeds, falls_short
 from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.joints import bosses_of
-from mechwright_five_bar.params import USUAL_FACE, FiveBarParams
+from mechwright_five_bar.limits import USUAL_FACE
+from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import JOINTS, loads_of, roughly_loaded
 from mechwright_five_bar.phases import phases_of
 from mechwright_five_bar.reach import (

@@ -11,7 +11,8 @@ from mechwright.mechanics.strength.allowed import REVERSING_ROOT
 from mechwright_five_bar.bounds import Bars, Gears, teeth_bear
 from mechwright_five_bar.checks import sound
 from mechwright_five_bar.hardware import turning_bore
-from mechwright_five_bar.params import USUAL_FACE, FiveBarParams
+from mechwright_five_bar.limits import USUAL_FACE
+from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.reach import bar_of, transmission_of, turns_fully
 from mechwright_five_bar.strength_checks import rough_stresses
 from mechwright_five_bar.train import train_of

@@ -1,6 +1,6 @@
 """The design table of a geared five-bar linkage."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, Self
 
@@ -9,14 +9,12 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.units import Degrees, Millimetres, Unit
+from mechwright_five_bar.limits import LEAST_TEETH, MOST_TEETH, USUAL_FACE
 
 Angle = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
 
-LEAST_TEETH, MOST_TEETH = 18, 200
-"""A gear of fewer teeth is undercut by the rack of 20 degrees: 2/sin² 20° is 17.1."""
-
-USUAL_FACE = 8.0
-"""mm: face width of the gears."""
+FOLLOWING: list[Callable[["FiveBarParams"], float]] = []
+"""The width of the gears follows by this. It asks for loads, which know the table; the package gives it."""
 
 
 class PhaseTable(Parameters):
@@ -187,13 +185,12 @@ class FiveBarParams(Parameters):
             USUAL, self, fits(lambda name: found[name] if name in found else getattr(self, name))
         )
         if "gear_thickness" not in given:
-            from mechwright_five_bar.face import face_of
-
             try:
                 self._phased()
             except ValueError:  # which is refused
                 return found
-            found["gear_thickness"] = face_of(self.model_copy(update=found))
+            for rule in FOLLOWING:
+                found["gear_thickness"] = rule(self.model_copy(update=found))
         return found
 
     @model_validator(mode="after")

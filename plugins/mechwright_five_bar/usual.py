@@ -9,7 +9,7 @@ import numpy as np
 from mechwright.contracts.by_arrays import Designs
 from mechwright.mechanics.linkage.usual import Fits, JointSizes, sized
 from mechwright.tolerances import falls_short
-from mechwright_five_bar.params import LEAST_TEETH, MOST_TEETH
+from mechwright_five_bar.limits import LEAST_TEETH, MOST_TEETH
 
 USUAL = JointSizes(8.0, 4.0, 1.0, 12.0)
 """mm: the defaults of the table."""

@@ -16,6 +16,7 @@ import numpy as np
 
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
+from mechwright.mechanics.gearing.checks import LEAST_CLEARANCE
 from mechwright.tolerances import falls_short
 
 ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
@@ -59,8 +60,9 @@ _HUNDREDTHS = 100
 
 
 def dedendum_beside(addendum: Any) -> Any:
-    """The usual dedendum, or a deeper one that clears the tips of high teeth."""
-    return np.maximum(DEDENDUM, np.round(addendum + CLEARANCE, 6))
+    """The usual dedendum, or a deeper one that clears the tips of teeth that would come too near to it."""
+    near = falls_short(DEDENDUM - np.asarray(addendum), LEAST_CLEARANCE)
+    return np.where(near, np.round(addendum + CLEARANCE, 6), DEDENDUM)
 
 
 def tip_radius_beside(dedendum: Any, pressure_angle: Any) -> Any:
