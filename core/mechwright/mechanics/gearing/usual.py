@@ -61,7 +61,7 @@ _HUNDREDTHS = 100
 
 def dedendum_beside(addendum: Any) -> Any:
     """The usual dedendum, or a deeper one that clears the tips of teeth that would come too near to it."""
-    near = falls_short(DEDENDUM - np.asarray(addendum), LEAST_CLEARANCE)
+    near = falls_short(DEDENDUM - addendum, LEAST_CLEARANCE)
     return np.where(near, np.round(addendum + CLEARANCE, 6), DEDENDUM)
 
 
