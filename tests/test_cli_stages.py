@@ -31,7 +31,7 @@ def run(command_line: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
 
 
 HIDDEN = {
-    "undercut of a pair": ("elliptic-gears", {"eccentricity": 0.9}, "gear.undercut"),
+    "undercut of a pair": ("elliptic-gears", {"eccentricity": 0.9, "teeth": 25}, "gear.undercut"),
     "joints of a round train": ("elliptic-gears", TRAIN | {"eccentricity": 0.2}, "train.joint"),
     "undercut of a long train": ("elliptic-gears", TRAIN | {"eccentricity": 0.8}, "gear.undercut"),
     "a point off the coupler": ("elliptic-gears", {"stages": 2, "point_along": 1.5}, "point.off-coupler"),

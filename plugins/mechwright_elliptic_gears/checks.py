@@ -39,13 +39,12 @@ from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
     ellipse_of,
     fillet_mill,
-    offset_miss,
-    offsets_that_mesh,
     outline_of,
     rack_of,
     teeth_of,
 )
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
+from mechwright_elliptic_gears.offsets import offset_miss, offsets_that_mesh
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import first_collision, prove
 from mechwright_elliptic_gears.strength_checks import strength_findings
@@ -190,7 +189,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:
     rack, ellipse, outline = rack_of(params), ellipse_of(params), outline_of(params)
-    yield from chosen(params, USUAL)
+    yield from chosen("gear.chosen", params, USUAL)
     whole, inertia = body(outline, params.thickness, params.material)
     yield Finding.note(
         "gear.size",

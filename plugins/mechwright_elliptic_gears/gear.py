@@ -7,10 +7,8 @@ from mechwright.mechanics.gearing import Rack, Teeth, exact_fit, gear_loop
 from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.assembly import backlash_of
 from mechwright_elliptic_gears.ellipse import Ellipse, EllipticPair
+from mechwright_elliptic_gears.offsets import offsets_that_mesh
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-OFFSET_SLACK = 1e-6
-"""Pitches by which a tooth offset may miss: a micrometre in a metre, far below any backlash."""
 
 
 @kept
@@ -56,29 +54,6 @@ def fillet_mill(params: EllipticGearParams) -> float:
     """
     rack, depth = rack_of(params), rack_of(params).arc_depth
     return 2 * (rack.tip_radius + depth**2 / (ellipse_of(params).greatest_radius + depth))
-
-
-def offsets_that_mesh(teeth: int) -> tuple[float, float]:
-    """The two tooth offsets, in pitches, with which two congruent gears mesh.
-
-    Half a perimeter lies between the far vertex of one gear and the near vertex of the other, which meet: a
-    tooth there must find a space, so 2 δ = (z - 1)/2 (mod 1).
-
-    >>> offsets_that_mesh(39), offsets_that_mesh(40)
-    ((0.0, 0.5), (0.25, 0.75))
-    """
-    return (0.0, 0.5) if teeth % 2 else (0.25, 0.75)
-
-
-def offset_miss(offset: float, teeth: int) -> float:
-    """Pitches by which a tooth offset misses the nearest one that meshes; 0 where it hardly does.
-
-    >>> offset_miss(0.5, 39), offset_miss(0.5, 40)
-    (0.0, 0.25)
-    """
-    # An offset of 1 is 0 again.
-    miss = min(abs((offset - right + 0.5) % 1 - 0.5) for right in offsets_that_mesh(teeth))
-    return 0.0 if miss <= OFFSET_SLACK else miss
 
 
 @kept

@@ -146,14 +146,7 @@ class EllipticGearParams(Parameters):
         ),
     )
     pressure_angle: Degrees = Field(20.0, ge=10, le=30, description="Pressure angle of the generating rack.")
-    addendum: Ratio = Field(
-        1.0,
-        ge=0.3,
-        le=1.5,
-        description="Tooth height over the pitch curve, in modules; left out, 1, or 0.25 below a dedendum "
-        "that is given.",
-        json_schema_extra=FITTED,
-    )
+    addendum: Ratio = Field(1.0, ge=0.3, le=1.5, description="Tooth height over the pitch curve, in modules.")
     dedendum: Ratio = Field(
         1.25,
         ge=0.4,

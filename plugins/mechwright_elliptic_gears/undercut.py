@@ -7,7 +7,8 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.mechanics.gearing.usual import LEAST_REGULARITY, MOST_TEETH
-from mechwright_elliptic_gears.gear import ellipse_of, offset_miss, rack_of, teeth_of
+from mechwright_elliptic_gears.gear import ellipse_of, rack_of, teeth_of
+from mechwright_elliptic_gears.offsets import offset_miss
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 

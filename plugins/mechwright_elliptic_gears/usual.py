@@ -7,14 +7,12 @@ from typing import Any
 import numpy as np
 
 from mechwright.mechanics.gearing.usual import (
-    ADDENDUM,
     DEDENDUM,
     FACE,
     MOST_TEETH,
     RIM,
     SHAFTS,
     TIP_RADIUS,
-    addendum_beside,
     dedendum_beside,
     face_width,
     shaft_bore,
@@ -22,13 +20,12 @@ from mechwright.mechanics.gearing.usual import (
     teeth_without_undercut,
     tip_radius_beside,
 )
-from mechwright_elliptic_gears.gear import offset_miss
+from mechwright_elliptic_gears.offsets import offset_miss
 
 TEETH = 25
 """The default of the table."""
 
 USUAL = {
-    "addendum": ADDENDUM,
     "dedendum": DEDENDUM,
     "tip_radius": TIP_RADIUS,
     "teeth": TEETH,
@@ -55,7 +52,6 @@ def following(table: Table, given: Container[str]) -> dict[str, Any]:
         return found[name] if name in found else table(name)
 
     rules: dict[str, Callable[[Table], Any]] = {
-        "addendum": lambda of: addendum_beside(of("dedendum")) if "dedendum" in given else ADDENDUM,
         "dedendum": lambda of: dedendum_beside(of("addendum")),
         "tip_radius": lambda of: tip_radius_beside(of("dedendum"), of("pressure_angle")),
         "teeth": _teeth,

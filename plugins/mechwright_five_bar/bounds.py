@@ -26,8 +26,8 @@ from mechwright.mechanics.strength.tooth_bending import root_stress
 from mechwright_five_bar.hardware import HEAD, HEAD_HEIGHT
 from mechwright_five_bar.layout import STACK_SAMPLES
 from mechwright_five_bar.masses import MILLI
-from mechwright_five_bar.train import ADDENDUM
-from mechwright_five_bar.usual import DEDENDUM
+from mechwright_five_bar.reach import bar_of
+from mechwright_five_bar.usual import ADDENDUM, DEDENDUM
 
 APART = 0.2
 """mm. What is called clear in plan besides the clearance: chords of the outlines that are compared."""
@@ -37,6 +37,8 @@ BEND = 1.1
 
 FINE_PLAY = 0.2
 """Backlash in modules up to which teeth of the usual rack keep lands."""
+
+LENGTHS = ("crank", "coupler", "rocker", "arm", "ground")
 
 LINKS_HIGH, GAPS = 4, 6
 """Plates of links above each other, with one to spare, and gaps between layers."""
@@ -56,6 +58,15 @@ class Bars:
     branch: Array
     ratio: float
     turns: int
+
+    @classmethod
+    def of(cls, designs: Designs) -> "Bars":
+        """Of designs whose gears have the same teeth."""
+        one = bar_of(designs.common)
+        crank, coupler, rocker, arm, ground = (designs.full(name) for name in LENGTHS)
+        turned, offset = (np.radians(designs.full(name)) for name in ("ground_angle", "arm_angle"))
+        branch = np.where(designs.full("branch") == "open", 1.0, -1.0)
+        return cls(crank, coupler, rocker, arm, ground, turned, offset, branch, one.ratio, one.turns)
 
     @property
     def rows(self) -> Array:
@@ -147,11 +158,18 @@ def _gears_stand(designs: Designs, gears: Gears, bore: Any, slack: Any) -> NDArr
 
 
 def teeth_bear(
-    designs: Designs, bars: Bars, gears: Gears, bore: Any, sine: Array, omega: Array
+    designs: Designs,
+    bars: Bars,
+    gears: Gears,
+    bore: Any,
+    sine: Array,
+    omega: Array,
+    share: float = ROOT_SAFETY,
 ) -> NDArray[np.bool_]:
     """Whether no tooth (n,) breaks at its root, by bounds of masses and accelerations.
 
-    ``omega`` is the crank's speed (n,), rad/s.
+    ``omega`` is the crank's speed (n,), rad/s, and ``share`` how much of what roots are allowed may be used:
+    by default up to where they break.
     """
     (m3, e3, j3), (m4, e4, j4), reach = *_inertias(designs, bars, bore), _reach(designs)
     way, (w, v) = _ways(bars), _turning(bars, sine)
@@ -165,7 +183,7 @@ def teeth_bear(
     force = b * in_b1 * MILLI / gears.radius("wheel")
     face: Any = designs["gear_thickness"]
     module: Any = gears.module
-    breaks = _of_material(designs, lambda name: ROOT_SAFETY * allowed(name).root)
+    breaks = _of_material(designs, lambda name: share * allowed(name).root)
     sure = np.ones(len(designs), bool)
     for teeth in gears.teeth.values():
         sure &= root_stress(force, face, module, float(teeth)) <= breaks

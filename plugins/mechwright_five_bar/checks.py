@@ -6,10 +6,12 @@ list.
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import combinations
 
 from mechwright import Finding, GeometryError, Scalar, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.gearing.usual import chosen
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
@@ -18,6 +20,7 @@ from mechwright.tolerances import falls_short
 from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.joints import bosses_of
+from mechwright_five_bar.limits import USUAL_FACE
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import JOINTS, loads_of, roughly_loaded
 from mechwright_five_bar.phases import phases_of
@@ -34,7 +37,7 @@ from mechwright_five_bar.reach import (
 )
 from mechwright_five_bar.strength_checks import teeth_bear, teeth_judged
 from mechwright_five_bar.train import train_of
-from mechwright_five_bar.usual import USUAL
+from mechwright_five_bar.usual import USUAL, USUAL_TEETH, modules
 
 GOOD_TRANSMISSION = 40.0
 """Degrees below which the coupler mainly presses the rocker into its bearing (VDI 2127: 40 to 50)."""
@@ -52,17 +55,18 @@ def findings(params: FiveBarParams) -> tuple[Finding, ...]:
 
     No error among it means that the parts can be built.
     """
-    return until_error(params, _sound, _bearings, teeth_bear, clamps_hold)
+    return until_error(params, sound, _bearings, teeth_bear, clamps_hold)
 
 
 @kept
 def judged(params: FiveBarParams) -> tuple[Finding, ...]:
     """The same without the sizes that would bear a load, and with loads from fewer positions."""
-    return until_error(params, _sound, _bearings_judged, teeth_judged, clamps_hold)
+    return until_error(params, sound, _bearings_judged, teeth_judged, clamps_hold)
 
 
 @kept
-def _sound(params: FiveBarParams) -> tuple[Finding, ...]:
+def sound(params: FiveBarParams) -> tuple[Finding, ...]:
+    """What is to be said of the motion and of the shapes, before any load."""
     return until_error(params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures)
 
 
@@ -183,7 +187,7 @@ def _gears(params: FiveBarParams) -> Iterator[Finding]:
     try:
         train = train_of(params)
     except GeometryError as error:
-        yield _named("five-bar.gears", error)
+        yield replace(_named("five-bar.gears", error), proposed=tuple(_nearest(params)))
         return
     sizes = ", ".join(f"{name} {count}" for name, count in train.teeth.items())
     yield Finding.note(
@@ -194,6 +198,22 @@ def _gears(params: FiveBarParams) -> Iterator[Finding]:
         train.module,
         "mm",
     )
+
+
+def _nearest(params: FiveBarParams) -> Iterator[Change]:
+    """The module nearest to the one that is given with which the gears stand, and none."""
+    least, most = modules(params.ground, params.crank_teeth, params.idler_teeth, params.arm_teeth)
+    if params.module is None:
+        return
+    if least < most:
+        up = params.module < least
+        step = math.ceil(least * _THOUSANDTHS) if up else math.floor(most * _THOUSANDTHS)
+        yield {"parameters.module": step / _THOUSANDTHS}
+    yield {"parameters.module": None}
+
+
+_THOUSANDTHS = 1000
+"""Of a millimetre: a module that is proposed is rounded so."""
 
 
 def _named(code: str, error: GeometryError, remedy: str = "") -> Finding:
@@ -241,6 +261,7 @@ def _layers(params: FiveBarParams) -> Iterator[Finding]:
     order = sorted(layout.stack.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layout.stack.spans.values())
     yield from told("five-bar.sizes", USUAL, params)
+    yield from chosen("five-bar.chosen", params, {**USUAL_TEETH, "gear_thickness": USUAL_FACE})
     yield Finding.note(
         "five-bar.stack",
         f"{len(layout.stack.layers)} layers, {height:.4g} mm high: "

@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.evaluation import SAMPLES
+from mechwright.mechanics.strength.allowed import REVERSING_ROOT, ROOT_SAFETY
 from mechwright.tolerances import falls_short
 from mechwright_five_bar import period_kernels as kernels
 from mechwright_five_bar.bounds import Bars, Gears, stands, teeth_bear
+from mechwright_five_bar.limits import USUAL_FACE
 from mechwright_five_bar.many_masses import give_masses
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import PEAK_SAMPLES
-from mechwright_five_bar.reach import PER_TURN, TURN_BACK, bar_of
+from mechwright_five_bar.reach import PER_TURN, TURN_BACK
 from mechwright_five_bar.usual import with_sizes
 
 _APART = {
@@ -29,8 +31,6 @@ _APART = {
     "phase",
 }  # fmt: skip
 """What is not varied here."""
-
-LENGTHS = ("crank", "coupler", "rocker", "arm", "ground")
 
 _EDGE = 1e-9
 """Share of D² within which rounding could decide whether a linkage closes: it is asked by itself."""
@@ -60,13 +60,21 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     """What is found of them; see :mod:`mechwright.contracts.by_arrays`."""
     if not covered(designs):
         return None
-    designs = with_sizes(designs)
-    found, bars = Answer(len(designs)), _bars(designs)
+    designs, follows = (
+        with_sizes(designs),
+        "gear_thickness" not in {*designs.varied, *designs.common.model_fields_set},
+    )
+    if follows:
+        # It is the usual one where teeth surely last with that; the others are left undecided.
+        usual = np.full(len(designs), USUAL_FACE)
+        designs = Designs(designs.common, {**designs.varied, "gear_thickness": usual})
+    found, bars = Answer(len(designs)), Bars.of(designs)
     least, greatest = _motion(found, bars)
     sense = np.where(designs.full("direction") == "ccw", 1.0, -1.0)
     omega = sense * designs.full("speed") * math.tau / 60
     if stage is not Stage.MOTION:
-        bore = _parts(found, designs, bars, np.sin(least), omega)
+        share = REVERSING_ROOT if follows else ROOT_SAFETY
+        bore = _parts(found, designs, bars, np.sin(least), omega, share)
         give_masses(found, columns, designs, bore)
     simple: dict[str, Callable[[], Array]] = {
         "least_transmission_angle": lambda: np.degrees(least),
@@ -82,14 +90,6 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
         found.give(name, simple[name]())
     _extremes(found, columns, designs, bars, omega)
     return found
-
-
-def _bars(designs: Designs) -> Bars:
-    one = bar_of(designs.common)
-    crank, coupler, rocker, arm, ground = (designs.full(name) for name in LENGTHS)
-    turned, offset = (np.radians(designs.full(name)) for name in ("ground_angle", "arm_angle"))
-    branch = np.where(designs.full("branch") == "open", 1.0, -1.0)
-    return Bars(crank, coupler, rocker, arm, ground, turned, offset, branch, one.ratio, one.turns)
 
 
 def _motion(found: Answer, bars: Bars) -> tuple[Array, Array]:
@@ -119,8 +119,11 @@ def _table(ratio: float, turns: int, samples: int) -> tuple[Array, Array]:
     return theta, np.ascontiguousarray([np.cos(theta), np.sin(theta), np.cos(arm), np.sin(arm)])
 
 
-def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Array) -> Any:
-    """Errors of the parts, in the order of the check, and the diameter of what a pin turns in, mm."""
+def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Array, share: float) -> Any:
+    """Errors of the parts, in the order of the check, and the diameter of what a pin turns in, mm.
+
+    ``share`` is how much of what the roots of teeth are allowed may be used without a doubt.
+    """
     pin, rim, wall = designs["pin_diameter"], designs["rim"], np.asarray(designs["bushing_wall"])
     bore = pin + np.where(wall > 0, 2 * wall, designs["running_fit"])
     crowded = _short(bars.crank, pin + rim) | _short(bars.arm, pin + rim)
@@ -132,7 +135,7 @@ def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Arra
     found.forbid("five-bar.bores", crowded)
     gears = Gears.of(designs)
     found.doubt(~stands(designs, bars, gears, bore, sine))
-    found.doubt(~teeth_bear(designs, bars, gears, bore, sine, omega))
+    found.doubt(~teeth_bear(designs, bars, gears, bore, sine, omega, share))
     return bore
 
 

@@ -26,8 +26,8 @@ from mechwright_five_bar.hardware import HEAD, HEAD_HEIGHT, SHAFT
 from mechwright_five_bar.layout import FILLET
 from mechwright_five_bar.masses import MOVING
 from mechwright_five_bar.plates import BELOW
-from mechwright_five_bar.train import ADDENDUM, PRESSURE_ANGLE, TIP_RADIUS
-from mechwright_five_bar.usual import DEDENDUM
+from mechwright_five_bar.train import PRESSURE_ANGLE, TIP_RADIUS
+from mechwright_five_bar.usual import ADDENDUM, DEDENDUM
 
 GEARS, GROUND, LINKS, ROCKER, COUPLER = range(5)
 """Layers: crank and arm are in that of the links."""

@@ -1,6 +1,6 @@
 """The design table of a geared five-bar linkage."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, Self
 
@@ -9,11 +9,12 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.units import Degrees, Millimetres, Unit
+from mechwright_five_bar.limits import LEAST_TEETH, MOST_TEETH, USUAL_FACE
 
 Angle = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
 
-LEAST_TEETH = 18
-"""A gear of fewer teeth is undercut by the rack of 20 degrees: 2/sin² 20° is 17.1."""
+FOLLOWING: list[Callable[["FiveBarParams"], float]] = []
+"""The width of the gears follows by this. It asks for loads, which know the table; the package gives it."""
 
 
 class PhaseTable(Parameters):
@@ -89,17 +90,27 @@ class FiveBarParams(Parameters):
         json_schema_extra=FIRST,
     )
     crank_teeth: int = Field(
-        20, ge=LEAST_TEETH, le=200, description="Teeth of the crank's gear.", json_schema_extra=FIRST
+        20,
+        ge=LEAST_TEETH,
+        le=MOST_TEETH,
+        description="Teeth of the crank's gear; left out, 20, or with a module half as many as the arm's, "
+        "which reach over the ground.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     arm_teeth: int = Field(
-        40, ge=LEAST_TEETH, le=200, description="Teeth of the arm's gear.", json_schema_extra=FIRST
+        40,
+        ge=LEAST_TEETH,
+        le=MOST_TEETH,
+        description="Teeth of the arm's gear; left out, 40, or with a module twice as many as the crank's.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     idler_teeth: int = Field(
         20,
         ge=0,
-        le=200,
-        description="Teeth of the idler that lets both turn the same way; 0 for none.",
-        json_schema_extra=FIRST,
+        le=MOST_TEETH,
+        description="Teeth of the idler that lets both turn the same way, 0 for none; left out, 20, or with "
+        "a module as many as reach from gear to gear.",
+        json_schema_extra={**FIRST, **FITTED},
     )
     module: Annotated[float, Field(ge=0.3, le=50), Unit("mm")] | None = Field(
         None, description="Module of the gears; left out, the one with which their axes stand in line."
@@ -125,7 +136,13 @@ class FiveBarParams(Parameters):
     thickness: Millimetres = Field(
         6.0, ge=1, le=100, description="Of crank, arm, coupler and rocker.", json_schema_extra=FIRST
     )
-    gear_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Of the gears and their clamp.")
+    gear_thickness: Millimetres = Field(
+        USUAL_FACE,
+        ge=1,
+        le=100,
+        description="Of the gears and their clamp; left out, 8, or up to 12 modules as the load asks for it.",
+        json_schema_extra=FITTED,
+    )
     ground_thickness: fields.GroundThickness = 10.0
     screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
         None,
@@ -158,11 +175,23 @@ class FiveBarParams(Parameters):
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     def fitted(self) -> Mapping[str, Any]:
-        """The sizes of the joints, smaller than usual where links are short or gears fine."""
+        """Teeth that reach over the ground, joints that fit short links or fine gears, gears that bear."""
         from mechwright.mechanics.linkage.usual import of_table
-        from mechwright_five_bar.usual import USUAL, fits
+        from mechwright_five_bar.usual import USUAL, fits, teeth_left_out
 
-        return of_table(USUAL, self, fits(partial(getattr, self)))
+        given = self.model_fields_set
+        found: dict[str, Any] = {**teeth_left_out(partial(getattr, self), given)}
+        found |= of_table(
+            USUAL, self, fits(lambda name: found[name] if name in found else getattr(self, name))
+        )
+        if "gear_thickness" not in given:
+            try:
+                self._phased()
+            except ValueError:  # which is refused
+                return found
+            for rule in FOLLOWING:
+                found["gear_thickness"] = rule(self.model_copy(update=found))
+        return found
 
     @model_validator(mode="after")
     def _together(self) -> Self:
@@ -172,13 +201,17 @@ class FiveBarParams(Parameters):
                 "idler, "
                 f"or {LEAST_TEETH} and more"
             )
+        self._phased()
+        return self
+
+    def _phased(self) -> None:
+        """Raise ValueError where phases and swings do not go together."""
         fields.phases_together(self.setting_angle, self.phases, self.phase)
         fields.swing_together(self.swing_from, self.swing_to, self.direction)
         for row in self.phases:
             fields.swing_together(row.swing_from, row.swing_to, "ccw")
         if self.swing_from is None and any(row.swing_from is not None for row in self.phases):
             raise ValueError("swing_from of a phase goes with one of phase 1; give that, or leave both out")
-        return self
 
     @property
     def coupler_point(self) -> complex:

@@ -20,7 +20,7 @@ def teeth_bear(params: FiveBarParams) -> Iterator[Finding]:
 @of_stage(Stage.PARTS)
 def teeth_judged(params: FiveBarParams) -> Iterator[Finding]:
     """The same without what would bear more, and with loads from fewer positions."""
-    yield from _teeth(params, _rough_stresses, advise=False)
+    yield from _teeth(params, rough_stresses, advise=False)
 
 
 def _teeth(
@@ -42,7 +42,8 @@ def root_stresses(params: FiveBarParams) -> tuple[Stress, ...]:
     return _stresses(params, loads_of)
 
 
-def _rough_stresses(params: FiveBarParams) -> tuple[Stress, ...]:
+def rough_stresses(params: FiveBarParams) -> tuple[Stress, ...]:
+    """The same from loads of fewer positions."""
     return _stresses(params, roughly_loaded)
 
 

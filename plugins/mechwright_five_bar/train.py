@@ -19,14 +19,11 @@ from mechwright import GeometryError, kept
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop, lever_fit
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.usual import DEDENDUM
+from mechwright_five_bar.usual import ADDENDUM, DEDENDUM, IN_LINE, modules
 
 PRESSURE_ANGLE = math.radians(20)
-ADDENDUM, TIP_RADIUS = 1.0, 0.38
+TIP_RADIUS = 0.38
 """Basic rack of ISO 53, profile A, in modules."""
-
-IN_LINE = 1e-9
-"""Share of the ground by which a train may miss it: rounding of the module."""
 
 
 @dataclass(frozen=True)
@@ -93,32 +90,26 @@ def train_of(params: FiveBarParams) -> Train:
         They do not fill the ground, or two that shall not mesh do; the message names the parameter.
     """
     ground = params.ground
+    least, most = modules(ground, params.crank_teeth, params.idler_teeth, params.arm_teeth)
+    module = least if params.module is None else params.module
     if not params.idler_teeth:
-        fits = 2 * ground / (params.crank_teeth + params.arm_teeth)
-        module = fits if params.module is None else params.module
-        if abs(module - fits) > IN_LINE * ground:
+        if abs(module - least) > IN_LINE * ground:
             raise GeometryError(
                 f"module: without an idler the gears fill the ground of {ground:g} mm with a module of "
-                f"{fits:g} "
-                f"mm, not {module:g}; leave module out, or give an idler"
+                f"{least:g} mm, not {module:g}; leave module out, or give an idler"
             )
         teeth = {"pinion": params.crank_teeth, "wheel": params.arm_teeth}
         return Train(module, teeth, {"pinion": 0j, "wheel": complex(ground)})
     teeth = {"pinion": params.crank_teeth, "idler": params.idler_teeth, "wheel": params.arm_teeth}
-    least = 2 * ground / (params.crank_teeth + 2 * params.idler_teeth + params.arm_teeth)
-    module = least if params.module is None else params.module
     if module < least * (1 - IN_LINE):
         raise GeometryError(
             f"module: gears of {module:g} mm do not reach over the ground of {ground:g} mm; their module "
-            "is at "
-            f"least {least:.6g} mm"
+            f"is at least {least:.6g} mm"
         )
-    most = ground / ((params.crank_teeth + params.arm_teeth) / 2 + 2 * ADDENDUM + 1)
     if module > most:
         raise GeometryError(
             f"module: with {module:.6g} mm the gears of crank and arm meet, which turn the same way; it is "
-            "at most "
-            f"{most:.6g} mm, or give the idler more teeth"
+            f"at most {most:.6g} mm, or give the idler more teeth"
         )
     one, two = (module * (params.idler_teeth + z) / 2 for z in (params.crank_teeth, params.arm_teeth))
     x = (ground**2 + one**2 - two**2) / (2 * ground)

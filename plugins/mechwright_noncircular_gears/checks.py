@@ -20,7 +20,7 @@ from mechwright.mechanics.gearing.checks import (
     tip_findings,
 )
 from mechwright.mechanics.gearing.checks import rim_findings as opening_rim_findings
-from mechwright.mechanics.gearing.usual import LEAST_ADDENDUM, chosen
+from mechwright.mechanics.gearing.usual import chosen
 from mechwright.mechanics.openings import keyed_findings, too_small
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_noncircular_gears.cures import cured
@@ -48,7 +48,12 @@ from mechwright_noncircular_gears.sector_checks import sector_findings, stop_not
 from mechwright_noncircular_gears.shape_checks import convexity_findings, undercut_findings
 from mechwright_noncircular_gears.softer import nearest, said
 from mechwright_noncircular_gears.strength_checks import strength_findings, strength_judged
-from mechwright_noncircular_gears.tip_checks import addendum_of, cusp_findings, fillet_findings
+from mechwright_noncircular_gears.tip_checks import (
+    LEAST_ADDENDUM,
+    addendum_of,
+    cusp_findings,
+    fillet_findings,
+)
 from mechwright_noncircular_gears.usual import USUAL
 
 LOCKED = 85.0
@@ -215,7 +220,7 @@ def _lower(params: NoncircularParams) -> Iterator[Change]:
 
 def _figures(params: NoncircularParams) -> Iterator[Finding]:
     yield from stop_notes(params)
-    yield from chosen(params, USUAL)
+    yield from chosen("gear.chosen", params, USUAL)
     a, m = pair_of(params).distance, rack_of(params).module
     yield Finding.note(
         "gear.size",

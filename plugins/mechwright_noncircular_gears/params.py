@@ -1,7 +1,7 @@
 """The design table of a pair of gears by a law."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
@@ -28,6 +28,10 @@ from mechwright_noncircular_gears.together import pair_together
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
 Turned = Annotated[float, Field(ge=0, le=3600), Unit("deg")]
+
+
+FOLLOWING: list[Callable[["NoncircularParams"], Mapping[str, Any]]] = []
+"""What is left out follows by these. They ask for gears, which know the table; the package gives them."""
 
 
 class NoncircularParams(Parameters):
@@ -222,8 +226,7 @@ class NoncircularParams(Parameters):
     )
     addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
         None,
-        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8, "
-        "and at most 0.25 below dedendum.",
+        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8.",
     )
     dedendum: Ratio = Field(
         1.25,
@@ -281,15 +284,13 @@ class NoncircularParams(Parameters):
 
     def fitted(self) -> Mapping[str, Any]:
         """Teeth that can be cut, and a face width that mills reach."""
-        from mechwright_noncircular_gears.usual import following
-
         try:
             pair_together(self)
         except ValueError:  # which is refused
             return {}
         if (self.module is None) == (self.centre_distance is None):
             return {}
-        return following(self.model_copy())
+        return {name: value for rule in FOLLOWING for name, value in rule(self.model_copy()).items()}
 
     @field_validator("sector", mode="before")
     @classmethod

@@ -5,12 +5,7 @@ from dataclasses import dataclass
 
 from mechwright import kept
 from mechwright.mechanics.gearing import Rack, Shaper
-from mechwright.mechanics.gearing.usual import (
-    ADDENDUM,
-    TIP_RADIUS,
-    addendum_beside,
-    tip_radius_beside,
-)
+from mechwright.mechanics.gearing.usual import ADDENDUM, TIP_RADIUS, tip_radius_beside
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 
@@ -67,7 +62,6 @@ def profile_of(params: NoncircularParams) -> CutterProfile:
     if cutter is None:
         cutter = "rack" if convex(params) and params.shaper_radius is None else "shaper"
     addendum, tip = USUAL_PROFILE[cutter]
-    addendum = min(addendum, float(addendum_beside(params.dedendum)))
     tip = min(tip, float(tip_radius_beside(params.dedendum, params.pressure_angle)))
     radius = None
     if cutter == "shaper":

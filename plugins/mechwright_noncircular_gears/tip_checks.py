@@ -11,13 +11,16 @@ from collections.abc import Callable, Iterator
 from mechwright import Finding, GeometryError
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.gearing import Teeth
-from mechwright.mechanics.gearing.usual import LEAST_ADDENDUM, LEAST_REGULARITY
+from mechwright.mechanics.gearing.usual import LEAST_REGULARITY
 from mechwright.tolerances import exceeds
 from mechwright_noncircular_gears.gear import NAMES, teeth_of
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.softer import nearest, said
+
+LEAST_ADDENDUM = 0.3
+"""Modules: the least of the design table."""
 
 STEPS = 1000
 """Addenda are sought in thousandths of a module."""

@@ -1,24 +1,21 @@
 """What the fields of a law, a ring and sectors say together."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 from mechwright.mechanics.formula import Formula, FormulaError
 from mechwright_noncircular_gears.fields import LAW_FIELDS, MOST_HALF_TURN, RING_FIELDS, SECTOR_LAWS
 from mechwright_noncircular_gears.nodes import check_nodes, check_open_nodes
 
-if TYPE_CHECKING:
-    from mechwright_noncircular_gears.params import NoncircularParams
 
-
-def pair_together(params: "NoncircularParams") -> None:
+def pair_together(params: Any) -> None:
     """Raise ValueError where a law, a ring or sectors lack something, or fields are not theirs."""
     _law_together(params)
     _ring_together(params)
     _sector_together(params)
 
 
-def _ring_together(params: "NoncircularParams") -> None:
+def _ring_together(params: Any) -> None:
     if not params.internal:
         for name in RING_FIELDS:
             if getattr(params, name) is not None:
@@ -35,7 +32,7 @@ def _ring_together(params: "NoncircularParams") -> None:
         raise ValueError("ring_hole is the size of no hole; leave it out, or set ring_holes")
 
 
-def _sector_together(params: "NoncircularParams") -> None:
+def _sector_together(params: Any) -> None:
     if params.sector is None:
         if params.law == "spiral":
             raise ValueError('law = "spiral" does not close; set sector, the travel of the driver')
@@ -51,7 +48,7 @@ def _sector_together(params: "NoncircularParams") -> None:
         raise ValueError("sectors are gears beside each other and have no lobes; leave sector out")
 
 
-def _law_together(params: "NoncircularParams") -> None:
+def _law_together(params: Any) -> None:
     own = LAW_FIELDS[params.law]
     for law, names in LAW_FIELDS.items():
         for name in names:
@@ -85,7 +82,7 @@ def _law_together(params: "NoncircularParams") -> None:
         _formula(params, getattr(params, params.law))
 
 
-def _formula(params: "NoncircularParams", text: str | None) -> None:
+def _formula(params: Any, text: str | None) -> None:
     if text is None:
         raise ValueError(f'law = "{params.law}" needs {params.law}, a formula of phi')
     try:

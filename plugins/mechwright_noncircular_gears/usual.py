@@ -108,7 +108,7 @@ def _thickness(params: NoncircularParams) -> float:
 
 
 def _bore(params: NoncircularParams) -> float:
-    """The usual bore, or the largest smaller one that leaves the rim; with keyways and sectors the usual one."""
+    """The usual bore, or the largest smaller one that leaves the rim; as usual with keyways and sectors."""
     if params.keyway_width > 0 or params.sector is not None or not _runs(params):
         return SHAFTS[0]
     found, a, rack = extremes_of(params), pair_of(params).distance, rack_of(params)

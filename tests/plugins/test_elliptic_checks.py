@@ -89,7 +89,7 @@ def test_wrong_phase(teeth, offset, right):
     [
         ("gear.module", "teeth", {"teeth": 300, "semi_major": 2.0}),
         ("gear.rack", "tip_radius", {"tip_radius": 0.6, "dedendum": 0.5, "addendum": 0.3}),
-        ("gear.clearance", "dedendum", {"addendum": 1.25}),
+        ("gear.clearance", "dedendum", {"addendum": 1.25, "dedendum": 1.25}),
         ("gear.convexity", "dedendum", {"eccentricity": 0.9, "teeth": 8}),
         ("gear.root-land", "tip_radius", {"tip_radius": 0.5}),
         ("gear.root-land", "dedendum", {"dedendum": 1.7, "pressure_angle": 30.0, "tip_radius": 0.1}),
@@ -102,7 +102,7 @@ def test_wrong_phase(teeth, offset, right):
         ("bore.size", "keyway_relief", {"keyway_width": 3.0, "keyway_relief": 0.01}),
         ("bore.rim", "eccentricity", {"eccentricity": 0.9, "teeth": 23, "pressure_angle": 30.0, "bore": 0.0,
                                       "dedendum": 0.7, "tip_radius": 0.0, "addendum": 0.5}),
-        ("gear.mesh", "addendum", {"addendum": 1.2}),
+        ("gear.mesh", "addendum", {"addendum": 1.2, "dedendum": 1.25}),
         ("bore.keyway-width", "keyway_width", {"bore": 6.0, "keyway_width": 6.0}),
         ("bore.keyway-depth", "keyway_depth", {"bore": 20.0, "keyway_width": 7.0}),
         ("bore.keyway-depth", "keyway_depth", {"bore": 20.0, "keyway_width": 6.0, "keyway_depth": 2.0}),

@@ -41,10 +41,10 @@ class TestFiveBars(DayContract):
         ({"swing_from": 10}, "swing_to"),
         ({"coupler": 10, "rocker": 20}, "coupler"),
         ({"crank": 10, "pin_diameter": 8, "rim": 4}, "crank"),
-        ({"module": 2.0}, "module"),
-        ({"module": 3.2}, "module"),
+        ({"module": 2.0, "crank_teeth": 20, "idler_teeth": 20, "arm_teeth": 40}, "module"),
+        ({"module": 4.0}, "module"),
         ({"idler_teeth": 12}, "idler_teeth"),
-        ({"idler_teeth": 0, "module": 2.0}, "module"),
+        ({"idler_teeth": 0, "module": 2.05}, "module"),
         ({**LEVER, "swing_to": -150}, "swing_to"),
         ({"coupler_point_x": 3, "coupler_point_y": 0, "pin_diameter": 8, "rim": 4}, "coupler_point_x"),
     )

@@ -16,6 +16,7 @@ import numpy as np
 
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
+from mechwright.mechanics.gearing.checks import LEAST_CLEARANCE
 from mechwright.tolerances import falls_short
 
 ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
@@ -23,9 +24,6 @@ ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
 
 CLEARANCE = DEDENDUM - ADDENDUM
 """Of tips from the mating roots: so far down fillets reach, into which tips do not run."""
-
-LEAST_ADDENDUM = 0.3
-"""Lower teeth do not overlap enough to hand on from one to the next."""
 
 MOST_TEETH = 300
 """Teeth that are chosen, and that a remedy proposes, at most: finer ones are for those who ask for them."""
@@ -61,14 +59,10 @@ _HUNDREDTHS = 100
 """Of a module: what is less than usual is rounded so."""
 
 
-def addendum_beside(dedendum: Any) -> Any:
-    """The usual addendum, or a lower one that keeps its clearance from the roots of shallow spaces."""
-    return np.clip(np.round(dedendum - CLEARANCE, 6), LEAST_ADDENDUM, ADDENDUM)
-
-
 def dedendum_beside(addendum: Any) -> Any:
-    """The usual dedendum, or a deeper one that clears the tips of high teeth."""
-    return np.maximum(DEDENDUM, np.round(addendum + CLEARANCE, 6))
+    """The usual dedendum, or a deeper one that clears the tips of teeth that would come too near to it."""
+    near = falls_short(DEDENDUM - addendum, LEAST_CLEARANCE)
+    return np.where(near, np.round(addendum + CLEARANCE, 6), DEDENDUM)
 
 
 def tip_radius_beside(dedendum: Any, pressure_angle: Any) -> Any:
@@ -137,9 +131,9 @@ def shaft_bore(radius: Any, wall: Any, most: Any = math.inf) -> Any:
     return np.select(fits, SHAFTS, SHAFTS[0])
 
 
-def chosen(params: Parameters, usual: Mapping[str, float]) -> Iterator[Finding]:
+def chosen(code: str, params: Parameters, usual: Mapping[str, float]) -> Iterator[Finding]:
     """A note of what was left out and is not what is usual."""
     other = {name: getattr(params, name) for name in usual if name not in params.model_fields_set}
     said = ", ".join(f"{name} = {value:g}" for name, value in other.items() if value != usual[name])
     if said:
-        yield Finding.note("gear.chosen", f"left out, and chosen as the rest of the design wants it: {said}")
+        yield Finding.note(code, f"left out, and chosen as the rest of the design wants it: {said}")
