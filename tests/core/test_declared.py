@@ -211,7 +211,9 @@ def test_findings_are_such_in_every_field(field: str, value: Any) -> None:
     ["mounting", "transmission", "settings", "as_made", "tolerances", "synthesise", "measures", "evaluate", "targets",
      "breaks", "stretches"],
 )  # fmt: skip
-@pytest.mark.parametrize("junk", [3, "text", [None], {"a": object()}], ids=["a number", "a text", "a list", "a dictionary"])
+@pytest.mark.parametrize(
+    "junk", [3, "text", [None], {"a": object()}], ids=["a number", "a text", "a list", "a dictionary"]
+)
 def test_every_method_of_a_family_gives_what_is_declared(method: str, junk: object) -> None:
     assert "is wanted" in (said := told(method, junk)) or "are wanted" in said
 
