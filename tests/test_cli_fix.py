@@ -224,7 +224,11 @@ def test_what_is_refused_tells_them_too(run: Run, short: Path) -> None:
     ("parameters", "code"),
     [
         ("keyway_width = 3\n", "gear.cut-key"),
-        pytest.param("eccentricity = 0.5\nsemi_major = 40\nteeth = 50\n", "gear.cut-mesh", marks=by_night),
+        pytest.param(
+            "eccentricity = 0.5\nsemi_major = 40\nteeth = 50\n[cam]\ncorner_mill = 2\n",
+            "gear.cut-mesh",
+            marks=by_night,
+        ),
         pytest.param(
             "eccentricity = 0.5\nsemi_major = 30\nteeth = 50\nthickness = 14\n",
             "gear.cut-mesh",
