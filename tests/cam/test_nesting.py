@@ -4,7 +4,6 @@ import json
 import math
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,8 +26,7 @@ from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
-from mechwright_cam.operations import channel
-from mechwright_cam.planning import choose_tools, nesting
+from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
 from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, prepare
 from mechwright_cam.setup.lay_out import make_job
@@ -192,17 +190,6 @@ def nested(tmp_path, text, head=PAIR):
     return prepare(design, plates(design.family.parts(design.params)))[1]
 
 
-@given(st.floats(-3.2, 3.2), *[st.floats(-50.0, 50.0)] * 4)
-def test_middles_and_sites_are_turned_as_outlines_are(angle, x, y, px, py):
-    """As numbers of the complex plane: a turn is a product, a shift a sum."""
-    there = (complex(px, py)) * complex(math.cos(angle), math.sin(angle)) + complex(x, y)
-    hole = moved_feature(Bore("bore", (px, py), 8.0, 0.0, 3.0), x, y, angle)
-    square = Loop.polygon([(px, py), (px + 9.0, py), (px + 9.0, py + 9.0), (px, py + 9.0)])
-    rim = moved_feature(Profile("rim", square, "outside", 0.0, 3.0, (((px, py), 4.0),)), x, y, angle)
-    for found in (hole.centre, rim.tab_sites[0][0], rim.loop.flatten()[0]):
-        assert complex(*found) == pytest.approx(there, abs=1e-6)
-
-
 @by_night
 def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
     base = nested(tmp_path, "[cam.nest]\n")
@@ -278,33 +265,6 @@ def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel)
     many = nest_of("nest", [box("link", 60, 24, 200)], CamSettings(machine=machine, stock={}), 16.0)
     x0, y0, x1, y1 = many.outline.bounds
     assert max(x1 - x0, y1 - y0) < 2 * max(travel)
-
-
-@pytest.mark.parametrize("count", [2, 3, 5])
-@pytest.mark.parametrize(
-    ("width", "height", "turn"), [(60.0, 40.0, False), (60.0, 40.0, True), (10.0, 60.0, False)]
-)
-def test_alike_parts_lie_in_one_row_where_the_machine_has_room_for_no_other(count, width, height, turn):
-    """8 mm apart, with 8 mm beside them: in a row either way."""
-    wide, high = width + 8.0, height + 8.0
-    for room in ((count * wide, high), (wide, count * high)):
-        found = nesting._open([(width, height)] * count, 8.0, turn, room)
-        assert (found.width + 8.0, found.height + 8.0) == pytest.approx(room, abs=1e-6)
-
-
-@pytest.mark.parametrize("gap", [0.5, 1.0, 3.0])
-@pytest.mark.parametrize("count", [2, 4, 9])
-def test_the_channel_around_a_part_ends_before_the_next_one(gap, count):
-    """Squares in rows and columns: the next one is beside, not across a corner."""
-    nest = nest_of("nest", [box("square", 20.0, 20.0, count)], CamSettings(), gap)
-    shapes = [one.outline.polygon() for one in nest.placed]
-    of = SimpleNamespace(part=nest, target=shapely.union_all(shapes))
-    for shape in shapes:
-        assert channel._neighbour(of, shape) == pytest.approx(gap, abs=1e-6)
-        turned = shapely.Polygon(shapely.get_coordinates(shape)[::-1])
-        assert channel._neighbour(of, turned) == pytest.approx(gap, abs=1e-6)
-    alone = SimpleNamespace(part=nest.placed[0].part, target=shapes[0])
-    assert channel._neighbour(alone, shapes[0]) == math.inf
 
 
 def test_a_nest_of_parts_that_cannot_be_cut_says_why(tmp_path):
