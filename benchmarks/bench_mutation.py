@@ -113,16 +113,13 @@ def digest(name: str) -> str:
 
 def reach(place: Path, names: list[str], files: list[str], end: float) -> None:
     """Watch the tests of files that are not known as they stand, each file in a fork of one that has all."""
-    wanted, known = set(names), defaultdict(set)
-    for row in lines(place / "reach.jsonl"):
-        known[row["file"], row["digest"]] |= set(row["areas"])  # type: ignore[call-overload]
-    asked = [file for file in files if not wanted <= known[file, digest(file)]]
-    suite = Suite(asked, place / "temporary")
-    starts = tuple(start for name in names for start in AREAS[name])
-    for file in asked:
+    known = {(row["file"], row["digest"], row["area"]) for row in lines(place / "reach.jsonl")}
+    asked = [(file, name) for name in names for file in files if (file, digest(file), name) not in known]
+    suite = Suite(sorted({file for file, _ in asked}), place / "temporary")
+    for file, name in asked:
         if time.monotonic() > end:
             break
-        watch, said = Reaching(starts), place / "reached.json"
+        watch, said = Reaching(AREAS[name]), place / "reached.json"
 
         def work(file: str = file, watch: Reaching = watch, said: Path = said) -> int:
             suite.config.pluginmanager.register(watch)
@@ -134,9 +131,9 @@ def reach(place: Path, names: list[str], files: list[str], end: float) -> None:
         begun = time.monotonic()
         forked(work, LONG)
         found = json.loads(said.read_text(encoding="utf-8")) if said.exists() else {}
-        row = {"file": file, "digest": digest(file), "areas": names, "tests": found}
+        row = {"file": file, "digest": digest(file), "area": name, "tests": found}
         added(place / "reach.jsonl", row)
-        print(f"{file}: {len(found)} tests, {time.monotonic() - begun:.0f} s", flush=True)
+        print(f"{file}: {len(found)} tests of {name}, {time.monotonic() - begun:.0f} s", flush=True)
 
 
 def known_tests(place: Path) -> Known:
@@ -177,7 +174,7 @@ def tried(place: Path, draw: list[Mutant], budget: float, end: float, afresh_too
     files = sorted({test.partition("::")[0] for _, tests in asked for test in tests})
     with tempfile.TemporaryDirectory() as folder:
         within = Path(folder).resolve()
-        suite = Suite(files, within / "tests", {mutant.path for mutant in draw if mutant.function})
+        suite = Suite(files, within / "tests")
         for number, (mutant, tests) in enumerate(asked):
             if time.monotonic() > end:
                 break

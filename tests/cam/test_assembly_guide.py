@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import shapely
 from by_night import by_night
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mechwright import Instance, Part
 from mechwright.build import Build, Wanted
@@ -97,6 +99,16 @@ def test_boxes_of_the_exploded_view_do_not_overlap_along_any_axis(crank_rocker):
         assert frame_of(way) @ small[step.moved[0]] == pytest.approx(
             (0.0, 0.0, -np.linalg.norm(small[step.moved[0]])), abs=1e-9
         )
+
+
+@given(st.lists(st.floats(-200, 200), min_size=2, max_size=12))
+def test_a_column_of_balloons_stands_as_high_as_what_it_points_at(heights):
+    lines = {k: shapely.LineString([(10.0 * k, y), (10.0 * k + 4, y)]) for k, y in enumerate(heights)}
+    found = balloons(lines, {k: k + 1 for k in lines}, 2.0)
+    for x in {one.at[0] for one in found}:
+        column = [one for one in found if one.at[0] == x]
+        off = [one.at[1] - one.tip[1] for one in column]
+        assert sum(off) == pytest.approx(0, abs=1e-6)
 
 
 def test_balloons_of_a_column_stand_apart_and_each_item_has_one():

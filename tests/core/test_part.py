@@ -62,6 +62,11 @@ def test_names_that_can(name):
     assert check_name(name) == name
 
 
+def test_a_plate_says_how_thick_it_is_and_a_solid_of_its_own_does_not():
+    assert repr(Part("plate", Outline(BOX), 6.5, "steel")).endswith(", 6.5 mm, steel>")
+    assert " mm" not in repr(Part("lump", None, 6.5, "steel", build=lambda: None))
+
+
 def test_materials_are_looked_up_by_name():
     assert material("steel").density == 7.85
     assert all(name == item.name for name, item in MATERIALS.items())
