@@ -235,7 +235,14 @@ class Own(BaseException):
     """None of those that anybody expects."""
 
 
-@pytest.mark.parametrize("error", [GeneratorExit, Own, StopIteration])
+class MuteError(Exception):
+    """Has no words."""
+
+    def __str__(self) -> str:
+        raise ValueError
+
+
+@pytest.mark.parametrize("error", [GeneratorExit, Own, StopIteration, MuteError])
 def test_no_kind_of_error_passes_by(error: type[BaseException]) -> None:
     def raises() -> None:
         raise error

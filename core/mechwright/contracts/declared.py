@@ -53,7 +53,7 @@ class Declared:
         anything.
 
         >>> Declared().fault((1.0, "a"), tuple[float, ...])
-        ('[1]', "is 'a'; a finite number is wanted")
+        ('[1]', "is 'a'; a number is wanted")
         >>> Declared().fault({"a": 1.0}, Mapping[str, float])
         """
         return next(_Walk(self).faults(value, kind), None)
