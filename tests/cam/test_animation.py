@@ -218,7 +218,7 @@ def test_no_name_ends_the_element_it_stands_in_and_gaps_stay_gaps():
     values = np.where(ANGLE > 6, np.nan, ANGLE)
     motion = Motion(
         "phi",
-        {"phi": Channel(ANGLE, "rad"), "</script><b>": Channel(values, "<i>")},
+        {"phi": Channel(ANGLE, "rad"), "a</script><b>": Channel(values, "<i>")},
         {"a": STILL},
         traces={"{{SCRIPT}}": Trace("a", (1, 2, 3))},
     )
@@ -227,7 +227,7 @@ def test_no_name_ends_the_element_it_stands_in_and_gaps_stay_gaps():
     assert "<b>" not in page
     assert "a&lt;b&gt;&amp;" in page
     found = data_of(page)
-    assert found["channels"]["</script><b>"]["values"][-1] is None
+    assert found["channels"]["a</script><b>"]["values"][-1] is None
     assert found["traces"]["{{SCRIPT}}"][0] == [1, 2]
     assert significant(np.array([-0.0, 1 / 3, 2e-30, np.inf])) == [0, 0.333333, 0, None]
 
