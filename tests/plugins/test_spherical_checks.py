@@ -131,13 +131,6 @@ def test_finding(code, table, parameter):
         assert one.remedy
 
 
-def test_points_along_the_travel_are_in_order_however_near_they_are():
-    path = {"path_n": [[0, 2]] * 3}
-    for angles, wrong in (([-8, -10, -20], None), ([-8, -8, -20], None), ([-8, -20, -10], -10)):
-        order = found("spherical.order", five_bar={**path, "path_angles_n": angles})
-        assert [one.value for one in order] == ([] if wrong is None else [pytest.approx(wrong)])
-
-
 def test_every_error_and_warning_is_caused_above():
     folder = Path(findings.__wrapped__.__code__.co_filename).parent
     text = "".join(

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import errors
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.linkage import linkage_of
+from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.projection import project
 from mechwright_spherical.requirements import AdjustablePathRequirement
 from mechwright_spherical.vectors import arc
@@ -174,3 +175,11 @@ def test_machines_without_room_for_their_links_are_not_given():
 def test_what_does_not_go_together_is_refused(table, word):
     with pytest.raises(ValidationError, match=word):
         AdjustablePathRequirement.model_validate(table)
+
+
+def test_points_along_the_travel_are_in_order_however_near_they_are():
+    for angles, wrong in (([-8, -10, -20], None), ([-8, -8, -20], None), ([-8, -20, -10], -10)):
+        five_bar = {"path_n": [[0, 2]] * 3, "path_angles_n": angles}
+        said = Spherical().check(SphericalParams.model_validate({"five_bar": five_bar}))
+        order = [one.value for one in said if one.code == "spherical.order"]
+        assert order == ([] if wrong is None else [pytest.approx(wrong)])
