@@ -59,8 +59,8 @@ def left_out(hardware: HardwareTable) -> frozenset[str]:
 def candidates(given: Mapping[str, Any], fit: Any) -> Iterator[Sizes]:
     """Sizes to try, largest first; what is given stays, and a boss that is left out suits its pin.
 
-    >>> [float(one.boss_diameter) for one in candidates({"pin_diameter": 9.0}, 0.05)][:2]
-    [12.0, 11.5]
+    >>> [float(one.boss_diameter) for one in candidates({"pin_diameter": 9.0}, 0.05)][:3]
+    [12.0, 12.0, 11.5]
     """
     yield Sizes(**{name: given.get(name, getattr(USUAL, name)) for name in NAMES})
     for row in (USUAL, *_SMALLER):
