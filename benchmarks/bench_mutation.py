@@ -174,7 +174,7 @@ def tried(place: Path, draw: list[Mutant], budget: float, end: float, afresh_too
     files = sorted({test.partition("::")[0] for _, tests in asked for test in tests})
     with tempfile.TemporaryDirectory() as folder:
         within = Path(folder).resolve()
-        suite = Suite(files, within / "tests")
+        suite = Suite(files, within / "tests", {mutant.path for mutant in draw if mutant.function})
         for number, (mutant, tests) in enumerate(asked):
             if time.monotonic() > end:
                 break
