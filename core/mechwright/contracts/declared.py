@@ -14,15 +14,21 @@ from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from weakref import WeakValueDictionary
 
 import numpy as np
 
 from mechwright.contracts.guard import UnsoundError
+from mechwright.geometry import Loop, Outline
 
 SHOWN = 80
 """Characters that are shown of what is none."""
 
 _WANTED = " is wanted"
+
+_SOUND: WeakValueDictionary[int, Any] = WeakValueDictionary()
+"""Outlines that have been looked through: they never change, are given again and again, and have thousands of
+segments."""
 
 Fault = tuple[str, str]
 """Where in the value, as ``.instances[0].z``, and what is wrong there."""
@@ -166,11 +172,16 @@ class _Walk:
     def _class(self, value: Any, kind: Any) -> Iterator[Fault]:
         if not isinstance(value, kind):
             yield _wrong(value, "None" if kind is types.NoneType else _a(kind))
-        elif is_dataclass(value) and not isinstance(value, self._asked.leave) and id(value) not in self._seen:
+        elif is_dataclass(value) and not isinstance(value, self._asked.leave) and not self._known(value):
             self._seen[id(value)] = value
             own: Any = type(value)
             for name, declared in _fields(own):
                 yield from self._within(f".{name}", getattr(value, name), declared)
+            if self._asked.finite and isinstance(value, Loop | Outline):
+                _SOUND[id(value)] = value
+
+    def _known(self, value: Any) -> bool:
+        return id(value) in self._seen or _SOUND.get(id(value)) is value
 
     def _within(self, where: str, value: Any, kind: Any) -> Iterator[Fault]:
         for further, said in self.faults(value, kind):
