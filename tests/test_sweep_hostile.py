@@ -202,6 +202,7 @@ def stop():
         time.sleep(0.02)
     os.kill(os.getpid(), signal.SIGINT)
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a process in the background may ignore
     asked = Processes(2)._once(Endless(), ["a", "b", "c"])
     threading.Thread(target=stop, daemon=True).start()
     try:

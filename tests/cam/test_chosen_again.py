@@ -11,7 +11,7 @@ from mechwright_cam.operations.choice import usable_mills
 from mechwright_cam.setup.lay_out import CLAMP_RIM, check_clamp, make_job
 from mechwright_cam.shop.settings import CamSettings
 
-FINE = {"eccentricity": 0.5, "semi_major": 40, "teeth": 50}
+FINE = {"eccentricity": 0.5, "semi_major": 40, "teeth": 50, "thickness": 10}
 """A pair of module 1.49, whose fillets a mill of 2 mm leaves so full that it collides."""
 
 

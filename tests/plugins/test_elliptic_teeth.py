@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from mechwright.mechanics.gearing import FIT, SIDES, gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.gear import OFFSET_SLACK, offset_miss, offsets_that_mesh, outline_of, teeth_of
+from mechwright_elliptic_gears.gear import outline_of, teeth_of
+from mechwright_elliptic_gears.offsets import OFFSET_SLACK, offset_miss, offsets_that_mesh
 from mechwright_elliptic_gears.params import EllipticGearParams as Params
 
 
