@@ -7,12 +7,13 @@ import re
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import foreign_plugin
 import numpy as np
 import pytest
 from test_guard import Size, moved, plate
+from typing_extensions import TypeAliasType
 
 from mechwright.contracts import guard
 from mechwright.contracts.declared import Declared, shown
@@ -348,3 +349,15 @@ def test_a_method_is_guarded_whatever_it_is_and_wherever_from() -> None:
 
 def vars_of(cls: type[Told]) -> dict[str, Any]:
     return {name: getattr(cls, name) for name in ("name", "title", "summary", "Params")}
+
+
+def test_a_name_for_a_kind_is_the_kind() -> None:
+    """From Python 3.12 on numpy has its arrays so."""
+    width = TypeVar("width")
+    several = TypeAliasType("several", tuple[width, ...], type_params=(width,))
+    named = TypeAliasType("named", Mapping[str, np.ndarray[Any, np.dtype[np.float64]]])
+    for kind in (several, several[float]):
+        assert Declared().fault((1.0, 2.0), kind) is None
+        assert Declared().fault([1.0], kind) == ("", "is [1.0]; a tuple is wanted")
+    assert Declared().fault({"a": np.zeros(2)}, named) is None
+    assert Declared().fault({"a": (0.0,)}, named) == ("['a']", "is (0.0,); an array of numpy is wanted")

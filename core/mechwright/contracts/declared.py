@@ -102,7 +102,9 @@ class _Walk:
 
     def faults(self, value: Any, kind: Any) -> Iterator[Fault]:
         origin, arguments = get_origin(kind), get_args(kind)
-        if origin in {Union, types.UnionType}:
+        if type(whole := origin or kind).__name__ == "TypeAliasType":  # from Python 3.12 on, as NDArray is
+            yield from self.faults(value, whole.__value__)
+        elif origin in {Union, types.UnionType}:
             yield from self._any(value, arguments)
         elif origin is Literal:
             if not any(type(value) is type(one) and value == one for one in arguments):
@@ -119,7 +121,7 @@ class _Walk:
             # A class of somebody's own may do anything where it is compared or printed.
             if type(value) is not kind and not (isinstance(value, kind) and isinstance(value, Enum)):
                 yield _wrong(value, _PLAIN[kind])
-        elif kind is not Any and isinstance(whole := origin or kind, type):
+        elif kind is not Any and isinstance(whole, type):
             yield from self._class(value, whole)
 
     def _number(self, value: Any) -> Iterator[Fault]:

@@ -255,6 +255,7 @@ def _running(pair: MadePair) -> list[Finding]:
                 "µrad",
                 f"make backlash {better:g}: on these walls that leaves at least {works * MICRO:.0f} µrad",
                 Stage.MACHINING,
+                proposed=({"parameters.backlash": better},),
             )
         ]
     return []
