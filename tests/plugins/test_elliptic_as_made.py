@@ -116,7 +116,7 @@ def test_what_check_cannot_know_build_finds_out(command_line, tmp_path):
     code, _, err = command_line("build", str(path), "-o", str(tmp_path / "out"))
     assert code == 1
     assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam: " in err
-    assert "make backlash 0.067" in err
+    assert "; set backlash = 0.067 (now 0.012)" in err
 
 
 def test_the_least_backlash_is_the_reference():
