@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Finding, Severity, Stage, kept, of_stage
+from mechwright import Finding, Severity, Stage, kept
+from mechwright.contracts.finding import at_stage
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
@@ -43,11 +44,11 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
 @kept
 def hardware_found(params: SphericalParams) -> tuple[Finding, ...]:
     """All of them, whether sizes are given or chosen."""
-    return tuple(_found(params))
+    return tuple(at_stage(Stage.PARTS, hardware_seeking(params)))
 
 
-@of_stage(Stage.PARTS)
-def _found(params: SphericalParams) -> Iterator[Finding]:
+def hardware_seeking(params: SphericalParams) -> Iterator[Finding]:
+    """The same, each as it is found: who asks for the first error need not wait for the rest."""
     linkage, shells = linkage_of(params), shells_of(params)
     yield from _bosses(params, shells)
     yield from _shafts(params, linkage, shells)

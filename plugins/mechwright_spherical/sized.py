@@ -38,11 +38,13 @@ def _fitted(params: SphericalParams) -> HardwareTable | None:
         if sizes in tried:
             continue
         table = _with(own, {name: getattr(sizes, name) for name in out})
-        wrong = _wrong(params.model_copy(update={"hardware": table}))
-        if not wrong:
-            return table if tried else None
-        if not tried and not wrong <= CURED:
-            return None
+        asked = params.model_copy(update={"hardware": table})
+        if not tried:
+            wrong = _wrong(asked)
+            if not (wrong and wrong <= CURED):
+                return None
+        elif _fits(asked):
+            return table
         tried.add(sizes)
     return None
 
@@ -61,3 +63,10 @@ def _wrong(params: SphericalParams) -> frozenset[str]:
         if joined(params):
             return frozenset(one.code for one in hardware_found(params) if one.severity is Severity.ERROR)
     return frozenset({"spherical.assembly"})
+
+
+def _fits(params: SphericalParams) -> bool:
+    """Whether nothing stands in the way of the links of a linkage that can be joined."""
+    from mechwright_spherical.hardware_checks import hardware_seeking
+
+    return all(one.severity is not Severity.ERROR for one in hardware_seeking(params))
