@@ -161,6 +161,8 @@ def _walls(found: Answer, course: Course, left: NDArray[np.intp]) -> None:
     else:
         pivot = _all(cams.pivot_bore, cams)
         thin((width - pivot) / 2)
+        if cams.contact == "roller":
+            thin(_all(cams.value("arm_length"), cams) - (pivot + pin) / 2)
         if cams.contact == "flat":
             found.forbid("follower.face-offset", _all(cams.face, cams) < width / 2, left)
         reach = _sought(found, course, left, _outermost)

@@ -154,6 +154,13 @@ def _lever(params: CamParams) -> Iterator[Finding]:
         "follower_width", "the bore of the lever", (params.follower_width - params.pivot_bore) / 2, params,
         f"make follower_width {wide:g}", {"parameters.follower_width": wide},
     )  # fmt: skip
+    if params.contact == "roller":
+        arm, holes = params.value("arm_length"), (params.pivot_bore + params.pin_diameter) / 2
+        long = holes + params.least_wall
+        yield from _thin(
+            "arm_length", "the hole for the stud beside the lever's bore", arm - holes, params,
+            f"make arm_length {long:g}", {"parameters.arm_length": long},
+        )  # fmt: skip
     if params.contact == "flat" and params.face < params.follower_width / 2:
         yield Finding.error(
             "follower.face-offset",

@@ -18,12 +18,16 @@ from itertools import pairwise
 from mechwright import GeometryError, kept
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop, lever_fit
+from mechwright.mechanics.gearing.shaper import involute
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.usual import ADDENDUM, DEDENDUM, IN_LINE, modules
 
 PRESSURE_ANGLE = math.radians(20)
 TIP_RADIUS = 0.38
 """Basic rack of ISO 53, profile A, in modules."""
+
+TIP = 0.1
+"""Least width of a tooth at its tip, in modules: a sharper one breaks."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +103,7 @@ def train_of(params: FiveBarParams) -> Train:
                 f"{least:g} mm, not {module:g}; leave module out, or give an idler"
             )
         teeth = {"pinion": params.crank_teeth, "wheel": params.arm_teeth}
-        return Train(module, teeth, {"pinion": 0j, "wheel": complex(ground)})
+        return _with_tips(Train(module, teeth, {"pinion": 0j, "wheel": complex(ground)}), params.backlash)
     teeth = {"pinion": params.crank_teeth, "idler": params.idler_teeth, "wheel": params.arm_teeth}
     if module < least * (1 - IN_LINE):
         raise GeometryError(
@@ -114,7 +118,27 @@ def train_of(params: FiveBarParams) -> Train:
     one, two = (module * (params.idler_teeth + z) / 2 for z in (params.crank_teeth, params.arm_teeth))
     x = (ground**2 + one**2 - two**2) / (2 * ground)
     aside = math.sqrt(max(0.0, one**2 - x**2)) if params.module is not None else 0.0
-    return Train(module, teeth, {"pinion": 0j, "idler": complex(x, -aside), "wheel": complex(ground)})
+    places = {"pinion": 0j, "idler": complex(x, -aside), "wheel": complex(ground)}
+    return _with_tips(Train(module, teeth, places), params.backlash)
+
+
+def _with_tips(train: Train, backlash: float) -> Train:
+    """Gears whose teeth have tips: with much backlash both flanks would meet below the tip circle.
+
+    A tooth of an involute gear is d_a (s/d + inv α - inv α_a) wide at its tip circle d_a, with its width s at
+    the pitch circle d, and cos α_a = d cos α / d_a.
+    """
+    m = train.module
+    for name in train.teeth:
+        pitch, tip = 2 * train.radius(name), 2 * train.tip(name)
+        narrower = involute(math.acos(pitch * math.cos(PRESSURE_ANGLE) / tip)) - involute(PRESSURE_ANGLE)
+        most = math.pi * m - 2 * pitch * (TIP * m / tip + narrower)
+        if backlash > most:
+            raise GeometryError(
+                f"backlash: {backlash:g} mm take the tips of the {name}'s teeth, of a module of {m:.4g} mm; "
+                f"use at most {math.floor(1000 * most) / 1000:g} mm"
+            )
+    return train
 
 
 def rack_of(params: FiveBarParams) -> Rack:

@@ -44,6 +44,14 @@ STUDIES = {
         arm_length=(40, 120),
         pivot_bore=(4, 18),
     ),
+    "short levers": batch(
+        {"follower": "oscillating", "swings": [6, 6, 0, 0], "pin_diameter": 6},
+        14,
+        base_radius=(15, 40),
+        centre_distance=(40, 60),
+        arm_length=(6, 45),
+        pivot_bore=(4, 18),
+    ),
     "small slides, whose bores and studs follow": batch(
         {"lifts": [2, 2, 0, 0]}, 10, base_radius=(2.5, 14), roller_radius=(1.2, 8)
     ),

@@ -6,7 +6,7 @@ import pytest
 import mechwright as mw
 from mechwright import Severity
 from mechwright.contracts.by_arrays import Designs
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import Finding, errors
 from mechwright.remedies import tried
 from mechwright_cam_follower.checks import findings
 from mechwright_cam_follower.family import CamFollower
@@ -108,3 +108,16 @@ def test_moves_become_smaller_only_where_longer_ones_do_not_help() -> None:
     assert list(smaller) == ["parameters.swings"]
     assert 20 < max(swings) < 50
     assert errors(findings(CamParams(**flat, swings=swings))) == []
+
+
+def test_the_bores_of_a_short_lever_leave_their_wall() -> None:
+    def thin(**table: float) -> list[Finding]:
+        found = FAMILY.check(CamParams(follower="oscillating", conjugate=False, **table))
+        return [one for one in found if (one.code, one.parameter) == ("follower.wall", "arm_length")]
+
+    (one,) = thin(arm_length=9.0)
+    least = (CamParams(follower="oscillating").pivot_bore + 8.0) / 2 + CamParams().least_wall
+    assert one.proposed == ({"parameters.arm_length": pytest.approx(least)},)
+    sizes = {"pin_diameter": 8.0}
+    assert thin(arm_length=least, **sizes) == []
+    assert thin(arm_length=least - 0.01, **sizes)

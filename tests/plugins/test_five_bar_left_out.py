@@ -1,6 +1,7 @@
 """Gears of five-bars that a design leaves out follow from its module and from what their teeth carry."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from mechwright_five_bar.face import MOST_MODULES
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.strength_checks import root_stresses
-from mechwright_five_bar.train import train_of
+from mechwright_five_bar.train import gear_outlines, train_of
 from mechwright_five_bar.usual import modules
 
 FAMILY = FiveBars()
@@ -91,3 +92,22 @@ def test_many_have_gears_as_wide_as_each_by_itself():
     heavy, loaded, bare, light = found.values["mass"]
     assert heavy > loaded
     assert [bare, light] == pytest.approx([loaded, loaded], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["pinion", "idler", "wheel"])
+def test_much_backlash_leaves_tips_of_a_tenth_of_the_module(name):
+    table = {"crank_teeth": 18, "idler_teeth": 60, "arm_teeth": 18 if name == "pinion" else 36, "backlash": 0}
+    train = train_of(FiveBarParams(**table))
+    with pytest.raises(
+        GeometryError, match=r"backlash: 2 mm take the tips .* use at most ([\d.]+) mm"
+    ) as told:
+        train_of(FiveBarParams(**{**table, "backlash": 2}))
+    most = float(re.search(r"at most ([\d.]+) mm", str(told.value))[1])
+    params = FiveBarParams(**{**table, "backlash": most})
+    assert "five-bar.gears" not in [one.code for one in errors_of(params)]
+    points = gear_outlines(params)[name].flatten()
+    tip = points[np.abs(np.abs(points @ [1, 1j]) - train.tip(name)) < 1e-6]
+    land = 2 * np.abs(tip[np.abs(np.angle(tip @ [1, 1j])) < math.pi / train.teeth[name]][:, 1]).max()
+    assert land > 0.0999 * train.module
+    if name == "pinion":
+        assert land == pytest.approx(0.1 * train.module, rel=0.02)
