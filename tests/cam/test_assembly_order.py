@@ -22,7 +22,7 @@ from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_order.groups import connected
 from mechwright_cad.assembly_order.heights import CELL, Heights
-from mechwright_cad.assembly_order.layers import frame_of
+from mechwright_cad.assembly_order.layers import frame_of, own_layers
 from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.plan import alike, gathered, plan_of, sequence
 from mechwright_cad.bodies import bodies_of
@@ -357,3 +357,11 @@ def test_copies_of_a_part_are_one_step_and_come_to_hand_in_order():
     assert sequence(plan.steps, len(plan.bodies))[0] == next(
         k for k, body in enumerate(plan.bodies) if body.part.name == "ground"
     )
+
+
+def test_a_body_of_several_pieces_has_the_layers_of_each():
+    foot, head = box((0, 10), (0, 8), (0, 3)), box((2, 5), (2, 6), (3, 7))
+    part = Part("block", None, 0.0, "aluminium", build=Shape((foot, head)).solid)
+    layers = own_layers(part)
+    assert [(one.low, one.high) for one in layers] == [(0, 3), (3, 7)]
+    assert [one.shape.bounds for one in layers] == [(0, 0, 10, 8), (2, 2, 5, 6)]

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from mechwright.errors import DesignError
 from mechwright_cam.shop.formats.contract import Said, slug
+from mechwright_cam.shop.formats.fusion import DRILLS, FusionLibrary
 from mechwright_cam.shop.library import load_library
-from mechwright_cam.shop.tool import ToolKind
+from mechwright_cam.shop.tool import MILLS, ToolKind
 
 
 @pytest.mark.parametrize("name", ["crib.json", "crib.tools"])
@@ -351,3 +352,19 @@ def test_what_is_the_same_of_many_tools_is_one_line(tmp_path):
     (line,) = load_library(fusion(tmp_path / "a.json", *rows)).told
     assert all(f"(T{number})" in line for number in (1, 2, 3))
     assert line.endswith("into its name")
+
+
+def test_each_kind_of_tool_is_given_to_fusion_with_its_own_geometry(tmp_path):
+    tools = [tool for tool in load_library() if tool.kind in {*MILLS, *DRILLS, ToolKind.CHAMFER}]
+    (text,) = FusionLibrary().files(tools, tmp_path / "crib.json").values()
+    kinds = set()
+    for tool, row in zip(tools, json.loads(text)["data"], strict=True):
+        own = {key: row["geometry"].get(key) for key in ("RE", "SIG", "TA")}
+        told = {
+            "RE": tool.nose if tool.kind in MILLS else None,
+            "SIG": tool.point_angle if tool.kind in DRILLS else None,
+            "TA": tool.point_angle / 2 if tool.kind is ToolKind.CHAMFER else None,
+        }
+        assert own == told, tool.name
+        kinds |= {key for key, value in own.items() if value is not None}
+    assert kinds == {"RE", "SIG", "TA"}
