@@ -6,6 +6,7 @@ import math
 import re
 import sys
 import time
+import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
@@ -13,7 +14,6 @@ import foreign_plugin
 import numpy as np
 import pytest
 from test_guard import Size, moved, plate
-from typing_extensions import TypeAliasType
 
 from mechwright.contracts import guard
 from mechwright.contracts.declared import Declared, shown
@@ -351,11 +351,21 @@ def vars_of(cls: type[Told]) -> dict[str, Any]:
     return {name: getattr(cls, name) for name in ("name", "title", "summary", "Params")}
 
 
+class TypeAliasType:
+    """What Python 3.12 has of this name."""
+
+    def __init__(self, value: Any) -> None:
+        self.__value__ = value
+
+    def __getitem__(self, kinds: Any) -> Any:
+        return types.GenericAlias(self, kinds)  # type: ignore[arg-type]
+
+
 def test_a_name_for_a_kind_is_the_kind() -> None:
     """From Python 3.12 on numpy has its arrays so."""
     width = TypeVar("width")
-    several = TypeAliasType("several", tuple[width, ...], type_params=(width,))
-    named = TypeAliasType("named", Mapping[str, np.ndarray[Any, np.dtype[np.float64]]])
+    several = TypeAliasType(tuple[width, ...])
+    named = TypeAliasType(Mapping[str, np.ndarray[Any, np.dtype[np.float64]]])
     for kind in (several, several[float]):
         assert Declared().fault((1.0, 2.0), kind) is None
         assert Declared().fault([1.0], kind) == ("", "is [1.0]; a tuple is wanted")
