@@ -60,10 +60,8 @@ def answer(designs: Designs, columns: Collection[str], stage: Stage) -> Answer |
     """What is found of them; see :mod:`mechwright.contracts.by_arrays`."""
     if not covered(designs):
         return None
-    designs, follows = (
-        with_sizes(designs),
-        "gear_thickness" not in {*designs.varied, *designs.common.model_fields_set},
-    )
+    designs = with_sizes(designs)
+    follows = "gear_thickness" not in {*designs.varied, *designs.common.model_fields_set}
     if follows:
         # It is the usual one where teeth surely last with that; the others are left undecided.
         usual = np.full(len(designs), USUAL_FACE)

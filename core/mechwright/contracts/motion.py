@@ -46,9 +46,8 @@ def name_fault(name: str, unit: str = "") -> str:
     if name[0] in "=+-@":
         return f"begins with {name[0]!r}, which makes it a formula of a spreadsheet"
     if not (name[0].isalnum() or name[0] == "_"):
-        return (
-            f"begins with {name[0]!r}"  # a blank, or a wide sign that some spreadsheets take for a narrow one
-        )
+        # A blank, or a wide sign that some spreadsheets take for a narrow one.
+        return f"begins with {name[0]!r}"
     if name[-1].isspace():
         return "ends with a blank"
     if len(name) > LONGEST_NAME:

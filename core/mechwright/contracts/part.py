@@ -33,6 +33,7 @@ NAME_PATTERN = r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?"
 _NAME = re.compile(NAME_PATTERN)
 _OTHER = re.compile(r"[^a-z0-9_]+")
 _LONGEST = 64
+"""Characters of a name, as the pattern above has it."""
 _DEVICES = frozenset(
     ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10)))
 )

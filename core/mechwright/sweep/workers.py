@@ -78,7 +78,7 @@ class Processes:
         context = multiprocessing.get_context("spawn")
         waiting = iter(tasks)
         running: dict[Future[tuple[bytes, list[Heard]]], Task] = {}
-        pool = ProcessPoolExecutor(self.count, context, _begin)
+        pool, others = ProcessPoolExecutor(self.count, context, _begin), multiprocessing.active_children()
         try:
             while True:
                 for task in _some(waiting, AHEAD * self.count - len(running)):
@@ -94,7 +94,8 @@ class Processes:
             pool.shutdown(wait=False, cancel_futures=True)
             if running:  # stopped: the interpreter would wait for what they are at, a minute or more
                 for worker in multiprocessing.active_children():
-                    worker.terminate()
+                    if worker not in others:  # whoever calls from Python may have processes of their own
+                        worker.terminate()
 
 
 def _begin() -> None:
