@@ -23,7 +23,7 @@ import shapely
 from mechwright.mechanics.gearing import SIDES, mesh
 from mechwright.mechanics.gearing.made import signed_depth
 from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 DATA = Path(__file__).parents[1] / "tests" / "data" / "noncircular-gears.json"
 FINE = 2e-5
@@ -50,7 +50,7 @@ DESIGNS = {
 
 def ours(table: dict[str, object]) -> tuple[float, tuple[np.ndarray, np.ndarray]]:
     """Centre distance and both outlines."""
-    params = NoncircularParams.model_validate({**PROFILE, **table})
+    params = SizedParams.model_validate({**PROFILE, **table})
     one, two = outlines_of(params)
     return pair_of(params).distance, (one.outer.flatten(FINE), two.outer.flatten(FINE))
 
@@ -73,7 +73,7 @@ def theirs(expression: str, ratio: float | None, teeth: int) -> tuple[float, tup
         return pair.center_distance, (np.array(pair.drive_outline), np.array(pair.driven_outline))
 
 
-def flank_error(params: NoncircularParams, outline: np.ndarray) -> float:
+def flank_error(params: SizedParams, outline: np.ndarray) -> float:
     """Greatest distance, mm, of points of a driver near its pitch curve from the closed form of the flanks.
 
     The other program may count its angles the other way round: the nearer of both.
@@ -105,7 +105,7 @@ def main(names: list[str]) -> None:
         contestants = ("mechwright",)
     for name in names:
         table, expression, ratio = DESIGNS[name]
-        params = NoncircularParams.model_validate({**PROFILE, **table})
+        params = SizedParams.model_validate({**PROFILE, **table})
         print(f"{name}: {table}")
         for who in contestants:
             start = time.process_time()

@@ -20,7 +20,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import MechwrightError
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()
 SEGMENTS = 12
@@ -89,7 +89,7 @@ LAWS = {
 """Law to its random fields, given the lobes of the mate."""
 
 
-def judged(params: NoncircularParams) -> str:
+def judged(params: SizedParams) -> str:
     """What became of a design: built, refused and mended, or what is wrong with that."""
     try:
         found = FAMILY.check(params)
@@ -112,7 +112,7 @@ MOST_CHANGES = 4
 """Findings that may come one after the other until a law works."""
 
 
-def _refused(params: NoncircularParams, code: str, changes: object) -> str:
+def _refused(params: SizedParams, code: str, changes: object) -> str:
     """Whether proposed changes, of this finding and of those that it hid, lead to gears that work."""
     now, first, count = params, code, 0
     while count < MOST_CHANGES:
@@ -130,14 +130,12 @@ def _refused(params: NoncircularParams, code: str, changes: object) -> str:
     return f"refused, {first}, and still {code} after {count} changes"
 
 
-def _past(
-    params: NoncircularParams, code: str, changes: object
-) -> Iterator[tuple[NoncircularParams, list[Finding]]]:
+def _past(params: SizedParams, code: str, changes: object) -> Iterator[tuple[SizedParams, list[Finding]]]:
     """Designs with a change that gets past a finding, and what is wrong with them then."""
     for change in changes:  # type: ignore[attr-defined]
         own = {key.removeprefix("parameters."): value for key, value in change.items()}
         try:
-            mended = NoncircularParams.model_validate({**params.model_dump(), **own})
+            mended = SizedParams.model_validate({**params.model_dump(), **own})
         except ValidationError:
             continue
         bad = errors(FAMILY.judge(mended), Stage.PARTS)
@@ -155,7 +153,7 @@ def main(count: int, seed: int, first: int) -> None:
     for number in range(first, first + count):
         table = drawn(np.random.default_rng([seed, number]))
         try:
-            result = judged(NoncircularParams.model_validate(table))
+            result = judged(SizedParams.model_validate(table))
         except ValidationError as error:
             result = f"no table: {error.errors()[0]['msg'].split(';')[0][:60]}"
         except Exception as error:

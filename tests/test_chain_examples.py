@@ -16,7 +16,7 @@ from mechwright.mechanics.chain.links import links_of
 from mechwright.mechanics.chain.motion import motion_of
 from mechwright.mechanics.chain.placing import in_plan
 from mechwright_noncircular_gears.law import extremes_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 FILES = sorted(
     path
@@ -51,7 +51,7 @@ def test_wheels_behind_gears_accelerate_nearly_the_least(
     params, motion = moved(name)
     assert 4 < motion.scalars["2.Ca"].value < most < plain
     gears = params.stage[0].parameters
-    assert isinstance(gears, NoncircularParams)
+    assert isinstance(gears, SizedParams)
     found = extremes_of(gears)
     assert math.degrees(found.steepest.value) + gears.pressure_angle < 50
     assert (min(one.value for one in found.curvatures) > 0) is convex

@@ -12,7 +12,7 @@ from mechwright.contracts.finding import errors
 from mechwright.designs.design import Design
 from mechwright.mechanics.chain.running import inputs_of
 from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 LEVER = ("cam-follower", {"follower": "oscillating", "laws": ["4-5-6-7"]})
 """It swings by 20 degrees."""
@@ -32,7 +32,7 @@ def test_sectors_begin_a_chain_by_their_own_swing() -> None:
     motion = design.solve(721)
     phi, crank = motion["1.theta1"], motion["2.phi"]
     assert [phi[0], phi[360], phi[-1]] == pytest.approx([0.0, math.radians(120), 0.0], abs=1e-9)
-    law = law_of(NoncircularParams.model_validate(SWING))
+    law = law_of(SizedParams.model_validate(SWING))
     assert crank == pytest.approx(math.radians(40) - law.angle(phi), abs=1e-9)
     time, slope = motion["time"], motion["2.omega_a"]
     assert np.gradient(crank, time, edge_order=2) == pytest.approx(slope, abs=2e-3 * np.abs(slope).max())

@@ -12,9 +12,9 @@ from mechwright.output.svg import path as polyline
 from mechwright.plugins.host import host
 from mechwright_five_bar.frames import frames_of, layout_of
 from mechwright_five_bar.loop import close
-from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.phases import in_phase
 from mechwright_five_bar.reach import bar_of
+from mechwright_five_bar.sized import SizedParams
 from mechwright_five_bar.train import gear_outlines
 from mechwright_spherical import printed
 
@@ -28,10 +28,10 @@ COLOURS = {
 }  # fmt: skip
 
 
-def machine(phase: int) -> FiveBarParams:
+def machine(phase: int) -> SizedParams:
     """The example, with a phase shown as its first."""
     params = load(EXAMPLE, host()).params
-    assert isinstance(params, FiveBarParams)  # noqa: S101 - the file says so
+    assert isinstance(params, SizedParams)  # noqa: S101 - the file says so
     return in_phase(params.model_copy(update={"phase": phase}))
 
 

@@ -15,6 +15,7 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.phases import in_phase
 from mechwright_five_bar.reach import transmission_range, turns_fully
 from mechwright_five_bar.requirements import AdjustablePathRequirement
+from mechwright_five_bar.sized import SizedParams
 
 
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FiveBarParams]:
@@ -32,7 +33,7 @@ class PhasedFiveBar(Phased[AdjustablePathRequirement, FiveBarParams]):
     out_of_bounds = "five-bar.out-of-bounds"
     good_transmission = GOOD_TRANSMISSION
     remedy = "allow a larger tolerance, leave points out, take other gears, or use more starts"
-    params = FiveBarParams
+    params = SizedParams
 
     @property
     def ratio(self) -> float:

@@ -8,6 +8,7 @@ from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.requirements import AdjustablePathRequirement
+from mechwright_five_bar.sized import SizedParams
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -31,7 +32,7 @@ class FiveBars(Family[FiveBarParams]):
     name = "five-bar"
     title = "Geared five-bar linkage"
     summary = "A crank, an arm that gears turn with it, and a coupler that carries a point between them."
-    Params = FiveBarParams
+    Params = SizedParams
     batch = 1 << 16
     requirements: ClassVar = {"adjustable-path": AdjustablePathRequirement}
 

@@ -1,6 +1,6 @@
 """The design table of a geared five-bar linkage."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, Self
 
@@ -12,9 +12,6 @@ from mechwright.units import Degrees, Millimetres, Unit
 from mechwright_five_bar.limits import LEAST_TEETH, MOST_TEETH, USUAL_FACE
 
 Angle = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
-
-FOLLOWING: list[Callable[["FiveBarParams"], float]] = []
-"""The width of the gears follows by this. It asks for loads, which know the table; the package gives it."""
 
 
 class PhaseTable(Parameters):
@@ -175,23 +172,15 @@ class FiveBarParams(Parameters):
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     def fitted(self) -> Mapping[str, Any]:
-        """Teeth that reach over the ground, joints that fit short links or fine gears, gears that bear."""
+        """Teeth that reach over the ground, joints that fit short links or fine gears."""
         from mechwright.mechanics.linkage.usual import of_table
         from mechwright_five_bar.usual import USUAL, fits, teeth_left_out
 
         given = self.model_fields_set
         found: dict[str, Any] = {**teeth_left_out(partial(getattr, self), given)}
-        found |= of_table(
+        return found | of_table(
             USUAL, self, fits(lambda name: found[name] if name in found else getattr(self, name))
         )
-        if "gear_thickness" not in given:
-            try:
-                self._phased()
-            except ValueError:  # which is refused
-                return found
-            for rule in FOLLOWING:
-                found["gear_thickness"] = rule(self.model_copy(update=found))
-        return found
 
     @model_validator(mode="after")
     def _together(self) -> Self:
@@ -201,10 +190,10 @@ class FiveBarParams(Parameters):
                 "idler, "
                 f"or {LEAST_TEETH} and more"
             )
-        self._phased()
+        self.phased()
         return self
 
-    def _phased(self) -> None:
+    def phased(self) -> None:
         """Raise ValueError where phases and swings do not go together."""
         fields.phases_together(self.setting_angle, self.phases, self.phase)
         fields.swing_together(self.swing_from, self.swing_to, self.direction)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_noncircular_gears.fit.requirements import REQUIREMENTS, FitRequirement
 from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 if TYPE_CHECKING:
     import shapely
@@ -21,7 +22,7 @@ class NoncircularGears(Family[NoncircularParams]):
     name = "noncircular-gears"
     title = "Non-circular gears"
     summary = "A pair of gears that turns one shaft by any law of the other, with lobes of any numbers."
-    Params = NoncircularParams
+    Params = SizedParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
     batch = 1 << 16
 

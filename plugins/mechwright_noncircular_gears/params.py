@@ -1,7 +1,7 @@
 """The design table of a pair of gears by a law."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
@@ -28,10 +28,6 @@ from mechwright_noncircular_gears.together import pair_together
 Amplitude = Annotated[float, Field(ge=-90, le=90), Unit("deg")]
 FormulaText = Annotated[str, Field(min_length=1, max_length=LONGEST)]
 Turned = Annotated[float, Field(ge=0, le=3600), Unit("deg")]
-
-
-FOLLOWING: list[Callable[["NoncircularParams"], Mapping[str, Any]]] = []
-"""What is left out follows by these. They ask for gears, which know the table; the package gives them."""
 
 
 class NoncircularParams(Parameters):
@@ -281,16 +277,6 @@ class NoncircularParams(Parameters):
         description="Constant torque against the turning of the driven gear.",
         json_schema_extra=FIRST,
     )
-
-    def fitted(self) -> Mapping[str, Any]:
-        """Teeth that can be cut, and a face width that mills reach."""
-        try:
-            pair_together(self)
-        except ValueError:  # which is refused
-            return {}
-        if (self.module is None) == (self.centre_distance is None):
-            return {}
-        return {name: value for rule in FOLLOWING for name, value in rule(self.model_copy()).items()}
 
     @field_validator("sector", mode="before")
     @classmethod

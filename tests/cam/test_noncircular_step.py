@@ -16,9 +16,9 @@ from mechwright_cad.exporters import StepExporter
 from mechwright_elliptic_gears.gear_parts import parts_of as elliptic_parts
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.proof import prove_outlines as prove_elliptic
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import parts_of
 from mechwright_noncircular_gears.proof import prove_outlines
+from mechwright_noncircular_gears.sized import SizedParams
 
 sys.path.append(str(Path(__file__).parents[1] / "plugins"))
 from noncircular import TABLES
@@ -44,12 +44,12 @@ FILES = sorted(
 def pairs():
     """Each pair of the reference, of sectors, and of the examples, those in chains as well."""
     for name in SOUND:
-        yield name, NoncircularParams.model_validate({"bore": 8, **{**TABLES, **SECTORS}[name]})
+        yield name, SizedParams.model_validate({"bore": 8, **{**TABLES, **SECTORS}[name]})
     for path in FILES:
         params = load(path, host()).params
         stages = [one.parameters for one in params.stage] if isinstance(params, ChainParams) else [params]
         for number, one in enumerate(stages, start=1):
-            if isinstance(one, NoncircularParams):
+            if isinstance(one, SizedParams):
                 yield f"{path.stem}-{number}", one
 
 

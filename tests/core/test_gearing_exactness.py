@@ -7,7 +7,7 @@ from mechwright.mechanics.gearing.exactness import EXACT, exact_fit
 from mechwright_elliptic_gears import gear as elliptic
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_noncircular_gears import gear as noncircular
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 FINE = 1e-5
 """Chord error, mm: a tenth of what those of the proof have."""
@@ -29,7 +29,7 @@ def test_elliptic_pairs_keep_to_the_exact_motion(e, teeth, semi_major):
 @pytest.mark.parametrize("internal", [False, True])
 def test_the_bound_of_a_flank_is_that_of_the_angle(distance, internal):
     """Both flanks the fit off, either way, over the shortest lever: 5 µrad, or less of large gears."""
-    params = NoncircularParams(
+    params = SizedParams(
         law="ellipse",
         eccentricity=0.1,
         mate_lobes=3,

@@ -4,7 +4,7 @@ import json
 import math
 from pathlib import Path
 
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 REFERENCE = json.loads(
     (Path(__file__).parents[1] / "data" / "noncircular-gears.json").read_text(encoding="utf-8")
@@ -37,6 +37,6 @@ TABLES = {
 """Design of the reference to its table."""
 
 
-def design(name: str, **changes: object) -> NoncircularParams:
+def design(name: str, **changes: object) -> SizedParams:
     """A design of the reference, without backlash."""
-    return NoncircularParams.model_validate({"backlash": 0.0, "bore": 8, **TABLES[name], **changes})
+    return SizedParams.model_validate({"backlash": 0.0, "bore": 8, **TABLES[name], **changes})

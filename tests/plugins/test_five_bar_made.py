@@ -16,9 +16,9 @@ from mechwright.plugins.host import host
 from mechwright.testing.tolerances import tolerance_faults
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.loop import FiveBar, close
-from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import peaks_of
 from mechwright_five_bar.reach import bar_of
+from mechwright_five_bar.sized import SizedParams
 from mechwright_five_bar.strength_checks import root_stresses
 from mechwright_five_bar.tolerances import FiveBarTolerances
 from mechwright_five_bar.train import train_of
@@ -26,9 +26,9 @@ from mechwright_five_bar.train import train_of
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def example(name: str) -> FiveBarParams:
+def example(name: str) -> SizedParams:
     params = load(EXAMPLES / f"{name}.toml", host()).params
-    assert isinstance(params, FiveBarParams)
+    assert isinstance(params, SizedParams)
     return params
 
 
@@ -46,7 +46,7 @@ def test_sensitivities_are_derivatives_in_every_phase(name):
 
 def test_play_of_the_gears_is_an_angle_of_the_arm():
     """A play s of each mesh lets the arm run behind by 2 s over the wheel's radius."""
-    params = FiveBarParams()
+    params = SizedParams()
     model, bar = FiveBarTolerances(params, EXACT), bar_of(params)
     at, play = np.array([0.3, 2.0, 5.0]), 1e-5
     rates = dict(
@@ -82,7 +82,7 @@ class Bored:
 
 
 def test_plates_as_drawn_leave_the_play_of_pins_and_gears():
-    params = FiveBarParams()
+    params = SizedParams()
     plates = {name: [Bored()] for name in ("ground", "crank", "coupler", "rocker", "arm")}
     point, room = FiveBars().as_made(params, plates).figures
     assert (point.name, room.name) == ("point.error", "pin.room")
@@ -95,7 +95,7 @@ def test_plates_as_drawn_leave_the_play_of_pins_and_gears():
 
 
 def test_a_bare_bore_as_made_too_small_is_refused_with_a_fit_that_works():
-    params = FiveBarParams(bushing_wall=0)
+    params = SizedParams(bushing_wall=0)
     plates = {name: [Bored(-0.05)] for name in ("ground", "crank", "coupler", "rocker", "arm")}
     (fault,) = FiveBars().as_made(params, plates).findings
     assert (fault.code, fault.parameter) == ("five-bar.as-made", "running_fit")
@@ -107,7 +107,7 @@ def test_clamped_pivots_are_not_judged():
 
 
 def test_teeth_bear_by_the_formula_and_too_much_is_told_with_what_helps():
-    params = FiveBarParams(load_x=2000.0)
+    params = SizedParams(load_x=2000.0)
     train = train_of(params)
     (pinion,) = (one for one in root_stresses(params) if "pinion" in one.what)
     force = peaks_of(params)["tooth_force"].value

@@ -13,9 +13,9 @@ from mechwright.mechanics.gearing import prove_mesh
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.loop import FiveBar
 from mechwright_five_bar.masses import carried_of, masses_of
-from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import peaks_of, period_of
 from mechwright_five_bar.reach import bar_of, reach, square, transmission_range, turns_fully
+from mechwright_five_bar.sized import SizedParams
 from mechwright_five_bar.train import gear_outlines, rack_of, train_of
 
 FAMILY = FiveBars()
@@ -51,9 +51,9 @@ def test_reach_is_where_the_links_close(lengths, offset, teeth, sense, least):
 
 
 TRAINS = (
-    FiveBarParams(),
-    FiveBarParams(module=2.3, ground_angle=25),
-    FiveBarParams(idler_teeth=0, arm_teeth=20, crank=12, arm=12, ground_angle=-40),
+    SizedParams(),
+    SizedParams(module=2.3, ground_angle=25),
+    SizedParams(idler_teeth=0, arm_teeth=20, crank=12, arm=12, ground_angle=-40),
 )
 
 
@@ -80,7 +80,7 @@ def test_the_gears_mesh_wherever_the_crank_stands(params):
 
 
 def test_the_teeth_run_without_an_error():
-    params = FiveBarParams()
+    params = SizedParams()
     train, loops = train_of(params), gear_outlines(params)
     outlines = tuple(np.asarray(loops[name].flatten(0.0002)) for name in ("pinion", "idler"))
     pair = train.pair("pinion", "idler")
@@ -94,7 +94,7 @@ def test_the_teeth_run_without_an_error():
 @pytest.mark.parametrize("changes", [{}, {"load_x": 5.0, "load_y": -3.0}], ids=["free", "loaded"])
 def test_the_drive_gives_what_the_masses_and_the_load_take(changes):
     """Torque times speed is the rate of the kinetic energy less the power of the load."""
-    params = FiveBarParams(**changes)
+    params = SizedParams(**changes)
     masses, period = masses_of(params), period_of(params, 721)
     bodies = period.bodies
     energy = np.zeros_like(period.time)
@@ -115,7 +115,7 @@ def test_the_drive_gives_what_the_masses_and_the_load_take(changes):
 
 
 def test_the_arm_turns_by_the_ratio_of_the_teeth():
-    motion = FAMILY.solve(FiveBarParams(crank_teeth=20, arm_teeth=50, crank=10, arm=10), 101)
+    motion = FAMILY.solve(SizedParams(crank_teeth=20, arm_teeth=50, crank=10, arm=10), 101)
     turned = motion.channels["phi"].values - motion.channels["phi"].values[0]
     np.testing.assert_allclose(turned, 0.4 * motion.channels["theta"].values, atol=1e-12)
     assert motion.channels["theta"].values[-1] == pytest.approx(5 * math.tau)
@@ -125,7 +125,7 @@ def test_the_arm_turns_by_the_ratio_of_the_teeth():
     "changes", [{}, {"speed": 900.0}, {"load_x": 100.0}, {"load_y": -40.0, "gear_thickness": 3.0}]
 )
 def test_a_judge_finds_what_a_check_finds_without_what_would_bear_more(changes):
-    params = FiveBarParams(**changes)
+    params = SizedParams(**changes)
     told, judged = ([one for one in found if one.code == "five-bar.root"] for found in (
         FAMILY.check(params), FAMILY.judge(params)))  # fmt: skip
     assert [one.severity for one in judged] == [one.severity for one in told]
@@ -139,7 +139,7 @@ def test_a_judge_finds_what_a_check_finds_without_what_would_bear_more(changes):
 
 
 def test_shapes_and_masses_follow_from_no_load():
-    quiet, loud = FiveBarParams(), FiveBarParams(speed=300.0, load_x=50.0, load_y=-20.0)
+    quiet, loud = SizedParams(), SizedParams(speed=300.0, load_x=50.0, load_y=-20.0)
     assert masses_of(quiet) is masses_of(loud)
     assert peaks_of(loud)["force_A"].value > peaks_of(quiet)["force_A"].value
-    assert masses_of(FiveBarParams(material="steel"))["crank"].mass > 2 * masses_of(quiet)["crank"].mass
+    assert masses_of(SizedParams(material="steel"))["crank"].mass > 2 * masses_of(quiet)["crank"].mass

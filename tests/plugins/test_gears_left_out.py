@@ -18,8 +18,8 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.undercut import is_undercut as ellipse_undercut
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.shape_checks import is_undercut
+from mechwright_noncircular_gears.sized import SizedParams
 
 LEFT_OUT = ("dedendum", "tip_radius", "teeth", "thickness", "bore")
 
@@ -57,7 +57,7 @@ def test_teeth_mesh_at_the_offset_that_is_given():
 
 @pytest.mark.parametrize("lobes", [2, 3, 4, 5])
 def test_teeth_of_several_lobes_are_whole_and_the_least_that_can_be_cut(lobes):
-    chosen = NoncircularParams(lobes=lobes)
+    chosen = SizedParams(lobes=lobes)
     assert chosen.teeth % lobes == 0
     assert not is_undercut(chosen)
     fewer = chosen.model_copy(update={"teeth": chosen.teeth - lobes})
@@ -125,5 +125,5 @@ def test_many_pairs_have_what_each_would_have_by_itself():
 
 
 def test_a_study_of_lobes_refuses_none_for_teeth_that_are_left_out():
-    batch = Batch(NoncircularParams, {"law": "ellipse"}, {"lobes": np.array([1, 2, 3])})
+    batch = Batch(SizedParams, {"law": "ellipse"}, {"lobes": np.array([1, 2, 3])})
     assert not NoncircularGears().evaluate(batch, ("ratio_max",), Stage.MOTION).forbidden.any()

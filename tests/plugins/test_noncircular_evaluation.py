@@ -9,7 +9,7 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
 from mechwright_noncircular_gears.evaluation import answer, covered
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()
 
@@ -21,7 +21,7 @@ COLUMNS = (
 def batch(content, size, **ranges):
     rng = np.random.default_rng(2)
     varied = {name: rng.uniform(*ends, size) for name, ends in ranges.items()}
-    return Batch(NoncircularParams, {"centre_distance": 90.0, **content}, varied)
+    return Batch(SizedParams, {"centre_distance": 90.0, **content}, varied)
 
 
 STUDIES = {
@@ -76,4 +76,4 @@ def test_teeth_are_looked_at_one_by_one():
     ],
 )
 def test_other_laws_are_left_to_each(content):
-    assert not covered(Designs(NoncircularParams.model_validate(content), {"speed": np.array([60.0])}))
+    assert not covered(Designs(SizedParams.model_validate(content), {"speed": np.array([60.0])}))

@@ -19,13 +19,13 @@ from mechwright_noncircular_gears.fit.requirements import (
 from mechwright_noncircular_gears.fit.search import fitted
 from mechwright_noncircular_gears.fit.waves import Asked, Waves
 from mechwright_noncircular_gears.law import extremes_of, law_of
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of
+from mechwright_noncircular_gears.sized import SizedParams
 
 STEP = 1e-4
 
 
-def best(kind: str, **wanted: object) -> tuple[NoncircularParams, dict[str, float]]:
+def best(kind: str, **wanted: object) -> tuple[SizedParams, dict[str, float]]:
     requirement = REQUIREMENTS[kind].model_validate(wanted)
     found = NoncircularGears().synthesise(kind, requirement, lambda *_: None)
     assert not found.findings
@@ -99,7 +99,7 @@ def test_a_quick_return_is_as_quick_as_it_is_asked_and_flatter_than_a_window() -
     # A window of constant ratio over the same part of the turn, however soft its blends, is steeper.
     for blend in (40, 60, 75):
         width = math.degrees(slow) - blend
-        window = NoncircularParams.model_validate(
+        window = SizedParams.model_validate(
             {"law": "window", "window": width, "blend": blend, "window_ratio": math.pi / slow}
         )
         assert extremes_of(window).steepest.value > told["residual"]

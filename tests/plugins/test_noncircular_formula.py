@@ -10,11 +10,11 @@ from pydantic import ValidationError
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.law_checks import law_findings, runs
 from mechwright_noncircular_gears.laws.formula import RatioFormula
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 
 def found(law: str, text: str, **more: object) -> dict[str, object]:
-    made = NoncircularParams.model_validate({"law": law, law: text, **more})
+    made = SizedParams.model_validate({"law": law, law: text, **more})
     return {one.code: one for one in law_findings(made)}
 
 
@@ -44,7 +44,7 @@ def test_a_formula_is_the_law_of_the_other_keys(name: str, table: dict[str, obje
     if name == "D8":
         a = float(1 + 1 / other.rates(np.array(math.pi / 4))[0])  # r1 = 1 at 45 degrees
         table["ratio"] = f"(1+0.25*cos(2*phi))/({a!r} - 1 - 0.25*cos(2*phi))"
-    law = law_of(NoncircularParams.model_validate({"teeth": 40, **table}))
+    law = law_of(SizedParams.model_validate({"teeth": 40, **table}))
     phi = np.linspace(-7, 9, 301)
     assert np.abs(law.angle(phi) - other.angle(phi)).max() < 1e-12
     for one, two in zip(law.rates(phi), other.rates(phi), strict=True):
@@ -92,7 +92,7 @@ def test_what_is_no_law_is_told_with_its_place(law: str, text: str, code: str) -
 def test_the_nearest_law_that_turns_on_is_near() -> None:
     """The proposed constant leaves a ratio just above 0, so that no smaller one would do."""
     (change,) = found("ratio", "1 + 1.2*cos(phi)")["law.turns-back"].proposed
-    better = NoncircularParams(law="ratio", ratio=change["parameters.ratio"])
+    better = SizedParams(law="ratio", ratio=change["parameters.ratio"])
     assert runs(better)
     assert law_of(better).rates(np.array(math.pi))[0] < 2.5e-3
 
@@ -105,4 +105,4 @@ def test_a_formula_is_for_its_law_alone() -> None:
         ({"law": "angle", "angle": "theta"}, "'theta' is no part"),
     ):
         with pytest.raises(ValidationError, match=words):
-            NoncircularParams.model_validate(table)
+            SizedParams.model_validate(table)

@@ -18,7 +18,7 @@ from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of, teeth_of
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 
 @settings(max_examples=examples(6, 60), deadline=None)
@@ -75,7 +75,7 @@ def test_ratio_has_no_jump_up_to_its_second_derivative_but_in_the_ramp(name: str
 def test_fields_that_do_not_go_together_are_refused(fields: dict[str, object], said: str) -> None:
     """With what to do."""
     with pytest.raises(ValueError, match=said):
-        NoncircularParams.model_validate({"law": "geneva", **fields})
+        SizedParams.model_validate({"law": "geneva", **fields})
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
     Each of six curves of a tooth is a segment or two, finer ones where the lever is short, and one more for each
     jump that it crosses.
     """
-    params = NoncircularParams(law="geneva", slots=slots, window=window, teeth=teeth, ramp=ramp)
+    params = SizedParams(law="geneva", slots=slots, window=window, teeth=teeth, ramp=ramp)
     for teeth_of_one, outline in zip(teeth_of(params), outlines_of(params), strict=True):
         curve = teeth_of_one.curve
         assert curve.breaks.size == 2
@@ -107,7 +107,7 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
 
 def test_the_nearest_index_that_works_is_named() -> None:
     """A longer move and a longer ramp, as little as the shaper needs, with the blends that fit beside it."""
-    params = NoncircularParams.model_validate(
+    params = SizedParams.model_validate(
         {"law": "geneva", "slots": 3, "ramp": 0.337, "window": 164, "teeth": 37}
     )
     (wrong,) = errors(NoncircularGears().check(params))
@@ -115,5 +115,5 @@ def test_the_nearest_index_that_works_is_named() -> None:
     change = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
     assert 164 < change["window"] < 190
     assert 0.337 < change["ramp"] < 0.42
-    nearest = NoncircularParams.model_validate({**params.model_dump(), **change})
+    nearest = SizedParams.model_validate({**params.model_dump(), **change})
     assert wrong.code not in [one.code for one in errors(NoncircularGears().judge(nearest))]

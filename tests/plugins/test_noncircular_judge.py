@@ -7,7 +7,7 @@ from mechwright.contracts.finding import errors
 from mechwright_noncircular_gears.checks import findings, judged
 from mechwright_noncircular_gears.gear import pair_of, teeth_of
 from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 REFUSED = (
     {"sines": [60.0]},
@@ -21,8 +21,8 @@ REFUSED = (
 """Tables whose errors have advice that has to be sought."""
 
 
-def params_of(table: dict[str, object]) -> NoncircularParams:
-    return NoncircularParams.model_validate(table)
+def params_of(table: dict[str, object]) -> SizedParams:
+    return SizedParams.model_validate(table)
 
 
 @pytest.mark.parametrize("table", REFUSED)

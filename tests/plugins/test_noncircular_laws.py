@@ -17,8 +17,8 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.laws.fourier import FourierLaw
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.proof import prove
+from mechwright_noncircular_gears.sized import SizedParams
 
 STEP = 1e-5
 SMOOTH = 2e-8
@@ -179,6 +179,6 @@ def test_tables_that_are_no_lobe_are_refused(nodes, said):
 def test_small_gears_turn_as_exactly_as_large_ones(module: float) -> None:
     """The ovals of a flowmeter: the smaller the driven gear, the nearer its flanks to the exact ones."""
     table = {"law": "ellipse", "lobes": 2, "mate_lobes": 2, "eccentricity": 0.2, "teeth": 30, "bore": 3}
-    proof = prove(NoncircularParams.model_validate({**table, "module": module}))
+    proof = prove(SizedParams.model_validate({**table, "module": module}))
     assert not proof.collides
     assert proof.error < 6e-6

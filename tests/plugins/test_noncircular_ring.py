@@ -13,9 +13,9 @@ from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of, pair_of, rack_of, racks_of, rim_of, teeth_of
 from mechwright_noncircular_gears.law import law_of
 from mechwright_noncircular_gears.motion import motion_of
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.parts import mill_for_fillets, parts_of
 from mechwright_noncircular_gears.proof import collides
+from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()
 SMALL = {"teeth": 16, "mate_lobes": 2, "addendum": 0.5, "tip_radius": 0.05, "shaper_radius": 6, "bore": 4}
@@ -142,7 +142,7 @@ def test_what_no_ring_can_be_is_named_and_mended(table, code, key):
     if key:
         changes = {name.removeprefix("parameters."): value for name, value in found[0].proposed[0].items()}
         assert key in changes
-        mended = NoncircularParams.model_validate({**params.model_dump(), **changes})
+        mended = SizedParams.model_validate({**params.model_dump(), **changes})
         assert code not in [one.code for one in errors(FAMILY.judge(mended), Stage.MACHINING)]
 
 
@@ -180,7 +180,7 @@ def test_a_ring_is_in_balance_and_the_gear_in_it_is_not():
 
 def test_a_driver_without_room_in_its_ring_is_told_by_the_pitch_curves_with_the_nearest_law():
     """Its teeth were run against the ring's for minutes until a remedy was found."""
-    wide = NoncircularParams(
+    wide = SizedParams(
         law="ratio",
         ratio="exp(-0.37*cos(phi) + 0.11*sin(2*phi))",
         teeth=36,

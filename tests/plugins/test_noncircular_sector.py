@@ -15,8 +15,8 @@ from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import curves_of, outlines_of, pair_of, rack_of, teeth_of
 from mechwright_noncircular_gears.law import extremes_of, law_of
 from mechwright_noncircular_gears.laws.sector import SectorLaw
-from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.proof import prove
+from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()
 
@@ -29,11 +29,11 @@ ANGLE = {"law": "angle", "angle": "2 + phi + 0.2*phi^2", "sector": 90, "teeth": 
 ALL = {"spiral": SPIRAL, "wave": WAVE, "far": FAR, "table": TABLE, "angle": ANGLE}
 
 
-def design(table: dict[str, object], **changes: object) -> NoncircularParams:
-    return NoncircularParams.model_validate({**table, **changes})
+def design(table: dict[str, object], **changes: object) -> SizedParams:
+    return SizedParams.model_validate({**table, **changes})
 
 
-def sector_law(params: NoncircularParams) -> SectorLaw:
+def sector_law(params: SizedParams) -> SectorLaw:
     law = law_of(params)
     assert isinstance(law, SectorLaw)
     return law
@@ -166,7 +166,7 @@ def test_a_swing_there_and_back() -> None:
 )
 def test_tables_that_are_no_sectors(changes: dict[str, object], said: str) -> None:
     with pytest.raises(ValidationError, match=said):
-        NoncircularParams.model_validate(changes)
+        SizedParams.model_validate(changes)
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,7 @@ def test_tables_that_are_no_sectors(changes: dict[str, object], said: str) -> No
 )
 def test_findings_of_sectors(changes: dict[str, object], code: str) -> None:
     """By name; where there is a change, one of them gets past it."""
-    params = NoncircularParams.model_validate({"bore": 6, **changes})
+    params = SizedParams.model_validate({"bore": 6, **changes})
     wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code == code
     assert wrong.remedy
@@ -199,7 +199,7 @@ def test_findings_of_sectors(changes: dict[str, object], code: str) -> None:
     passed = []
     for change in wrong.proposed:
         own = {key.removeprefix("parameters."): value for key, value in change.items()}
-        mended = NoncircularParams.model_validate({**params.model_dump(), **own})
+        mended = SizedParams.model_validate({**params.model_dump(), **own})
         passed.append(code not in [one.code for one in errors(FAMILY.judge(mended), Stage.PARTS)])
     assert any(passed)
 

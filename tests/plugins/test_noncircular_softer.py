@@ -12,7 +12,7 @@ from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Primitive
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.law import extremes_of, fastest_of, law_of, slowest_of
-from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()
 
@@ -47,13 +47,13 @@ def test_jumps_are_still_found() -> None:
     ],
 )
 def test_refused_with_a_change_that_gets_past_it(table: dict[str, object]) -> None:
-    params = NoncircularParams.model_validate({**table, "bore": 4, "cutter": "rack"})
+    params = SizedParams.model_validate({**table, "bore": 4, "cutter": "rack"})
     wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code in {"law.turns-back", "gear.convexity"}
     passed = []
     for change in wrong.proposed:
         own = {key.removeprefix("parameters."): value for key, value in change.items()}
-        softer = NoncircularParams.model_validate({**params.model_dump(), **own})
+        softer = SizedParams.model_validate({**params.model_dump(), **own})
         passed.append(wrong.code not in [one.code for one in errors(FAMILY.judge(softer), Stage.PARTS)])
     assert any(passed)
 
@@ -70,7 +70,7 @@ RING = {"law": "window", "teeth": 37, "mate_lobes": 2, "internal": True, "window
 )
 def test_tips_of_both_gears_are_made_lower_at_once(table: dict[str, object]) -> None:
     """Where both would run into fillets, the change of the first finding leaves none of the other gear."""
-    params = NoncircularParams.model_validate({**table, "bore": 4})
+    params = SizedParams.model_validate({**table, "bore": 4})
     wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code == "gear.tip-fillet"
     own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
@@ -97,11 +97,11 @@ def test_a_law_that_cannot_run_is_told_with_the_nearest_that_can_be_built(
     table: dict[str, object], code: str
 ) -> None:
     """The last of what is proposed leaves no error at all, and keeps a change of ratio."""
-    params = NoncircularParams.model_validate({**table, "bore": 4})
+    params = SizedParams.model_validate({**table, "bore": 4})
     wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code == code
     own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[-1].items()}
-    near = NoncircularParams.model_validate({**params.model_dump(), **own})
+    near = SizedParams.model_validate({**params.model_dump(), **own})
     assert not errors(FAMILY.judge(near), Stage.PARTS)
     found = extremes_of(near)
     assert found.fastest.value > 1.05 * found.slowest.value
@@ -109,10 +109,10 @@ def test_a_law_that_cannot_run_is_told_with_the_nearest_that_can_be_built(
 
 def test_the_fit_of_a_formula_with_a_corner_is_near_it() -> None:
     """Away from the corner the harmonics are within a hundredth of the ratio that was asked for."""
-    asked = NoncircularParams.model_validate({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)", "bore": 4})
+    asked = SizedParams.model_validate({"law": "ratio", "ratio": "1 + 0.3*sqrt(sin(phi)^2)", "bore": 4})
     own = errors(FAMILY.check(asked))[0].proposed[-1]
     fields = {key.removeprefix("parameters."): value for key, value in own.items()}
-    near = NoncircularParams.model_validate({**asked.model_dump(), **fields})
+    near = SizedParams.model_validate({**asked.model_dump(), **fields})
     phi = np.linspace(0.5, math.pi - 0.5, 41)
     wanted = (1 + 0.3 * np.sin(phi)) / (1 + 0.6 / math.pi)
     assert np.abs(law_of(near).rates(phi)[0] - wanted).max() < 0.012
@@ -121,17 +121,17 @@ def test_the_fit_of_a_formula_with_a_corner_is_near_it() -> None:
 @pytest.mark.parametrize("nodes", [[[0, 0], [1, 0.9], [2, 1.8], [4, 4.2], [6, 6]]])
 def test_a_table_in_rad_is_told(nodes: list[list[float]]) -> None:
     with pytest.raises(ValueError, match="as angles in rad would; write them in degrees"):
-        NoncircularParams.model_validate({"law": "table", "nodes": nodes})
+        SizedParams.model_validate({"law": "table", "nodes": nodes})
 
 
 def test_a_steep_formula_keeps_its_ratios_and_not_its_steepness() -> None:
     """Softened until gears could be made it would be next to constant: its harmonics keep half of the change."""
     table = {"law": "ratio", "ratio": "1 + 0.3*tanh(80*sin(phi))", "bore": 4}
-    params = NoncircularParams.model_validate(table)
+    params = SizedParams.model_validate(table)
     wrong = errors(FAMILY.check(params), Stage.PARTS)[0]
     assert wrong.code == "gear.convexity"
     own = {key.removeprefix("parameters."): value for key, value in wrong.proposed[0].items()}
-    mended = NoncircularParams.model_validate({**params.model_dump(), **own})
+    mended = SizedParams.model_validate({**params.model_dump(), **own})
     assert not errors(FAMILY.judge(mended), Stage.PARTS)
     law = law_of(mended)
     assert fastest_of(law).value - slowest_of(law).value > 0.3

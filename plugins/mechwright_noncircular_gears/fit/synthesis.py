@@ -14,6 +14,7 @@ from mechwright_noncircular_gears.fit.search import DENSE, STARTS, Fitted, fitte
 from mechwright_noncircular_gears.fit.waves import Asked, Waves
 from mechwright_noncircular_gears.law import extremes_of
 from mechwright_noncircular_gears.params import NoncircularParams
+from mechwright_noncircular_gears.sized import SizedParams
 
 DIGITS = 5
 """Decimals of amplitudes, degrees: 0.2 µrad."""
@@ -59,9 +60,7 @@ def _params(wanted: FitRequirement, law: Fitted) -> NoncircularParams:
         for name in ("sines", "cosines")
         if getattr(law, name)
     }
-    return NoncircularParams.model_validate(
-        {**wanted.model_dump(include=same), "law": "fourier", **amplitudes}
-    )
+    return SizedParams.model_validate({**wanted.model_dump(include=same), "law": "fourier", **amplitudes})
 
 
 def _with_room(params: NoncircularParams) -> NoncircularParams:
