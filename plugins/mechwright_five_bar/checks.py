@@ -114,19 +114,9 @@ def _others(params: FiveBarParams) -> Iterator[Finding]:
 def _out_of_reach(params: FiveBarParams) -> Finding:
     """A swing that the links do not reach."""
     assert params.swing_from is not None and params.swing_to is not None  # noqa: S101, PT018
-    ways, one, two = ways_about(params), params.swing_from, params.swing_to
-    said = " or ".join(f"{low:.3f} to {high:.3f}" for low, high in ways)
-    key, value, limit = swing.past(ways, one, two)
-    return Finding.error(
-        "five-bar.swing",
-        key,
-        f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
-        f"{math.degrees(TURN_BACK):g} degree of transmission angle before its toggles",
-        value,
-        limit,
-        "deg",
-        f"keep swing_from and swing_to within {said}",
-        proposed=(*swing.shortened(ways, one, two), swing.LEFT_OUT),
+    ways = ways_about(params)
+    return swing.out_of_reach(
+        "five-bar.swing", ways, params.swing_from, params.swing_to, math.degrees(TURN_BACK)
     )
 
 

@@ -215,6 +215,5 @@ def course_of(params: FiveBarParams) -> Course:
     if is_lever(params):
         ends = within(params)
         assert ends is not None  # noqa: S101 - the checks come first
-        one, two = ends if params.swing_from is not None or sense > 0 else ends[::-1]
-        return Course(one, two - one, rocks=True)
+        return Course.between(*(ends if params.swing_from is not None or sense > 0 else ends[::-1]))
     return Course(0.0, sense * bar.turns * math.tau)

@@ -93,7 +93,6 @@ def _accelerates(params: FourBarParams) -> Iterator[Finding]:
 def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
     """A swing that the links do not reach."""
     ways = reach(bar, TURN_BACK)
-    said = " or ".join(f"{_degrees(one, bar)} to {_degrees(two, bar)}" for one, two in ways)
     if params.swing_from is None or params.swing_to is None or not ways:
         parameter, value, near, remedy = _nearest_turning(bar, LEAST_ROOM * max(bar.lengths))
         return Finding.error(
@@ -105,21 +104,11 @@ def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
             "mm",
             remedy,
         )
-    one, two = params.swing_from, params.swing_to
     turned = [
         (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
     ]
-    key, value, limit = swing.past(turned, one, two)
-    return Finding.error(
-        "four-bar.swing",
-        key,
-        f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
-        f"{math.degrees(TURN_BACK):g} degree of transmission angle before its toggles",
-        value,
-        limit,
-        "deg",
-        f"keep swing_from and swing_to within {said}",
-        proposed=(*swing.shortened(turned, one, two), swing.LEFT_OUT),
+    return swing.out_of_reach(
+        "four-bar.swing", turned, params.swing_from, params.swing_to, math.degrees(TURN_BACK)
     )
 
 

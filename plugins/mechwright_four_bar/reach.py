@@ -103,7 +103,6 @@ def course_of(params: FourBarParams) -> Course:
     if is_lever(params):
         ends = within(params)
         assert ends is not None  # noqa: S101 - the checks come first
-        one, two = ends if params.swing_from is not None or sense > 0 else ends[::-1]
-        return Course(one, two - one, rocks=True)
+        return Course.between(*(ends if params.swing_from is not None or sense > 0 else ends[::-1]))
     turns = turns_to_close(bar) if bar.lines_up else 1
     return Course(0.0, sense * turns * math.tau, acceleration_ratio=params.acceleration_ratio)

@@ -45,6 +45,11 @@ class Course:
     rocks: bool = False
     acceleration_ratio: float = 0.0
 
+    @classmethod
+    def between(cls, one: float, two: float) -> "Course":
+        """Of a lever that swings from ``one`` to ``two`` and back, rad."""
+        return cls(one, two - one, rocks=True)
+
     def way(self, samples: Samples) -> Array:
         """Input angles (samples,), rad, once along, both ends included; raises as :func:`travelled` does."""
         return travelled(self.travel, samples, self.start)

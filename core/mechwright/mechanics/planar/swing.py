@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.finding import Change
+from mechwright.contracts.finding import Change, Finding
 
 SLACK = 1e-9
 """rad. A lever that shall go this much beyond its way goes to the end of it: rounding of degrees."""
@@ -123,3 +123,23 @@ def shortened(ways: Sequence[Way], one: float, two: float) -> tuple[Change, ...]
     ends = [min(max(end, low), high) for end in (one, two)]
     fits = abs(ends[0] - ends[1]) >= LEAST and all(-360 <= end <= 360 for end in ends)
     return (dict(zip(_KEYS, ends, strict=True)),) if fits else ()
+
+
+def out_of_reach(code: str, ways: Sequence[Way], one: float, two: float, back: float) -> Finding:
+    """The error of a swing that no way has room for, with as much of it as there is room for.
+
+    All in degrees; ``back`` is the transmission angle at which a way ends. There is a way.
+    """
+    said = " or ".join(f"{low:.3f} to {high:.3f}" for low, high in ways)
+    key, value, limit = past(ways, one, two)
+    return Finding.error(
+        code,
+        key,
+        f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
+        f"{back:g} degree of transmission angle before its toggles",
+        value,
+        limit,
+        "deg",
+        f"keep swing_from and swing_to within {said}",
+        proposed=(*shortened(ways, one, two), LEFT_OUT),
+    )
