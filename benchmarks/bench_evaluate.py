@@ -21,8 +21,9 @@ import numpy as np
 from harness import require
 from numpy.typing import NDArray
 
-from mechwright.contracts.evaluation import SAMPLES, Batch, Columns
+from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.contracts.family import Family
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.plugins.host import host
 from mechwright.sweep.draw import drawn
 from mechwright.sweep.study import Study, study_of

@@ -40,6 +40,11 @@ class Tolerances:
 TOLERANCES = Tolerances()
 """The tolerances in force."""
 
+OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
+"""mm by which two wheels on two holes of a base may be out of place. A hole that keeps the leftover limit on
+one side and is cut too deep by the gouge limit on the other has its middle off by half of both; there are
+four."""
+
 
 def exceeds(value: float, limit: float) -> bool:
     """Whether a value is above a limit; one that reaches it exactly is not, whatever rounding made of it.

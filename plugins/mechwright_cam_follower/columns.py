@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array
 from mechwright.contracts.by_arrays import Answer
-from mechwright.contracts.evaluation import SAMPLES
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.mechanics.laws import Rates
 from mechwright_cam_follower.cycle import cycle_of
 from mechwright_cam_follower.extremes import convex_of, greatest

@@ -19,12 +19,9 @@ import numpy as np
 
 from mechwright import Array, material
 from mechwright.mechanics.laws import Rates
-from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
+from mechwright.mechanics.strength.hertz import SHARPEST, contact_modulus, line_pressure, relative_radius
 from mechwright_cam_follower.geometry import Contact
 from mechwright_cam_follower.sized import Sized, V
-
-SHARPEST = 1e-3
-"""Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
 
 LOCKED = 89.0
 """Degrees of pressure angle beyond which a cam locks and does not push; forces are told as those there."""

@@ -18,7 +18,8 @@ import math
 import numpy as np
 
 from mechwright import Array
-from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash, whole
+from mechwright.mechanics.gearing.backlash import LEFT, PLANNED, pair_backlash, whole
+from mechwright.tolerances import OFF_CENTRE
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 

@@ -7,11 +7,9 @@ import numpy as np
 
 from mechwright import FittingMark, Point
 from mechwright.arrays import Array
+from mechwright.mechanics.gearing.usual import DOT
 from mechwright_elliptic_gears.gear import ellipse_of, outline_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-UNDER = 1.5
-"""How far below the roots of the teeth a dot stands, mm."""
 
 
 def gear_marks(
@@ -74,6 +72,6 @@ def _tips(params: EllipticGearParams) -> Array:
 def _below(tips: Array, params: EllipticGearParams) -> list[Point]:
     """A place under each tooth."""
     rack = rack_of(params)
-    deep = rack.addendum + rack.dedendum + UNDER
+    deep = rack.addendum + rack.dedendum + DOT
     inwards = tips * (1 - deep / np.abs(tips))
     return [(round(float(at.real), 4), round(float(at.imag), 4)) for at in inwards]

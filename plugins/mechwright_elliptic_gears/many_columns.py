@@ -9,7 +9,8 @@ from scipy.special import ellipe
 
 from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
-from mechwright.contracts.evaluation import SAMPLES, told
+from mechwright.contracts.evaluation import told
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.stretch import travelled
 from mechwright_elliptic_gears.kinematics import Turning, alpha_peak, jerk_peak
 from mechwright_elliptic_gears.motion import pair_channels

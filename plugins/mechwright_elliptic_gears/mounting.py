@@ -3,12 +3,10 @@
 import math
 
 from mechwright import GroundPlate, Hub, Mounting, MountingError, Spindle
+from mechwright.contracts.mounting import SCREW_HOLE
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.layout import OUTWARDS, Layout, screw_offset_of, screw_places
 from mechwright_elliptic_gears.params import EllipticGearParams
-
-SCREW_HOLE = 6.0
-"""That is advised, mm: for M5."""
 
 
 def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:

@@ -21,10 +21,10 @@ from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.materials import material
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
+from mechwright.mechanics.linkage.stacking import STACK_SAMPLES
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import root_stress
-from mechwright_five_bar.hardware import HEAD, HEAD_HEIGHT
-from mechwright_five_bar.layout import STACK_SAMPLES
 from mechwright_five_bar.masses import MILLI
 from mechwright_five_bar.reach import bar_of
 from mechwright_five_bar.usual import ADDENDUM, DEDENDUM
@@ -183,7 +183,7 @@ def teeth_bear(
     force = b * in_b1 * MILLI / gears.radius("wheel")
     face: Any = designs["gear_thickness"]
     module: Any = gears.module
-    breaks = _of_material(designs, lambda name: share * allowed(name).root)
+    breaks = designs.figures("material", lambda name: share * allowed(name).root)
     sure = np.ones(len(designs), bool)
     for teeth in gears.teeth.values():
         sure &= root_stress(force, face, module, float(teeth)) <= breaks
@@ -206,11 +206,6 @@ def _reach(designs: Designs) -> Array:
     return np.asarray(np.hypot(designs.full("coupler_point_x"), designs.full("coupler_point_y")))
 
 
-def _of_material(designs: Designs, figure: Any) -> Array:
-    names, which = np.unique(designs.full("material").astype(str), return_inverse=True)
-    return np.array([figure(name) for name in names.tolist()])[which]
-
-
 def _inertias(designs: Designs, bars: Bars, bore: Any) -> list[tuple[Array, Array, Array]]:
     """Of coupler and rocker, or more: mass, kg, farthest place, mm, and moment about A or B1, kg mm²."""
     pin, thickness, half = designs["pin_diameter"], designs["thickness"], bore / 2 + designs["rim"]
@@ -219,7 +214,7 @@ def _inertias(designs: Designs, bars: Bars, bore: Any) -> list[tuple[Array, Arra
     heavy = material(PIN_MATERIAL).density * 1e-6 * math.pi / 4
     pinned = heavy * (pin**2 * high + (HEAD * pin) ** 2 * HEAD_HEIGHT * pin)
     bush = material(BUSHING_MATERIAL).density * 1e-6 * math.pi / 4 * bore**2 * thickness
-    sheet = _of_material(designs, lambda name: material(name).density) * 1e-6 * thickness
+    sheet = designs.figures("material", lambda name: material(name).density) * 1e-6 * thickness
     x, y, c = designs["coupler_point_x"], designs["coupler_point_y"], bars.coupler
     away, there = np.hypot(x, y), np.hypot(x - c, y)
     area = c * np.abs(y) / 2 + (c + away + there) * half + math.pi * half**2

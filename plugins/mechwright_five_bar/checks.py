@@ -14,7 +14,9 @@ from mechwright.contracts.finding import Change
 from mechwright.mechanics.gearing.usual import chosen
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
+from mechwright.mechanics.strength.judging import SLOWEST
 from mechwright.mechanics.strength.pressure import most_pressed, too_pressed
 from mechwright.tolerances import falls_short
 from mechwright_five_bar.clamp_checks import clamps_hold, places_apart
@@ -25,7 +27,6 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.peaks import JOINTS, loads_of, roughly_loaded
 from mechwright_five_bar.phases import phases_of
 from mechwright_five_bar.reach import (
-    TURN_BACK,
     bar_of,
     course_of,
     is_lever,
@@ -41,12 +42,6 @@ from mechwright_five_bar.usual import USUAL, USUAL_TEETH, modules
 
 GOOD_TRANSMISSION = 40.0
 """Degrees below which the coupler mainly presses the rocker into its bearing (VDI 2127: 40 to 50)."""
-
-LEAST_TRANSMISSION = math.degrees(TURN_BACK)
-"""Degrees below which play and bending let the linkage change its branch."""
-
-SLOWEST = 1.0
-"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
 
 
 @kept

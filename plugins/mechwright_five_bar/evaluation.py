@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
-from mechwright.contracts.evaluation import SAMPLES
+from mechwright.contracts.sampling import SAMPLES
+from mechwright.mechanics.peak import PEAK_SAMPLES
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.mechanics.strength.allowed import REVERSING_ROOT, ROOT_SAFETY
 from mechwright.tolerances import falls_short
 from mechwright_five_bar import period_kernels as kernels
@@ -22,8 +24,7 @@ from mechwright_five_bar.bounds import Bars, Gears, stands, teeth_bear
 from mechwright_five_bar.limits import USUAL_FACE
 from mechwright_five_bar.many_masses import give_masses
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import PEAK_SAMPLES
-from mechwright_five_bar.reach import PER_TURN, TURN_BACK
+from mechwright_five_bar.reach import PER_TURN
 from mechwright_five_bar.usual import with_sizes
 
 _APART = {

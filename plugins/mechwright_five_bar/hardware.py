@@ -1,13 +1,8 @@
 """Sizes that plates and joints share: bores, heads, and the clamp that belongs to the pins."""
 
 from mechwright.mechanics.linkage.clamp import Clamp, clamps
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright_five_bar.params import FiveBarParams
-
-HEAD, HEAD_HEIGHT = 1.6, 0.3
-"""Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
-
-SHAFT = 3.0
-"""Length of the drive shaft below its gear, in pin diameters: room for a coupling."""
 
 
 def turning_bore(params: FiveBarParams) -> float:

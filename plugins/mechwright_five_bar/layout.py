@@ -25,6 +25,8 @@ from mechwright.mechanics.linkage import (
     stack,
     web_link,
 )
+from mechwright.mechanics.linkage.outlines import FILLET
+from mechwright.mechanics.linkage.stacking import STACK_SAMPLES
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_five_bar.hardware import clamp_of_design, head_of, turning_bore
 from mechwright_five_bar.hub import Hub, hub_of
@@ -34,12 +36,6 @@ from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.phases import phases_of, settings_of
 from mechwright_five_bar.reach import bar_of, course_of
 from mechwright_five_bar.train import Train, gear_outlines, train_of
-
-FILLET = 5.0
-"""Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
-
-STACK_SAMPLES = 361
-"""Positions of the crank per turn, both ends included, at which plates are kept apart."""
 
 
 @dataclass(frozen=True)

@@ -21,9 +21,9 @@ from mechwright.contracts.materials import material
 from mechwright.mechanics.gearing.round_area import round_area
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.linkage.areas import circle_area, hull_area, rectangle_area, straight_area
+from mechwright.mechanics.linkage.outlines import FILLET
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, SHAFT
 from mechwright_five_bar.bounds import Gears
-from mechwright_five_bar.hardware import HEAD, HEAD_HEIGHT, SHAFT
-from mechwright_five_bar.layout import FILLET
 from mechwright_five_bar.masses import MOVING
 from mechwright_five_bar.plates import BELOW
 from mechwright_five_bar.train import PRESSURE_ANGLE, TIP_RADIUS

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Channel, Finding, KinematicsError, Motion, Scalar, Stage, Trace
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import errors, refuse
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar.channels import point_channels, rate_channels, turning_channels
 from mechwright_five_bar.checks import findings
@@ -35,8 +35,7 @@ def motion_of(params: FiveBarParams, samples: Samples) -> Motion:
 def check_moves(params: FiveBarParams) -> Sequence[Finding]:
     """What is found of a design that moves; raises as :func:`motion_of`."""
     found = findings(params)
-    for finding in errors(found, Stage.MOTION):
-        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    refuse(found, Stage.MOTION, KinematicsError)
     return found
 
 

@@ -1,14 +1,12 @@
 """The ground plate over its gears, from which a base, legs and a motor can follow."""
 
 from mechwright import GroundPlate, MountingError
+from mechwright.contracts.mounting import SCREW_HOLE
 from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.hub import Hub, hub_of
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.plates import spans_of
 from mechwright_five_bar.train import train_of
-
-SCREW_HOLE = 6.0
-"""That is advised, mm: for M5."""
 
 KEY_ROOM = 1.0
 """Around the heads of the clamp's screws, mm, in the way of a key to them."""

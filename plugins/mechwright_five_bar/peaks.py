@@ -9,14 +9,12 @@ import numpy as np
 
 from mechwright import Array, Scalar, kept
 from mechwright.contracts.stretch import Samples
+from mechwright.mechanics.peak import PEAK_SAMPLES
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_five_bar.loop import Loop, close
 from mechwright_five_bar.masses import MILLI, Carried, carried_of, masses_of, wheel_force
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.reach import bar_of, course_of
-
-PEAK_SAMPLES = 1441
-"""Positions per turn at which peaks are sought: four a degree."""
 
 ROUGH_SAMPLES = 181
 """Positions per turn for those who judge hundreds of designs."""

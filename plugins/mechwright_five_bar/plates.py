@@ -7,10 +7,10 @@ from mechwright.contracts.holes import threaded
 from mechwright.contracts.part import Bore
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
-from mechwright.mechanics.linkage.turned import STEEL
+from mechwright.mechanics.linkage.turned import SHAFT, STEEL
 from mechwright.standards.screws import washer
 from mechwright_five_bar.frames import fixed_frames, layout_of
-from mechwright_five_bar.hardware import SHAFT, clamp_of_design, head_of, running_bore, turning_bore
+from mechwright_five_bar.hardware import clamp_of_design, head_of, running_bore, turning_bore
 from mechwright_five_bar.hub import Hub, hub_of
 from mechwright_five_bar.joints import joints_of, slotted
 from mechwright_five_bar.layout import Layout, post_radius

@@ -11,14 +11,12 @@ import numpy as np
 
 from mechwright import Array, kept
 from mechwright.mechanics.planar import Course, swing
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_five_bar.loop import FiveBar
 from mechwright_five_bar.params import FiveBarParams
 
 Interval = tuple[float, float]
 """Crank angles, rad."""
-
-TURN_BACK = math.radians(1.0)
-"""Transmission angle at which a lever turns back before its toggle: beyond it play decides how it goes on."""
 
 PER_TURN = 360
 """Places per turn of the faster of crank and arm between which D² has no two extremes."""

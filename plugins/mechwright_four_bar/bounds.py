@@ -14,12 +14,12 @@ from mechwright import Array
 from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.materials import material
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, SHAFT
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.joints import SHAFT
 from mechwright_four_bar.masses import MICRO, MILLI
 from mechwright_four_bar.period import CIRCLE, Period, bars_of
 from mechwright_four_bar.period_kernels import most_force
-from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, OF_BORE
+from mechwright_four_bar.sizes import OF_BORE
 from mechwright_four_bar.usual import bore_about
 
 MOST_PLATES, MOST_LAYERS = 3, 5
@@ -31,7 +31,7 @@ def bears(designs: Designs, bar: FourBar, period: Period, least: Array) -> NDArr
 
     ``least`` is the least transmission angle (n,), rad; above 0.
     """
-    strength = of_material(designs, "strength")
+    strength = designs.figures("material", lambda name: material(name).strength)
     limit = strength * 2 * designs["rim"] * designs["thickness"]
     inertias = _inertias(designs, bar)
     sure = _rough(bar, period, inertias, np.sin(least)) * MILLI <= limit
@@ -45,12 +45,6 @@ def bears(designs: Designs, bar: FourBar, period: Period, least: Array) -> NDArr
     return np.asarray(sure)
 
 
-def of_material(designs: Designs, figure: str) -> Array:
-    """A figure (n,) of the plates' material."""
-    names, which = np.unique(designs.full("material").astype(str), return_inverse=True)
-    return np.array([getattr(material(name), figure) for name in names.tolist()])[which]
-
-
 def _inertias(designs: Designs, bar: FourBar) -> Array:
     """Bounds (n, 9) as :func:`most_force` wants them."""
     pin, thickness = designs["pin_diameter"], designs["thickness"]
@@ -61,7 +55,7 @@ def _inertias(designs: Designs, bar: FourBar) -> Array:
     pinned = heavy * (pin**2 * (high + HEAD_HEIGHT * pin) + (HEAD * pin) ** 2 * HEAD_HEIGHT * pin)
     shaft = pinned + heavy * pin**2 * SHAFT * pin
     bush = material(BUSHING_MATERIAL).density * 1e-6 * math.pi / 4 * turning**2 * thickness
-    sheet = of_material(designs, "density") * 1e-6 * thickness
+    sheet = designs.figures("material", lambda name: material(name).density) * 1e-6 * thickness
     half, turned = math.pi / 2 * radius**2, (HEAD * pin + turning) ** 2 / 8
 
     def link(length: Any, first: Any, last: Any) -> tuple[Array, Array, Array]:

@@ -8,12 +8,10 @@ from pydantic import ValidationError
 
 from mechwright import Candidate, Rejected, Scalar
 from mechwright.contracts.finding import Severity, errors
+from mechwright.mechanics.adjustable.machine import DIGITS
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
-
-DIGITS = 9
-"""Decimals of lengths and angles in a design: a hundredth of an atom, and no tail of a double to read."""
 
 GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
 """Transmission angle from which a larger one is not worth longer links."""

@@ -12,21 +12,13 @@ from mechwright.contracts.finding import Change
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
+from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright.tolerances import falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phase_checks import clamps_hold, places_apart
 from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none
-from mechwright_four_bar.reach import (
-    TURN_BACK,
-    bar_of,
-    course_of,
-    is_lever,
-    reach,
-    toggles,
-    transmission_of,
-    within,
-)
+from mechwright_four_bar.reach import bar_of, course_of, is_lever, reach, toggles, transmission_of, within
 from mechwright_four_bar.room import above, room_findings
 from mechwright_four_bar.strength_checks import bearing_findings, strength_findings, strength_judged
 from mechwright_four_bar.usual import USUAL
@@ -37,9 +29,6 @@ which way the linkage goes through the line-up is left to chance."""
 
 GOOD_TRANSMISSION = 40.0
 """Degrees below which the coupler mainly presses the follower into its bearing (VDI 2127: 40 to 50)."""
-
-LEAST_TRANSMISSION = math.degrees(TURN_BACK)
-"""Degrees below which play and bending let the linkage change its branch."""
 
 
 @kept

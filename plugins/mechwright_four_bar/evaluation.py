@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
+from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION
 from mechwright.tolerances import falls_short
 from mechwright_four_bar.bounds import bears
-from mechwright_four_bar.checks import LEAST_ROOM, LEAST_TRANSMISSION
+from mechwright_four_bar.checks import LEAST_ROOM
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.many_masses import give_masses
 from mechwright_four_bar.period import Period, give_extremes

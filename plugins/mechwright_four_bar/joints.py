@@ -11,12 +11,10 @@ from dataclasses import dataclass
 from mechwright.mechanics.linkage import Boss
 from mechwright.mechanics.linkage.scale import WIDTH
 from mechwright.mechanics.linkage.slots import ArcSlot
+from mechwright.mechanics.linkage.turned import HEAD_HEIGHT, SHAFT
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import clamp_of_design, set_joints, slotted, spare_holes
-from mechwright_four_bar.sizes import HEAD_HEIGHT, turning_bore
-
-SHAFT = 3.0
-"""Length of a shaft outside its ground plate, in pin diameters: room for a coupling."""
+from mechwright_four_bar.sizes import turning_bore
 
 
 @dataclass(frozen=True)

@@ -23,13 +23,11 @@ from mechwright.mechanics.linkage import (
     stack,
     web_link,
 )
+from mechwright.mechanics.linkage.outlines import FILLET
+from mechwright.mechanics.linkage.turned import HEAD
 from mechwright_four_bar.joints import bosses, joints, raised
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import clamp_of_design, set_joints
-from mechwright_four_bar.sizes import HEAD
-
-FILLET = 5.0
-"""Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
 
 BEND = 2.0
 """Radius of the bent coupler's middle line, in web widths: its inner edge keeps 1.5 of them."""

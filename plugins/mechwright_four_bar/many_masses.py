@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from mechwright import material
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.masses import OF_PART
 from mechwright.mechanics.linkage.areas import circle_area, hull_area, straight_area
-from mechwright_four_bar.bounds import of_material
-from mechwright_four_bar.layout import FILLET
+from mechwright.mechanics.linkage.outlines import FILLET
 from mechwright_four_bar.sizes import OF_BORE
 from mechwright_four_bar.usual import bore_about
 
@@ -23,7 +23,9 @@ def give_masses(found: Answer, columns: Collection[str], designs: Designs) -> No
     """Give the masses of links that are asked for and need no layers."""
     pin, turning = designs["pin_diameter"], bore_about(*(designs[name] for name in OF_BORE))
     small, large = pin / 2 + designs["rim"], turning / 2 + designs["rim"]
-    sheet = KILOGRAMS * of_material(designs, "density") * designs["thickness"]
+    sheet = (
+        KILOGRAMS * designs.figures("material", lambda name: material(name).density) * designs["thickness"]
+    )
 
     def straight(length: Any, radius: Any, bore: Any) -> Any:
         area = straight_area(length, radius, radius, designs["web_width"], FILLET)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import errors, refuse
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
@@ -45,8 +45,7 @@ def motion_of(params: FourBarParams, samples: Samples) -> Motion:
 def check_moves(params: FourBarParams) -> Sequence[Finding]:
     """What ``check`` finds; raises KinematicsError where there is an error of the motion."""
     found = findings(params)
-    for finding in errors(found, Stage.MOTION):
-        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    refuse(found, Stage.MOTION, KinematicsError)
     return found
 
 

@@ -1,11 +1,9 @@
 """The ground plate, from which a base, legs and a motor can follow."""
 
 from mechwright import GroundPlate, MountingError
+from mechwright.contracts.mounting import SCREW_HOLE
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import BOLT, joints_of, layout_of
-
-HOLE = 6.0
-"""Diameter of screw holes that is advised, mm."""
 
 
 def mounting_of(params: FourBarParams) -> GroundPlate:
@@ -17,8 +15,8 @@ def mounting_of(params: FourBarParams) -> GroundPlate:
     if layout.sides == 2 and params.screw_hole is None:
         raise MountingError(
             "parameters.screw_hole: the bolts of both ground plates have no threaded ends for the pillars of "
-            f"a frame; set screw_hole = {HOLE:g}",
-            ({"parameters.screw_hole": HOLE},),
+            f"a frame; set screw_hole = {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
         )
     low, shaft = layout.bottom("ground"), joints_of(params)["shaft"]
     x = sorted({at.real for at in layout.screws})

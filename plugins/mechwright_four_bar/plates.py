@@ -15,6 +15,8 @@ from mechwright.contracts.joint import fixed
 from mechwright.contracts.turned import Step, Turned
 from mechwright.mechanics.linkage import Boss, Stack, bushing_part, pin_part
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
+from mechwright.mechanics.linkage.stacking import STACK_SAMPLES
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.standards.parts import GREY
 from mechwright_four_bar.joints import Joint, bosses, joints
@@ -30,16 +32,13 @@ from mechwright_four_bar.phases import (
     spare_holes,
 )
 from mechwright_four_bar.reach import bar_of, course_of, is_lever, within
-from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, turning_bore
+from mechwright_four_bar.sizes import turning_bore
 
 BOLT = 1.5
 """Length of a post's bolt under the lower plate, in its diameters: for a nut, or the machine's bed."""
 
 THREAD = 5.0
 """Of the end under the lower plate where ``screw_hole`` is given, mm: it goes into a frame's pillars."""
-
-STACK_SAMPLES = 361
-"""Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
 TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
 """On how many sides of the links ground plates are tried; fewer need fewer parts."""

@@ -4,16 +4,13 @@ import math
 
 from mechwright import kept
 from mechwright.mechanics.planar import Course, swing
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_four_bar.change_point import turns_to_close
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
 Interval = tuple[float, float]
 """Crank angles, rad."""
-
-TURN_BACK = math.radians(1.0)
-"""Transmission angle at which a lever turns back before its toggle: 57 times the torque of the follower would
-have to come from the crank there, and beyond it play decides which way the linkage goes on."""
 
 
 def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:

@@ -3,10 +3,6 @@
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.usual import bore_about
 
-HEAD, HEAD_HEIGHT = 1.6, 0.3
-"""Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
-
-
 OF_BORE = ("pin_diameter", "bushing_wall", "running_fit")
 """Parameters of which :func:`mechwright_four_bar.usual.bore_about` makes a turning bore."""
 

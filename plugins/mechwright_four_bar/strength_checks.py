@@ -8,7 +8,7 @@ import numpy as np
 from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
-from mechwright.mechanics.strength.judging import Stress, Way, judged
+from mechwright.mechanics.strength.judging import SLOWEST, Stress, Way, judged
 from mechwright.mechanics.strength.pressure import most_pressed, too_pressed
 from mechwright.mechanics.strength.turning_pair import (
     TurningPair,
@@ -22,9 +22,6 @@ from mechwright_four_bar.peaks import peaks_of, period_of
 from mechwright_four_bar.plates import sides_of, stack_of, unloaded
 from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.sizes import turning_bore
-
-SLOWEST = 1.0
-"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
 
 
 @of_stage(Stage.PARTS)

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from mechwright import Array
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.period import Period
-from mechwright_four_bar.reach import TURN_BACK, reach_cosines
+from mechwright_four_bar.reach import reach_cosines
 
 Ways = list[swing.Ways]
 """First and second way of each; NaN where there is none."""

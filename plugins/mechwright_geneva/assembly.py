@@ -8,12 +8,10 @@ need D each, and c.
 """
 
 from mechwright import TOLERANCES
+from mechwright.tolerances import OFF_CENTRE
 
 LEFT = TOLERANCES.leftover
 """D, mm: what the proof of a program lets pass on a wall."""
-OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
-"""c, mm. A hole that keeps the leftover limit on one side and is cut too deep by the gouge limit on the other
-has its middle off by half of both; wheel, driver and the two holes that carry them are four."""
 PLANNED = TOLERANCES.arc_fit + TOLERANCES.flatten
 """mm: what a path that keeps its own tolerance may leave on a wall."""
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array, kept, material
 from mechwright.mechanics.planar import Turning
-from mechwright.mechanics.strength.hertz import YIELD, contact_modulus, line_pressure
+from mechwright.mechanics.strength.hertz import SHARPEST, YIELD, contact_modulus, line_pressure
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
 
@@ -32,9 +32,6 @@ BLOCKED = math.radians(80)
 
 _MIDDLE = 1e-6
 """|sin φ| below which the limit at mid stroke is taken: the next term is smaller by its square."""
-
-_SHARPEST = 1e-3
-"""Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
 
 _SHORTEST = 1e-3
 """Length of a roller, mm, below which no line touches; keeps the pressure of one without a length finite."""
@@ -188,7 +185,7 @@ def curved(run: Stroke, drive: Drive) -> Contact:
     whole = (drive.accelerating(run) + pushed) * signed
     carrier = np.where(whole == 0, wall, np.where(whole > 0, LEFT, RIGHT))
     # An undercut wall has no contact there; feasible designs have none.
-    radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), _SHARPEST)
+    radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), SHARPEST)
     force = np.abs(push)
     pressure = line_pressure(force, drive.length, radius, drive.stiffness)
     return Contact(lever, delta, wall, carrier, force, pressure, drive.sense * torque * run.first, blocked)

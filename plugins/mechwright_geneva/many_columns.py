@@ -6,7 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 import numpy as np
 
 from mechwright import Array
-from mechwright.contracts.evaluation import SAMPLES, told
+from mechwright.contracts.evaluation import told
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.stretch import travelled
 from mechwright_geneva.contact import peak_of, sampled
 from mechwright_geneva.figures import sizes_and_times

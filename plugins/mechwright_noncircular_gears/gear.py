@@ -17,9 +17,10 @@ from mechwright.mechanics.gearing import (
     gear_loop,
     sector_loop,
 )
-from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE, PLANNED, pair_backlash
+from mechwright.mechanics.gearing.backlash import LEFT, PLANNED, pair_backlash
 from mechwright.mechanics.gearing.checks import FULL_RIM
 from mechwright.mechanics.openings import opening_of
+from mechwright.tolerances import OFF_CENTRE
 from mechwright_noncircular_gears.law import alike, extremes_of, law_of
 from mechwright_noncircular_gears.params import NoncircularParams
 from mechwright_noncircular_gears.profile import profile_of

@@ -7,6 +7,7 @@ import numpy as np
 from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
 from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import SectorTeeth, Teeth, tip_sites
+from mechwright.mechanics.gearing.usual import DOT
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
 from mechwright_noncircular_gears.params import NoncircularParams
@@ -16,9 +17,6 @@ COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.6
 
 SITE = 0.15
 """Share of a sector's side from its ends to where tabs may stand."""
-
-UNDER = 1.5
-"""How far below the roots of the teeth a dot stands, mm."""
 
 
 def parts_of(params: NoncircularParams) -> tuple[Part, ...]:
@@ -106,7 +104,7 @@ def _marks(params: NoncircularParams) -> tuple[FittingMark, FittingMark]:
 def _dot(teeth: Teeth, number: int) -> Point:
     """A place under a tooth."""
     frame = teeth.curve.frame_at(np.asarray(teeth.tooth_arcs[number]))
-    x, y = frame.offset(-teeth.rack.dedendum - UNDER).tolist()
+    x, y = frame.offset(-teeth.rack.dedendum - DOT).tolist()
     return round(x, 4), round(y, 4)
 
 

@@ -29,21 +29,21 @@ _CIRCLE = circle_of(TURN_SAMPLES)
 
 def bears(designs: Designs, many: Cranks, sizes: Sizes) -> NDArray[np.bool_]:
     """Which designs (n,) certainly tear at no bore."""
-    limit = 2 * sizes.wall * designs["thickness"] * _of_material(designs, "strength")
+    limit = (
+        2
+        * sizes.wall
+        * designs["thickness"]
+        * designs.figures("material", lambda name: material(name).strength)
+    )
     force = most_force(many.bars, many.drives, _inertias(designs, many, sizes), _CIRCLE) * MILLI
     return np.asarray(force <= limit)
-
-
-def _of_material(designs: Designs, figure: str) -> Array:
-    names, which = np.unique(designs.full("material").astype(str), return_inverse=True)
-    return np.array([getattr(material(name), figure) for name in names.tolist()])[which]
 
 
 def _inertias(designs: Designs, many: Cranks, sizes: Sizes) -> Array:
     """Bounds (n, 6) as :func:`most_force` wants them."""
     a, c = many.bars[:, 0], many.bars[:, 1]
     thickness, gap = designs["thickness"], designs["gap"]
-    sheet = _of_material(designs, "density") * 1e-6 * thickness
+    sheet = designs.figures("material", lambda name: material(name).density) * 1e-6 * thickness
     turned = material(PIN_MATERIAL).density * 1e-6 * math.pi / 4
     high = MOST_LAYERS * (thickness + gap)
 

@@ -10,9 +10,10 @@ from mechwright.contracts.finding import Change
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.mechanics.planar.dynamics import Forces
+from mechwright.mechanics.planar.swing import TURN_BACK
+from mechwright.mechanics.strength.judging import SLOWEST
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_slider_crank.course import (
-    TURN_BACK,
     course_of,
     ends_of,
     is_lever,
@@ -37,9 +38,6 @@ the slide, where the least friction blocks it."""
 LEAST_TRANSMISSION = 25.0
 """Degrees between rod and normal of the slide: there the guide bears 2.1 times the force along it, and with a
 friction coefficient of 0.2 takes 43 % of that. Machines that carry a load stay above 40°."""
-
-SLOWEST = 1.0
-"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
 
 MOST_BEND = 0.5
 """Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from mechwright import Array, kept
 from mechwright.mechanics.planar import Course, swing
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_slider_crank.figures import (
     Limits,
     crank_turns,
@@ -16,10 +17,6 @@ from mechwright_slider_crank.figures import (
 from mechwright_slider_crank.kinematics import Bodies
 from mechwright_slider_crank.limit_motion import turns_to_close
 from mechwright_slider_crank.params import SliderCrankParams
-
-TURN_BACK = math.radians(1.0)
-"""Angle of the rod to the normal of the slide at which a crank that cannot turn fully goes back: there the
-guide bears 57 times the force along it."""
 
 _SAMPLES = 1441
 """Positions among which the ends of a slider's way are sought where there is no formula: four a degree."""

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
-from mechwright.contracts.evaluation import SAMPLES
+from mechwright.contracts.sampling import SAMPLES
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.tolerances import falls_short
 from mechwright_slider_crank import period_kernels as kernels
 from mechwright_slider_crank.bounds import bears
 from mechwright_slider_crank.checks import TURN_MARGIN
-from mechwright_slider_crank.course import TURN_BACK
 from mechwright_slider_crank.limit_motion import LIMIT
 from mechwright_slider_crank.many import Cranks
 from mechwright_slider_crank.masses import give_masses

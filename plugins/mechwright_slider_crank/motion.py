@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from mechwright import Array, Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import errors, refuse
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import Turning, acceleration_pole
@@ -52,8 +52,7 @@ def motion_of(params: SliderCrankParams, samples: Samples) -> Motion:
 def check_moves(params: SliderCrankParams) -> Sequence[Finding]:
     """What ``check`` finds; raises KinematicsError where the crank cannot turn."""
     found = findings(params)
-    for finding in errors(found, Stage.MOTION):
-        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    refuse(found, Stage.MOTION, KinematicsError)
     return found
 
 

@@ -1,12 +1,10 @@
 """What a frame is told of the base and of the shaft's end below it."""
 
 from mechwright import GroundPlate, MountingError
+from mechwright.contracts.mounting import SCREW_HOLE
 from mechwright_slider_crank.base import shaft_end
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import layout_of
-
-HOLE = 6.0
-"""Diameter of screw holes that is advised: M5 screws go through, and usual mills make it."""
 
 
 def mounting_of(params: SliderCrankParams) -> GroundPlate:
@@ -14,8 +12,8 @@ def mounting_of(params: SliderCrankParams) -> GroundPlate:
     layout, hole = layout_of(params), params.screw_hole
     if hole is None:
         raise MountingError(
-            f"parameters.screw_hole: the base has no holes for the screws of legs; make it {HOLE:g}",
-            ({"parameters.screw_hole": HOLE},),
+            f"parameters.screw_hole: the base has no holes for the screws of legs; make it {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
         )
     low, end = layout.stack.bottom("base"), shaft_end(params)
     one, two, three, four = ((at.real, at.imag) for at in layout.screws)

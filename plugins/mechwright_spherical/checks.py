@@ -12,10 +12,11 @@ import numpy as np
 from mechwright import Array, Finding, Severity, Stage, kept, until_error
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.planar import Turning, swing
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.frame import shells_of
 from mechwright_spherical.hardware_checks import hardware_findings
-from mechwright_spherical.linkage import TURN_BACK, Phase, PinError, linkage_of
+from mechwright_spherical.linkage import Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, input_ways, kind
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import second_size

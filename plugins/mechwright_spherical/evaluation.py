@@ -13,11 +13,12 @@ import numpy as np
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
-from mechwright.contracts.evaluation import SAMPLES
+from mechwright.contracts.sampling import SAMPLES
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_spherical import many_kernels as kernels
 from mechwright_spherical.clearances import SAMPLES as WAY_SAMPLES
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.linkage import SHORTEST, TURN_BACK
+from mechwright_spherical.linkage import SHORTEST
 from mechwright_spherical.many_checks import Rooms, hardware_errors
 from mechwright_spherical.mobility import mobility
 

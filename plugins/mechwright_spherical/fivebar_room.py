@@ -20,8 +20,9 @@ from scipy.spatial.transform import Rotation
 from mechwright import Array
 from mechwright.mechanics.tracing.order import one_way
 from mechwright.mechanics.tracing.points import random_angles
+from mechwright.mechanics.tracing.search import MARGIN
 from mechwright_spherical.chain import body_point, third_position
-from mechwright_spherical.fourbar_room import MARGIN, USUAL, Bounds, flat, kabsch
+from mechwright_spherical.fourbar_room import USUAL, Bounds, flat, kabsch
 from mechwright_spherical.path_kernels import five_bars_missed, five_bars_pinched, shares
 
 ARCS = 5

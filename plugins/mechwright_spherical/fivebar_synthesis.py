@@ -15,11 +15,11 @@ from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import thinned
 from mechwright.mechanics.tracing.requirement import fault_of_points
-from mechwright.mechanics.tracing.search import Trace, Traces, search
+from mechwright.mechanics.tracing.search import MORE, SEARCH, Trace, Traces, search
 from mechwright_spherical import checks
 from mechwright_spherical.fivebar_room import ARCS, FiveBarRoom
 from mechwright_spherical.fourbar_room import Bounds
-from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, MORE, SEARCH, directions
+from mechwright_spherical.fourbar_synthesis import ALIKE, DIGITS, EXACT, directions
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import MOST_POSITIONS, FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import FiveBarPathRequirement

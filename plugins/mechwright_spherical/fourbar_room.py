@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 from mechwright import Array
 from mechwright.mechanics.tracing.order import one_way
 from mechwright.mechanics.tracing.points import random_angles
+from mechwright.mechanics.tracing.search import MARGIN
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.mobility import mobility
 from mechwright_spherical.path_kernels import four_bars_missed
@@ -25,9 +26,6 @@ USUAL = math.radians(110.0)
 
 EXTREMES = 5
 """Input angles at which the transmission angle can be least: both ends, and whole half turns between them."""
-
-MARGIN = 1e-9
-"""By how much the search keeps inside every limit, rad or cosine, so that rounding never breaks one."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import thinned
 from mechwright.mechanics.tracing.requirement import fault_of_points
-from mechwright.mechanics.tracing.search import Trace, search
+from mechwright.mechanics.tracing.search import MORE, SEARCH, Trace, search
 from mechwright_spherical import checks
 from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
 from mechwright_spherical.linkage import linkage_of
@@ -26,12 +26,6 @@ from mechwright_spherical.requirements import FourBarPathRequirement
 from mechwright_spherical.sized import SizedParams
 from mechwright_spherical.stepped import NO_STEP, no_step, rounded
 from mechwright_spherical.vectors import vector
-
-MORE = 4
-"""Distinct designs that are looked at for each one that is given: some of them cannot be built."""
-
-SEARCH = 0.8
-"""Part of the work that is the search; the rest looks whether the designs can be built."""
 
 ROUNDED = 1e-7
 """rad. By how much the search keeps inside the bound of transmission angles, so that the decimals of a design

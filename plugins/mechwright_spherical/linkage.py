@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Array, DesignError, GeometryError, kept
 from mechwright.mechanics.planar import Course, Turning
+from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.loop import Loop, State
@@ -259,11 +260,6 @@ def _four_bar(table: FourBarTable) -> Linkage:
             )
         )
     return Linkage(tuple(phases), phases[table.phase - 1])
-
-
-TURN_BACK = math.radians(1.0)
-"""Transmission angle at which a lever turns back before its dead centre: 57 times the torque of the output
-would have to come from the input there, and friction blocks it long before."""
 
 
 def _course(said: float | None, travel: float | None, four_bar: FourBar) -> tuple[Course, float]:

@@ -14,10 +14,8 @@ from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.seats import Seat, clamp_of, plate_of, seats_of, slot_width, slotted_of
+from mechwright_spherical.usual import WALL
 from mechwright_spherical.vectors import arc
-
-WALL = 1.0
-"""Least material between two openings, mm: less bulges when a pin goes in."""
 
 LONGEST_SLOT = 170.0
 """Degrees about the axis: a longer slot nearly cuts its middle out."""

@@ -10,10 +10,11 @@ from as_made_builds import example, facts
 from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
+from mechwright.tolerances import OFF_CENTRE
 from mechwright_geneva.as_made import Made, as_made
 from mechwright_geneva.as_made_lock import Lock
 from mechwright_geneva.as_made_play import drawn_room, made_room, play
-from mechwright_geneva.assembly import BINDING, LEAST_GROOVE, LEAST_LOCK, OFF_CENTRE
+from mechwright_geneva.assembly import BINDING, LEAST_GROOVE, LEAST_LOCK
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.mechanism import mechanism_of
 

@@ -14,6 +14,7 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from mechwright.arrays import Array
+from mechwright.contracts.mass import QUADRATURE
 from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
@@ -23,9 +24,6 @@ from mechwright_cad.solids.tessellate import forget, triangle_count, triangulate
 
 AREA = 1e-6
 """Relative difference of areas: what the kernel's and our own quadrature leave is below 1e-8."""
-
-QUADRATURE = 1e-9
-"""Accuracy asked of the kernel's quadrature, relative; without it splines of many spans are 1e-5 off."""
 
 EDGE_SAMPLES = 9
 """Points on each edge that are held against the segment: more than the degree of most segments."""

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright_cam.planning.uses import Use
-from mechwright_cam.shop.lengths import Lengths
+from mechwright_cam.shop.lengths import MILLIMETRES, Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 WIDTH = 80
@@ -18,9 +18,6 @@ LEGEND = (
 )
 LEFT = frozenset({"name", "kind", "of"})
 """Columns of words; those of figures stand on the right."""
-
-
-MILLIMETRES = Lengths()
 
 
 def listing(tools: Sequence[Tool], to: Lengths = MILLIMETRES) -> list[str]:

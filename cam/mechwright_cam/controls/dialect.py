@@ -7,6 +7,10 @@ from typing import Any, Literal
 
 import numpy as np
 
+ROUGH = 0.02
+"""Where a program gives tolerances, roughing may be rounded by so much, mm: a tenth of the least that it
+leaves to finishing, and no program gets faster by more."""
+
 
 @dataclass(frozen=True, slots=True)
 class Corners:

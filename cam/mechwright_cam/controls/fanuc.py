@@ -6,6 +6,7 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
+from mechwright_cam.controls.reading.modes import RIGID
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
@@ -13,8 +14,6 @@ from mechwright_cam.program.moves import Tap
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
-RIGID = 29
-"""M code of rigid tapping, as the makers of most machines have set it."""
 OFFSETS_NUMBER = 7999
 """O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""
 SUBPROGRAMS = 100

@@ -7,7 +7,7 @@ from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
 from mechwright.output.csv_text import csv_text
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.dialect import Corners, Dialect
+from mechwright_cam.controls.dialect import ROUGH, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import klartext
@@ -22,8 +22,6 @@ from mechwright_cam.shop.tool import Tool
 if TYPE_CHECKING:
     from mechwright_cam.shop.machine import Machine
 
-ROUGH = 0.02
-"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing."""
 EXACT = 0.001
 """What takes the place of exact stops, which Klartext has no word for, mm: the last decimal."""
 IN_INCHES = 5

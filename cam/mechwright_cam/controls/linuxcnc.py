@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Corners, Dialect
+from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, ROUGH, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
@@ -19,10 +19,6 @@ from mechwright_cam.program.moves import Rapid, Tap
 from mechwright_cam.shop.formats.linuxcnc import Row, table_text
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
-
-ROUGH = 0.02
-"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing, and no program
-gets faster by more."""
 
 IN_INCHES = 6
 """Decimals of a tolerance in inches: less would make it a third larger or smaller."""

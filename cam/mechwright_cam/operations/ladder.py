@@ -20,6 +20,7 @@ from functools import lru_cache
 import shapely
 
 from mechwright_cam.operations.bending import pass_depth
+from mechwright_cam.operations.clearing import SLIVER
 from mechwright_cam.operations.pen import DOWN
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.operations.steps import slope
@@ -38,8 +39,6 @@ CHANGE = 6.0
 """Time of a change besides the changer's own, s: up, spindle, coolant, down."""
 COARSE = 0.02
 """The outline is thinned by so much for estimates, mm."""
-SLIVER = 0.02
-"""Half the width of stock that is none, mm."""
 
 
 def passes(job: Job, mill: Tool, deep: float) -> int:

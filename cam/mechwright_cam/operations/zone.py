@@ -28,9 +28,6 @@ from mechwright_cam.shop.tool import Tool
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
 
-NOISE = 1e-6
-"""Share of a last decimal that is the noise of floating point."""
-
 TAB_SLACK = 4 * ROUGH
 """Roughing keeps off tabs by all that its thinned path may be off, mm."""
 

@@ -14,12 +14,11 @@ from mechwright_cam.proof.loads import Loads
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.shop.power import THINNEST
 from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 
 DOWNWARDS = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.REAMER})
 """What is fed along its axis alone."""
-THINNEST = 0.002
-"""Feed per tooth below which edges rub, mm: about their own radius when new."""
 FAR_BELOW = 0.1
 """Nothing that has so much of the library's chip load is refused: small cutters are sharper, and the chip
 load of some is no more than ``THINNEST``."""

@@ -70,3 +70,7 @@ class Lengths:
 
 def _multiple(value: float, step: float) -> bool:
     return abs(value / step - round(value / step)) * step < SAME
+
+
+MILLIMETRES = Lengths()
+"""As lengths are kept."""

@@ -21,7 +21,8 @@ from mechwright.contracts.materials import Material
 from mechwright_cam.shop.machine import Machine
 
 THINNEST = 0.002
-"""Thinnest chip, mm, that the law is asked about: a sharp edge is not much rounder than that."""
+"""Thinnest chip, mm, that the law is asked about, and feed per tooth below which edges rub: about the radius
+of an edge that is new."""
 NARROWEST = 0.02
 """Least engagement, rad: below it the quotient of integral and width is one of rounding errors."""
 ANGLES = np.linspace(0.0, math.pi, 18001)

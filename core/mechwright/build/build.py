@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.errors import GeometryError, KinematicsError, PluginFaultError
 
 if TYPE_CHECKING:
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from mechwright.plugins.host import Host
 
 T = TypeVar("T")
-
-SAMPLES = 721
-"""Default number of samples of a motion: every half degree of one turn, both ends included."""
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from mechwright.build.build import SAMPLES
 from mechwright.cli import completing
 from mechwright.cli.command import (
     Also,
@@ -21,6 +20,7 @@ from mechwright.cli.command import (
     names,
 )
 from mechwright.contracts.plugin import Plugin
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.plugins.hookspecs import hookimpl
 
 

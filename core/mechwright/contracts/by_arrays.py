@@ -71,6 +71,11 @@ class Designs:
         """The values (n,) of a parameter, varied or not."""
         return np.broadcast_to(self[name], len(self)) if name not in self.varied else self.varied[name]
 
+    def figures(self, name: str, figure: Callable[[str], float]) -> Array:
+        """A figure (n,) of what the texts of a parameter name, such as the density of a material."""
+        texts, which = np.unique(self.full(name).astype(str), return_inverse=True)
+        return np.array([figure(text) for text in texts.tolist()])[which]
+
     def some(self, places: "NDArray[Any] | slice") -> "Designs":
         """Those at these places, or where a mask is true."""
         return Designs(self.common, {name: values[places] for name, values in self.varied.items()})

@@ -14,6 +14,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.masses import is_mass, masses_of
 from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.sampling import SAMPLES
 from mechwright.errors import MechwrightError, PluginFaultError
 
 if TYPE_CHECKING:
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
 P = TypeVar("P", bound=Parameters)
 V = TypeVar("V", float, Array)
-
-SAMPLES = 721
-"""Samples of a motion whose figures are columns: every half degree of a turn."""
 
 PARAMETERS = "parameters"
 """What forbids a design whose own table is refused, before its key: ``parameters.teeth``."""

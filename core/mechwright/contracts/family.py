@@ -283,9 +283,10 @@ class Family(Plugin, Generic[P]):
         MechwrightError
             The design does not move.
         """
-        from mechwright.contracts.evaluation import SAMPLES, figures
+        from mechwright.contracts.evaluation import figures
         from mechwright.contracts.finding import errors
         from mechwright.contracts.masses import UNIT, names_of
+        from mechwright.contracts.sampling import SAMPLES
 
         found = {name: unit for name, (_, unit) in figures(self.solve(params, SAMPLES)).items()}
         if errors(self.judge(params), Stage.PARTS):

@@ -7,7 +7,7 @@ from functools import wraps
 from typing import Any, TypeVar
 
 from mechwright.contracts.shown import html_table
-from mechwright.errors import LONGEST, DesignError, shortened
+from mechwright.errors import LONGEST, DesignError, MechwrightError, shortened
 
 S = TypeVar("S")
 
@@ -209,7 +209,11 @@ def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[
     return tuple(found)
 
 
-def refuse(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> None:
-    """Raise the first error that forbids a stage as a DesignError; do nothing if there is none."""
+def refuse(
+    findings: Iterable[Finding],
+    stage: Stage = Stage.MACHINING,
+    kind: type[MechwrightError] = DesignError,
+) -> None:
+    """Raise the first error that forbids a stage, as an error of a kind; do nothing if there is none."""
     for finding in errors(findings, stage):
-        raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        raise kind(f"{finding.parameter}: {finding.message}; {finding.remedy}")

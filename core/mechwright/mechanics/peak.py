@@ -11,6 +11,9 @@ from mechwright.arrays import Array
 _FINE, _ROUNDS = 48, 3
 """Finer grids around the best point: the last has 2e-9 of a turn, and the height is flat there."""
 
+PEAK_SAMPLES = 1441
+"""Positions of a crank per turn at which peaks of loads are sought first: four a degree."""
+
 _NEAR = 0.9
 """Share of the highest sample below which a hill cannot be the highest: samples miss less of it."""
 

@@ -7,11 +7,9 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.planar import Plane
+from mechwright.mechanics.tracing.search import MARGIN
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.paths.limits import SIZE
-
-MARGIN = 1e-9
-"""Share by which the search keeps away from every limit, so that rounding never puts a design beyond one."""
 
 Rectangle = tuple[float, float, float, float]
 """Least x, least y, greatest x, greatest y, mm."""

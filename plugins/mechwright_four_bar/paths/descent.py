@@ -17,6 +17,7 @@ import numpy as np
 from mechwright import Array
 from mechwright.mechanics.compiled import compiled
 from mechwright.mechanics.planar import Plane
+from mechwright.mechanics.tracing.order import TURN
 from mechwright_four_bar.paths.kernels import LINEAR, SHAPE, directions, lengths, linear, row, square
 from mechwright_four_bar.paths.limits import COUNT, broken
 
@@ -25,9 +26,6 @@ FIRST_DAMPING, MOST_DAMPING = 1e-2, 1e12
 
 STILL, STILL_STEPS = 1e-7, 12
 """A start whose squares have fallen by less than this share over so many good steps has arrived."""
-
-TURN = math.tau * (1 - 1e-9)
-"""Most that the crank turns from the first point to the last."""
 
 OUTER, KEPT = 40, 1e-11
 """Most changes of the multipliers, and by how much a limit may be broken at the end."""

@@ -17,7 +17,9 @@ import numpy as np
 from mechwright import Array
 from mechwright.mechanics.multistart import distinct
 from mechwright.mechanics.planar import Plane
+from mechwright.mechanics.tracing.descent import WEIGHT
 from mechwright.mechanics.tracing.points import in_plane, random_angles
+from mechwright.mechanics.tracing.search import STAGES
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.paths.asked import PathProblem
@@ -28,12 +30,6 @@ from mechwright_four_bar.paths.starts import random_shapes
 
 ROUND = 12_000
 """Random linkages of a room in one round."""
-
-STAGES = ((96, 12, 1.0), (32, 24, 10.0), (12, 40, 30.0))
-"""How many of the best go on, for how many steps, and the weight of the limits meanwhile."""
-
-WEIGHT = 30.0
-"""Weight of the limits where they are to be kept exactly."""
 
 REACHED = 1e-6
 """A limit that a design comes so near to, in its own unit, holds it."""

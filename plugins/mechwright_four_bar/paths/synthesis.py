@@ -9,6 +9,7 @@ from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
 from mechwright.mechanics.tracing.requirement import faults
+from mechwright.mechanics.tracing.search import EXACT, MORE, SEARCH
 from mechwright_four_bar.candidates import GOOD_ANGLE, Found, buildable, building
 from mechwright_four_bar.cognates import Drawing, cognates
 from mechwright_four_bar.params import FourBarParams
@@ -18,15 +19,6 @@ from mechwright_four_bar.paths.refit import fitted, rounded
 from mechwright_four_bar.paths.same import distinct
 from mechwright_four_bar.paths.search import PathSearch, PathSolution, path, search
 from mechwright_four_bar.requirements import PathRequirement
-
-EXACT = 1e-11
-"""Mean distance, as a share of the path's size, that is rounding: the points are met."""
-
-SEARCH = 0.8
-"""Part of the work that is the search; the rest looks whether the designs can be built."""
-
-MORE = 4
-"""Distinct designs that are looked at for each one that is given: some of them cannot be built."""
 
 TIED = 1e-12
 """rad. Crank angles nearer than this are one: two points share it because their order would be another."""

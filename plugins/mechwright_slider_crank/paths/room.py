@@ -18,10 +18,8 @@ from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.order import one_way
 from mechwright.mechanics.tracing.points import in_plane, random_angles
+from mechwright.mechanics.tracing.search import MARGIN
 from mechwright.mechanics.tracing.similar import two_columns
-
-MARGIN = 1e-9
-"""Share by which the search keeps away from every limit, so that rounding never puts a design beyond one."""
 
 MOST_RATIO = 100.0
 """Starts have no rod longer than this many cranks, whatever is allowed."""

@@ -9,11 +9,22 @@ import numpy as np
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.contracts.synthesis import ALIKE
+from mechwright.mechanics.adjustable.machine import DIGITS
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import in_plane, thinned
 from mechwright.mechanics.tracing.requirement import SENSES, faults
-from mechwright.mechanics.tracing.search import ROUND, Trace, Traces, followed, rounds_of, search
+from mechwright.mechanics.tracing.search import (
+    EXACT,
+    MORE,
+    ROUND,
+    SEARCH,
+    Trace,
+    Traces,
+    followed,
+    rounds_of,
+    search,
+)
 from mechwright.mechanics.tracing.stepped import Held, stepped
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
 from mechwright_slider_crank.figures import least_transmission_angle
@@ -22,20 +33,8 @@ from mechwright_slider_crank.paths.room import Limits, SliderRoom
 from mechwright_slider_crank.requirements import PathRequirement
 from mechwright_slider_crank.synthesis import buildable
 
-SEARCH = 0.8
-"""Part of the work that is the search; the rest looks whether the designs can be built."""
-
-MORE = 4
-"""Distinct designs that are looked at for each one that is given: some of them cannot be built."""
-
 GOOD_ANGLE = math.radians(40)
 """Transmission angle from which a larger one is not worth longer links."""
-
-DIGITS = 9
-"""Decimals of lengths and angles in a design: a hundredth of an atom, and no tail of a double to read."""
-
-EXACT = 1e-11
-"""Mean distance, as a share of the path's size, that is rounding: the points are met."""
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 
 from mechwright_cam.controls.offsets import DOffset, OffsetTables
-from mechwright_cam.shop.lengths import Lengths
+from mechwright_cam.shop.lengths import MILLIMETRES, Lengths
 
-MILLIMETRES = Lengths()
 OVERSIZE = 0.5
 """Share of the wear allowed by which D is made larger for a careful first cut: the part stays too large."""
 

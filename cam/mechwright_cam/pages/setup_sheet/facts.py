@@ -11,10 +11,9 @@ from mechwright_cam.pages.picture import tool_colours
 from mechwright_cam.pages.trace import Stroke, Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.lengths import Lengths
+from mechwright_cam.shop.lengths import MILLIMETRES, Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
-MILLIMETRES = Lengths()
 MARKED = 3
 """So many places of each kind are marked on the walls."""
 

@@ -26,7 +26,7 @@ MARGIN = math.radians(0.5)
 """The same of the transmission angle, which the search looks at in a few places."""
 
 DIGITS = 9
-"""Decimals of lengths in design files, mm: what is rounded to steps has no tail of a double."""
+"""Decimals of lengths and angles in design files: a hundredth of an atom, and no tail of a double to read."""
 
 Rows = tuple[np.ndarray, np.ndarray]
 """Unknowns (1, k) and crank angles (1, n), rad."""

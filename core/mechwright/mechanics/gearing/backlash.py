@@ -13,14 +13,10 @@ because both flanks share what there is.
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright.tolerances import OFF_CENTRE, TOLERANCES
 
 LEFT = 2 * TOLERANCES.leftover
 """mm, on two flanks that meet: what the proof of a program lets pass on each."""
-
-OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
-"""mm. A hole that keeps the leftover limit on one side and is cut too deep by the gouge limit on the other
-has its middle off by half of both. Two gears on two holes of a base have four such holes."""
 
 PLANNED = 2 * (TOLERANCES.arc_fit + TOLERANCES.flatten)
 """mm, on two flanks that meet: what a path that keeps its own tolerance may leave of each. With less room

@@ -14,12 +14,13 @@ from mechwright.arrays import Array
 from mechwright.contracts.as_made import MadeCurve, MadeFigure
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.made_part import MadeHole, MadePart
-from mechwright.mechanics.gearing.backlash import LEFT, OFF_CENTRE
+from mechwright.mechanics.gearing.backlash import LEFT
 from mechwright.mechanics.gearing.cut import hole_of
 from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
 from mechwright.mechanics.gearing.mesh import Mesh, mesh
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.teeth import Teeth
+from mechwright.tolerances import OFF_CENTRE
 
 AGREEMENT = 0.01
 """Share of the greatest play by which both ways may differ."""

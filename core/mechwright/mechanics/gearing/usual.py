@@ -55,6 +55,9 @@ SHAFTS = (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0)
 RIM = 1.2
 """Material between bore and roots over the height of a tooth, as the checks of a rim want it."""
 
+DOT = 1.5
+"""How far below the roots of the teeth the dot stands that tells how gears are put together, mm."""
+
 _HUNDREDTHS = 100
 """Of a module: what is less than usual is rounded so."""
 

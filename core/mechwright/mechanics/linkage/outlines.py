@@ -12,6 +12,9 @@ from mechwright.geometry import Arc, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 
+FILLET = 5.0
+"""Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
+
 _KEPT = 128
 """Links that are kept: of designs tried one after the other most are alike."""
 

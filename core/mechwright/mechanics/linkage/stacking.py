@@ -14,6 +14,9 @@ from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
 from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
 
+STACK_SAMPLES = 361
+"""Positions of a crank per turn, both ends included, at which plates are kept apart."""
+
 _SAID = 6
 """Conflicts that a message names; a list of all helps nobody."""
 

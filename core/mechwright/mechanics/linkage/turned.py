@@ -9,6 +9,12 @@ from mechwright.standards.parts import GREY
 PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
 """Of what is turned."""
 
+HEAD, HEAD_HEIGHT = 1.6, 0.3
+"""Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
+
+SHAFT = 3.0
+"""Length of a shaft beyond its ground plate or gear, in pin diameters: room for a coupling."""
+
 STEEL = GREY
 BRONZE: Colour = (0.76, 0.58, 0.30)
 

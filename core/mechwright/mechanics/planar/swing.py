@@ -15,6 +15,14 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Change, Finding
 
+TURN_BACK = math.radians(1.0)
+"""Transmission angle at which a lever turns back before its toggle, and a crank that cannot turn fully before
+the rod is along the normal of its slide: 57 times the force or torque of the output would have to come from
+the input there, friction blocks it long before, and beyond it play decides how the mechanism goes on."""
+
+LEAST_TRANSMISSION = math.degrees(TURN_BACK)
+"""Degrees below which play and bending let the linkage change its branch."""
+
 SLACK = 1e-9
 """rad. A lever that shall go this much beyond its way goes to the end of it: rounding of degrees."""
 

@@ -7,6 +7,10 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.materials import Material
 
+SHARPEST = 1e-3
+"""Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
+
+
 YIELD = 1.67
 """Hertz pressure over yield strength at which a line contact begins to yield below its surface (Johnson,
 section 6.1)."""

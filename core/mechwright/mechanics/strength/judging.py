@@ -23,6 +23,10 @@ STUD_SHARE, SHEAR_SHARE = 0.4, 0.2
 press fit or a shoulder takes 1.7 of it, and a safety of 1.5. Of steel 120 and 60 MPa, as in
 handbooks."""
 
+SLOWEST = 1.0
+"""rev/min. A mechanism that would have to run slower to bear its load is no longer the one that was asked
+for: its speed is no remedy."""
+
 _LOOKS = 6
 """At values of a key, each from the slope of the two before: stresses are powers of it, or nearly so."""
 

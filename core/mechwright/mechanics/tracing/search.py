@@ -16,6 +16,18 @@ from mechwright.arrays import Array
 from mechwright.mechanics.multistart import distinct
 from mechwright.mechanics.tracing.descent import Traced, descend, excess, settle, squares
 
+SEARCH = 0.8
+"""Part of a synthesis' work that is the search; the rest looks whether the designs can be built."""
+
+MORE = 4
+"""Distinct designs that are looked at for each one that is given: some of them cannot be built."""
+
+MARGIN = 1e-9
+"""Share, rad or cosine by which a search keeps inside every limit, so that rounding never breaks one."""
+
+EXACT = 1e-11
+"""Mean distance, as a share of the path's size, that is rounding: the points are met."""
+
 STAGES = ((96, 12, 1.0), (32, 24, 10.0), (12, 40, 30.0))
 """How many of the best go on, for how many steps, and the weight of the limits meanwhile."""
 
