@@ -18,6 +18,7 @@ import math
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +26,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from fuzzing import SlowError, alarm, memory, peak
 from random_designs import WAYS, designs
+from random_drawings import plates
 
-from mechwright.contracts.family import Family
+from mechwright import Family, Standing
 from mechwright.contracts.finding import Stage, errors
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError, PluginFaultError
@@ -60,14 +62,16 @@ def _outcome(design: Design) -> str:
     found = design.judge()
     figures = [x for one in found for x in (one.value, one.limit) if x is not None]
     word = "motion refused"
-    if not errors(found, Stage.MOTION):
+    if isinstance(design.family, Standing):
+        word = "parts refused"
+    elif not errors(found, Stage.MOTION):
         motion = design.solve(181)
         figures += [x for channel in motion.channels.values() for x in channel.values]
         figures += [one.value for one in motion.scalars.values()]
         word = "parts refused"
-        if not errors(found, Stage.PARTS):
-            word = "built"
-            figures += [x for part in design.parts() for one in part.outlines for x in one.bounds]
+    if word == "parts refused" and not errors(found, Stage.PARTS):
+        word = "built"
+        figures += [x for part in design.parts() for one in part.outlines for x in one.bounds]
     return (
         word if all(map(math.isfinite, figures)) else f"fault: a figure of a design that is {word}: no number"
     )
@@ -77,7 +81,7 @@ def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
     """Counts of a family, as many designs of these numbers as there is time for."""
     counts, longest, grown, said, done = Counter[str](), (0.0, 0), 0, [], numbers.start
     drawn = [
-        designs(family, host(), SEED, range((numbers.start + 1 - odd) // 2, numbers.stop), way, AGAIN)
+        _drawn(family, range((numbers.start + 1 - odd) // 2, numbers.stop), way)
         for odd, way in enumerate(WAYS)
     ]
     for number in numbers:
@@ -97,6 +101,12 @@ def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
             said.append({"number": number, "said": found[:300]})
     row = {"family": family.name, "from": numbers.start, "to": done, "counts": dict(counts)}
     return row | {"longest s": longest[0], "its number": longest[1], "most MB": grown, "said": said}
+
+
+def _drawn(family: Family[Any], numbers: range, way: str) -> Iterator[Design]:
+    if family.name == "plate":
+        return plates(host(), SEED, numbers, way)
+    return designs(family, host(), SEED, numbers, way, AGAIN)
 
 
 def told(rows: list[dict[str, Any]]) -> bool:
