@@ -1,15 +1,15 @@
-"""Random designs of every family, within the bounds that it publishes: counts by outcome, times, memory.
+"""Random designs of every family and random chains, within the bounds that families publish: counts.
 
     python benchmarks/fuzz_designs.py try --family geneva --from 2000 --count 500 --log designs.jsonl
     python benchmarks/fuzz_designs.py try --seconds 3600 --log designs.jsonl     all families by turns
     python benchmarks/fuzz_designs.py told --log designs.jsonl
 
-Half of them as the kit draws them, half evenly over all bounds: even numbers and odd ones. A design is built
-(motion and parts, every figure finite), or refused by a finding of its
-motion or its parts, or by an error in words. Anything else is a fault, told with its number, which gives the
-same design again; so is one that takes more than ``SECONDS`` of processor time or lets the process grow by
-more than ``MEGABYTES``. The log has one line for each portion; without ``--from`` a family goes on behind the
-last number that it has there, and what portions tell adds up.
+Half of them as the kit draws them, half evenly over all bounds: even numbers and odd ones; plates come with a
+drawing that is drawn by lot as well. A design is built (motion and parts, every figure finite), or refused by
+a finding of its motion or its parts, or by an error in words. Anything else is a fault, told with its number,
+which gives the same design again; so is one that takes more than ``SECONDS`` of processor time or lets the
+process grow by more than ``MEGABYTES``. The log has one line for each portion; without ``--from`` a family
+goes on behind the last number that it has there, and what portions tell adds up.
 """
 
 import argparse
@@ -25,6 +25,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from fuzzing import SlowError, alarm, memory, peak
+from random_chains import chains
 from random_designs import WAYS, designs
 from random_drawings import plates
 
@@ -40,6 +41,8 @@ MEGABYTES = 1500
 AGAIN = 10
 """Tables drawn by chance before the keys that are refused are left out: most of the time goes there else."""
 PORTION = 25
+CHAIN = "chain"
+"""Stands for chains of mechanisms, beside the names of families."""
 SOUND = ("built", "parts refused", "motion refused", "refused by an error")
 
 
@@ -77,7 +80,7 @@ def _outcome(design: Design) -> str:
     )
 
 
-def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
+def tried(family: str, numbers: range, until: float) -> dict[str, Any]:
     """Counts of a family, as many designs of these numbers as there is time for."""
     counts, longest, grown, said, done = Counter[str](), (0.0, 0), 0, [], numbers.start
     drawn = [
@@ -99,14 +102,16 @@ def tried(family: Family[Any], numbers: range, until: float) -> dict[str, Any]:
         counts[kind] += 1
         if kind not in SOUND[:3] and len(said) < 20:
             said.append({"number": number, "said": found[:300]})
-    row = {"family": family.name, "from": numbers.start, "to": done, "counts": dict(counts)}
+    row = {"family": family, "from": numbers.start, "to": done, "counts": dict(counts)}
     return row | {"longest s": longest[0], "its number": longest[1], "most MB": grown, "said": said}
 
 
-def _drawn(family: Family[Any], numbers: range, way: str) -> Iterator[Design]:
-    if family.name == "plate":
+def _drawn(family: str, numbers: range, way: str) -> Iterator[Design]:
+    if family == CHAIN:
+        return chains(host(), SEED, numbers, way)
+    if family == "plate":
         return plates(host(), SEED, numbers, way)
-    return designs(family, host(), SEED, numbers, way, AGAIN)
+    return designs(host().family(family), host(), SEED, numbers, way, AGAIN)
 
 
 def told(rows: list[dict[str, Any]]) -> bool:
@@ -144,22 +149,22 @@ def main() -> None:
     if asked.what == "told":
         sys.exit(not told(rows))
     until = time.monotonic() + asked.seconds
-    families = [one for one in host().all(Family) if one.name in (asked.family or [one.name])]
+    families = asked.family or [*(one.name for one in host().all(Family)), CHAIN]
     next_of = {
-        one.name: max((row["to"] for row in rows if row["family"] == one.name), default=0)
+        name: max((row["to"] for row in rows if row["family"] == name), default=0)
         if asked.first is None
         else asked.first
-        for one in families
+        for name in families
     }
     last = {name: first + asked.count if asked.family else asked.count for name, first in next_of.items()}
     while time.monotonic() < until and any(next_of[name] < last[name] for name in last):
         for family in families:
-            first = next_of[family.name]
-            numbers = range(first, min(first + PORTION, last[family.name]))
+            first = next_of[family]
+            numbers = range(first, min(first + PORTION, last[family]))
             if not numbers or time.monotonic() > until:
                 continue
             row = tried(family, numbers, until)
-            next_of[family.name] = row["to"]
+            next_of[family] = row["to"]
             with asked.log.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(row) + "\n")
             print(json.dumps(row), flush=True)

@@ -43,26 +43,22 @@ def designs(
             try:
                 yield design_of({**head, "parameters": table}, Path("random.toml"), "", host)
             except DesignError as error:
-                fewer = _without(keys, table, str(error), rng, head, host) if tried >= again else None
+                content = {**head, "parameters": table}
+                fewer = without(keys, content, str(error), rng, host) if tried >= again else None
                 if fewer is None:
                     continue
                 yield fewer
             break
 
 
-def _without(
-    keys: list[Key],
-    table: Mapping[str, Any],
-    refusal: str,
-    rng: np.random.Generator,
-    head: Mapping[str, Any],
-    host: Host,
+def without(
+    keys: list[Key], content: Mapping[str, Any], refusal: str, rng: np.random.Generator, host: Host
 ) -> Design | None:
     """The design without the keys that refusals speak of, or else those of the tables that they speak of.
 
     One by one; None where refusals speak of none.
     """
-    known, content = {key.path: key for key in keys}, {**head, "parameters": table}
+    known = {key.path: key for key in keys}
     while True:
         every = [key for key in keys if key.stands_in(content)]
         named_here = [key for key in named(refusal, known) if key in every]
@@ -112,11 +108,12 @@ def _table(keys: list[Key], rng: np.random.Generator, way: str) -> Mapping[str, 
         *tables, name = key.path.split(".")[1:]
         for one in tables:
             inner = inner.setdefault(one, {})
-        inner[name] = _value(key, rng, way)
+        inner[name] = drawn(key, rng, way)
     return table
 
 
-def _value(key: Key, rng: np.random.Generator, way: str) -> Any:
+def drawn(key: Key, rng: np.random.Generator, way: str) -> Any:
+    """A value of a key."""
     if not key.numeric:
         return key.choices[rng.integers(len(key.choices))]
     low, high = key.low, key.high
