@@ -4,8 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from mechwright import host
+from mechwright import GroundPlate, Part, host
 from mechwright.designs.design import Design, load
+from mechwright.mechanics.chain import Chain
+from mechwright.mechanics.chain.assembly import assembly_of
+from mechwright.mechanics.chain.params import ChainParams
+from mechwright.mechanics.chain.shafts import seat_of
 from mechwright.remedies import tried
 
 
@@ -49,3 +53,29 @@ def test_two_sizes_that_are_given_are_told_with_both_ways_out(tmp_path: Path) ->
     )
     assert told.fix in ({BORE: 6}, {PIN: 8})
     assert "chain.bore" not in [one.code for one in design.changed(told.fix).check()]
+
+
+@pytest.mark.parametrize("after", ["slider-crank", "four-bar"])
+def test_a_shaft_below_a_ground_plate_goes_through_the_hub_that_turns_it(tmp_path: Path, after: str) -> None:
+    """A Geneva wheel has its driver and locking disc over its hub: a usual end of a shaft is too short."""
+    design = _chain(tmp_path, "geneva", after, 'law = "straight"')
+    assert isinstance(design.family, Chain)
+    assert isinstance(design.params, ChainParams)
+    whole = assembly_of(design.params, design.family.families)
+    plate, level = whole.planes[1].mounting, whole.places[1].level
+    hub = seat_of(whole.places[0], whole.planes[0], "wheel")
+    assert isinstance(plate, GroundPlate)
+    assert hub is not None
+    assert plate.end + level == pytest.approx(hub.low, abs=1e-6)
+    height = float(design.family.solve(design.params, 2).poses[f"2-{plate.shaft}"].position[0, 2])
+    lowest = min(
+        (part for part in design.family.parts(design.params) if part.turned and _on(part, plate.shaft)),
+        key=lambda part: part.instances[0].z,
+    )
+    assert lowest.instances[0].z + height == pytest.approx(hub.low, abs=1e-6)
+    assert lowest.turned is not None
+    assert lowest.solid.BoundingBox().zlen == pytest.approx(lowest.turned.length, abs=1e-6)
+
+
+def _on(part: Part, shaft: str) -> bool:
+    return [one.body for one in part.instances] == [f"2-{shaft}"]

@@ -70,9 +70,7 @@ def motion_over(params: FourBarParams, period: Period, *, varies: bool = True) -
     if point is not None:
         moving = bodies["coupler"].point(point)
         channels |= point_channels("P", replace(moving, position=moving.position + pivot))
-    pole = acceleration_pole(bodies["coupler"])
-    if np.isfinite(pole.fixed).all():  # of a coupler that only shifts, as in a parallelogram, there is none
-        channels |= pole_channels(pole, pivot)
+    channels |= pole_channels(acceleration_pole(bodies["coupler"]), pivot)
     figures = _figures(params)
     if not errors(found):
         masses = masses_of(params)

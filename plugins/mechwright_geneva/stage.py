@@ -20,6 +20,7 @@ class WheelStage(Transmission):
 
     own_drive = ("speed", "driver_law", "driver_acceleration", "driver_variation", "driver_direction")
     turns_on = True
+    load_field = "load_torque"
 
     def __init__(self, params: GenevaParams) -> None:
         refuse(feasibility(params), Stage.MOTION)

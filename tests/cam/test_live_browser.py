@@ -111,6 +111,9 @@ def test_a_telephone_shows_all_of_it(shown):
     page, _ = shown
     page.set_viewport_size({"width": 390, "height": 844})
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+    top = "document.querySelector('{}').getBoundingClientRect().top"
+    tops = [page.evaluate(top.format(one)) for one in ("#stage", "#said-of", "#fields", "#figures")]
+    assert tops == sorted(tops), "fields to drag come before the plots and their long table"
     page.click("#play")
     until(page, "Number(document.getElementById('input').value) > 1")
 

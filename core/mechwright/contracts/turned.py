@@ -11,7 +11,7 @@ key seat
     open there.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -207,6 +207,20 @@ class Turned:
     def length(self) -> float:
         """Mm."""
         return sum(step.length for step in self.steps)
+
+    def lengthened(self, more: float) -> "Turned":
+        """The part with its lower end longer, mm; what is cut into it stays where it is.
+
+        >>> Turned((Step(6.0, 20.0),), grooves=(Groove(12.0, 0.8, 5.0),)).lengthened(3.0).grooves[0].at
+        15.0
+        """
+        first, *rest = self.steps
+        return replace(
+            self,
+            steps=(replace(first, length=first.length + more), *rest),
+            grooves=tuple(replace(one, at=one.at + more) for one in self.grooves),
+            seats=tuple(replace(one, at=one.at + more) for one in self.seats),
+        )
 
     @property
     def greatest(self) -> float:

@@ -12,7 +12,7 @@ from mechwright.mechanics.chain.motion import motion_of
 from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed, in_plan
 from mechwright.mechanics.chain.planes import Plane, levels_of, plane_of
-from mechwright.mechanics.chain.shafts import shafts_of
+from mechwright.mechanics.chain.shafts import reaching, shafts_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +31,9 @@ def assembly_of(params: ChainParams, families: Families) -> Assembly:
     parts = tuple(tuple(link.family.parts(link.params)) for link in links)
     planes = tuple(_plane(link, own) for link, own in zip(links, parts, strict=True))
     levels = levels_of(links, planes)
-    places = (replace(place, level=level) for place, level in zip(in_plan(links), levels, strict=True))
-    return Assembly(tuple(places), planes, parts)
+    stand = zip(in_plan(links), levels, strict=True)
+    places = tuple(replace(place, level=level) for place, level in stand)
+    return Assembly(places, *reaching(places, planes, parts))
 
 
 def _plane(link: Link, parts: tuple[Part, ...]) -> Plane:

@@ -174,7 +174,7 @@ def _unhanded(run: Run, torques: tuple[Array, ...]) -> Iterator[Finding]:
                 f"{behind:.4g} N·m that stage {link.number + 1} takes",
                 behind,
                 unit="N*m",
-                remedy="judge it with that torque against its output",
+                remedy="check it as a design of its own, with that torque against its output",
                 stage=Stage.PARTS,
             )
 

@@ -7,6 +7,7 @@ between stand out below the first stage alone, where nothing else turns.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.mounting import GroundPlate, Hub
@@ -133,6 +134,43 @@ def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Ite
             yield from _on_stub(lower, after, above.mounting)
 
 
+def reaching(
+    places: tuple[Placed, ...], planes: tuple[Plane, ...], parts: tuple[tuple[Part, ...], ...]
+) -> tuple[tuple[Plane, ...], tuple[tuple[Part, ...], ...]]:
+    """Planes and parts with the shafts of ground plates as long as the hubs that turn them want."""
+    found, own = list(planes), list(parts)
+    for number, (place, after) in enumerate(pairwise(places), 1):
+        out, plate = place.link.transmission.output, planes[number].mounting
+        lower = None if out is None else seat_of(place, planes[number - 1], out.body)
+        if lower is None or not isinstance(plate, GroundPlate):
+            continue
+        more = plate.end + after.level - lower.low
+        longer = _lengthened(parts[number], plate, more) if more > _SAME else None
+        if longer is not None:
+            own[number] = longer
+            found[number] = replace(planes[number], mounting=replace(plate, end=plate.end - more))
+    return tuple(found), tuple(own)
+
+
+def _lengthened(parts: tuple[Part, ...], plate: GroundPlate, more: float) -> tuple[Part, ...] | None:
+    """Parts of a stage with the lower end of its shaft longer; None where no turned part is that shaft."""
+    ends = [
+        (part.instances[0].z, part)
+        for part in parts
+        if part.turned is not None
+        and len(part.instances) == 1
+        and part.instances[0].body == plate.shaft
+        and abs(part.turned.steps[0].foot - plate.diameter) <= _SAME
+    ]
+    if not ends:
+        return None
+    low, shaft = min(ends, key=lambda one: one[0])
+    deeper = (replace(shaft.instances[0], z=low - more),)
+    turned = None if shaft.turned is None else shaft.turned.lengthened(more)
+    longer = replace(shaft, turned=turned, build=None, instances=deeper)
+    return tuple(longer if part is shaft else part for part in parts)
+
+
 def _alike(lower: Seat, after: Placed, plate: GroundPlate) -> list[tuple[str, float]]:
     """Keys of a hub and of the shaft in it, each with the diameter of the other."""
     key = plate.diameter_key.removeprefix("parameters.")
@@ -165,6 +203,6 @@ def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding
             end - lower.low,
             0.0,
             "mm",
-            "make the hub thinner, or the shaft thicker: its end stands out two diameters",
+            "make the hub thinner, or the shaft a turned part, which is made as long as the hub wants",
             Stage.PARTS,
         )

@@ -1,5 +1,7 @@
 """Channels of a motion: what turns, and points, from pose to jerk."""
 
+import numpy as np
+
 from mechwright.contracts.motion import Channel
 from mechwright.mechanics.planar.rigid import PointMotion, Pole, Turning
 
@@ -51,7 +53,13 @@ def along(axis: str, word: str, what: str) -> str:
 def pole_channels(
     pole: Pole, pivot: complex | None = None, suffix: str = "", what: str = "the acceleration pole"
 ) -> dict[str, Channel]:
-    """The acceleration pole on the ground, moved by ``pivot``, mm, and in the coupler."""
+    """The acceleration pole on the ground, moved by ``pivot``, mm, and in the coupler.
+
+    There are none where the body has no pole at some time: a coupler that only shifts, as in a parallelogram,
+    or that rests while what drives it dwells.
+    """
+    if not (np.isfinite(pole.fixed).all() and np.isfinite(pole.moving).all()):
+        return {}
     fixed = pole.fixed if pivot is None else pole.fixed + pivot
     return {
         f"xG{suffix}": Channel(fixed.real, "mm", along("x", "", what)),
