@@ -13,6 +13,7 @@ from mechwright.drawings.meaning import ENGRAVED, LINE, Meaning
 from mechwright.drawings.strokes import Stroke
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, circle
+from mechwright.geometry.prepared import prepared
 
 CHORD = 0.01
 """Chord error of engraved curves, mm: a sixtieth of their width."""
@@ -53,7 +54,7 @@ def chamfers(part: Part, meant: Meaning, contours: Sequence[Contour], told: Told
         for name, loop, side in _edges(part)
     ]
     for contour in contours:
-        edge = next((one for one in edges if _is(contour, one)), None)
+        edge = next((one for one in edges if is_edge(contour, one)), None)
         if edge is None:
             told.fault(
                 "feature",
@@ -86,7 +87,8 @@ def _edges(part: Part) -> Iterator[tuple[str, Loop, bool]]:
                 yield feature.name, Loop((circle(feature.centre, feature.diameter / 2),)), False
 
 
-def _is(contour: Contour, edge: Chamfer) -> bool:
+def is_edge(contour: Contour, edge: Chamfer) -> bool:
+    """Whether a contour is the edge that a chamfer breaks, or where the chamfer ends."""
     ring = shapely.LinearRing(contour.loop.flatten())
     if _near(ring, [edge.loop]):
         return True
@@ -97,7 +99,11 @@ def _is(contour: Contour, edge: Chamfer) -> bool:
 
 
 def _near(ring: shapely.LinearRing, loops: Sequence[Loop]) -> bool:
-    return any(
-        shapely.hausdorff_distance(ring, shapely.LinearRing(loop.flatten()), densify=0.1) <= NEAR
-        for loop in loops
-    )
+    return any(alike(ring, shapely.LinearRing(loop.flatten())) for loop in loops)
+
+
+def alike(one: shapely.LinearRing, other: shapely.LinearRing) -> bool:
+    """Whether neither of two rings is anywhere farther than :data:`NEAR` from the other."""
+    if max(abs(a - b) for a, b in zip(one.bounds, other.bounds, strict=True)) > NEAR:
+        return False
+    return all(shapely.covers(prepared(shapely.buffer(a, NEAR)), b) for a, b in ((one, other), (other, one)))
