@@ -5,6 +5,7 @@ that can be stages, and half of their keys, evenly from all of their bounds.
 """
 
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -34,8 +35,8 @@ def chains(host: Host, seed: int, numbers: range, way: str) -> Iterator[Design]:
     for number in numbers:
         rng = np.random.default_rng([seed, number, WAYS.index(way)])
         while True:
-            count = int(rng.integers(2, 5))
-            rooms = [every] * count if way == "whole" else [MIDDLE] * (count - 1) + [LAST]
+            several = int(rng.integers(2, 5))
+            rooms = [every] * several if way == "whole" else [MIDDLE] * (several - 1) + [LAST]
             bare = {
                 "format": 1,
                 "name": "random",
@@ -50,12 +51,12 @@ def chains(host: Host, seed: int, numbers: range, way: str) -> Iterator[Design]:
             key for key in keys_of(start).values() if key.path.startswith("stage.") and key.kind != "other"
         ]
         share = 0.5 if way == "whole" else 0.1
-        for tried in range(_AGAIN + 1):
+        for tried in count():
             content = changed(bare, {key.path: drawn(key, rng, way) for key in keys if rng.random() < share})
             try:
                 yield design_of(content, path, "", host)
             except DesignError as error:
-                fewer = without(keys, content, str(error), rng, host) if tried == _AGAIN else None
+                fewer = without(keys, content, str(error), rng, host) if tried >= _AGAIN else None
                 if fewer is None:
                     continue
                 yield fewer

@@ -3,24 +3,26 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import TypeAdapter, ValidationError
 
 from mechwright.arrays import Array
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.chain.asked import asked_findings
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import moves_of
-from mechwright.mechanics.chain.links import joining, links_of, staged
+from mechwright.mechanics.chain.links import Link, joining, links_of, staged
 from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed, in_plan
 from mechwright.mechanics.chain.running import Run, finely
 from mechwright.mechanics.chain.shafts import shaft_findings
+from mechwright.units import Unit
 
 NEAREST = 1.0
 """mm. Shafts whose axes stand nearer to each other are meant to be one, and are none."""
@@ -49,12 +51,49 @@ def _findings(params: ChainParams, families: Families, judge: Judge) -> tuple[Fi
         return faults
     links, found = links_of(params, families), []
     for link, own in zip(links, loaded(params, families), strict=True):
-        found += [staged(link.number, link.family, one) for one in judge(link.family, own)]
+        beyond = list(_beyond(links, own, link))
+        found += beyond or [staged(link.number, link.family, one) for one in judge(link.family, own)]
     found += centre_findings(in_plan(links))
     found += asked_findings(params, families)
     if not errors(found, Stage.PARTS):
         found += _joined(params, families)
     return (*found, *_notes(params, families))
+
+
+def _beyond(links: Sequence[Link], own: Parameters, link: Link) -> Iterator[Finding]:
+    """What the chain asks of a stage that no design of its family may say."""
+    for name, field in type(own).model_fields.items():
+        value = getattr(own, name)
+        if value == getattr(link.params, name):
+            continue
+        kind: Any = Annotated[(field.annotation, *field.metadata)]
+        try:
+            TypeAdapter(kind).validate_python(value)
+        except ValidationError as error:
+            (limit,) = error.errors()[0]["ctx"].values()
+            unit = next((one.symbol for one in field.metadata if isinstance(one, Unit)), "")
+            key, remedy, changes = _turned_slower(links[0], limit / value)
+            if name == link.transmission.load_field:
+                key, remedy, changes = f"stage.{link.number}", "let the stages behind it take less", ()
+            yield Finding.error(
+                "chain.beyond",
+                key,
+                f"stage {link.number}, {link.family.name}: in this chain its {name} comes to {value:.4g} "
+                f"{unit}, and its family knows {limit:g} at most",
+                value,
+                limit,
+                unit,
+                remedy,
+                Stage.PARTS,
+                changes,
+            )
+
+
+def _turned_slower(first: Link, share: float) -> tuple[str, str, tuple[Change, ...]]:
+    """The key, remedy and change with which a chain turns slower, by a share."""
+    key = f"stage.{first.number}.parameters.{first.transmission.own_drive[0]}"
+    speed = float(f"{0.99 * share * getattr(first.params, first.transmission.own_drive[0]):.3g}")
+    return key, f"make {key} {speed:g}", ({key: speed},)
 
 
 def _joined(params: ChainParams, families: Families) -> Iterator[Finding]:
