@@ -11,7 +11,7 @@ HEAD = "G17 G21 G40 G90 G94 G54\nG0 X0 Y0 Z5\n"
 
 @pytest.mark.parametrize("side", [41, 42])
 @pytest.mark.parametrize("ccw", [False, True])
-@pytest.mark.parametrize("turn", [0.4, 1.3, math.pi / 2, 2.5])
+@pytest.mark.parametrize("turn", [0.4, 1.3, math.pi / 2, 2.5, 4.0])
 @pytest.mark.parametrize("size", [0.05, 1.0])
 def test_the_tool_arrives_beside_the_contour_in_its_direction(
     side: int, ccw: bool, turn: float, size: float

@@ -231,6 +231,17 @@ def flights(draw):
     return at
 
 
+def test_where_bodies_always_overlap_every_look_finds_them():
+    """A small block within a large one: 25 looks from the first sample to the last, or one where both rest."""
+    large, small = (surface(manifold3d.Manifold.cube((size,) * 3, center=True)) for size in (20.0, 2.0))
+    turning, resting = (
+        meetings(large, small, space_path(*relative(STILL, other)))
+        for other in (spun((1, 2, 3), place=(1.0, 2.0, 3.0)), STILL)
+    )
+    np.testing.assert_allclose(turning, np.linspace(0, N - 1, 25))
+    np.testing.assert_array_equal(resting, [0.0])
+
+
 @settings(max_examples=25)
 @given(lumps(), lumps(), flights(), flights())
 def test_random_solids_agree_with_booleans(one, two, first, second):

@@ -132,6 +132,13 @@ def test_the_picture_shows_what_is_left_and_what_is_hurt() -> None:
     assert tuple(image[2, 2]) == (222, 212, 190)
     middle = image[image.shape[0] // 2, image.shape[1] // 2 + image.shape[1] // 6]
     assert tuple(middle) == (200, 0, 30)
+    # It lies where the stock is, y upwards, and all of that is shown.
+    aside = replace(made, stock=(-20.0, -15.0, 60.0, 45.0))
+    view = simulated_view(seen, aside)
+    assert re.search(r'viewBox="([^"]+)"', view)[1].split() == ["-20", "-45", "80", "60"]
+    assert [re.search(rf' {key}="([^"]+)"', view)[1] for key in ("x", "y", "width", "height")] == [
+        "-20", "-45", "80", "60",
+    ]  # fmt: skip
     assert simulated_view(seen, made) == simulated_view(seen, made)
 
 

@@ -107,6 +107,7 @@ def test_the_picture_in_the_plane_holds_all_of_it(name):
     found = scene((), motion, solids=False)
     x, y, width, height = found["window"]
     assert found["bare"]
+    assert found["poses"][GROUND] == {"columns": [[0], [0], [0]]}  # x, y and angle
     assert all(layer["bones"] for layer in found["layers"])
     assert {layer["body"] for layer in found["layers"]} <= found["poses"].keys()
     for path in found["traces"].values():
@@ -119,6 +120,7 @@ def test_the_picture_in_the_plane_holds_all_of_it(name):
 def test_the_picture_in_space_has_lines(name):
     found = scene((), motion_of(name), solids=False)
     assert found["meshes"]
+    assert found["poses"][GROUND] == {"columns": [[0], [0], [0], [1], [0], [0], [0]]}  # place and quaternion
     for mesh in found["meshes"]:
         assert mesh["triangles"] == []
         assert len(mesh["lines"]) % 6 == 0

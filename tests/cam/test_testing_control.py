@@ -11,6 +11,20 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
 from mechwright_cam.testing import ControlContract, sample_program
+from mechwright_cam.testing.changes import changed
+
+
+def test_in_each_changed_program_one_move_is_another():
+    program = sample_program()
+    moves = [move for section in program.sections for one in section.operations for move in one.moves]
+    seen = set()
+    for what, other in changed(program):
+        again = [move for section in other.sections for one in section.operations for move in one.moves]
+        assert len(again) == len(moves), what
+        (place,) = (at for at, pair in enumerate(zip(moves, again, strict=True)) if pair[0] != pair[1])
+        assert type(again[place]) is type(moves[place])
+        seen.add(place)
+    assert seen == {at for at, move in enumerate(moves) if fields(move)}
 
 
 def note(text):
