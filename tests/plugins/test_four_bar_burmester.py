@@ -1,5 +1,6 @@
 """Linkages that guide a body or answer a crank, against the independent check and against their own motion."""
 
+import cmath
 import math
 from dataclasses import replace
 from itertools import permutations
@@ -334,6 +335,7 @@ def test_a_function_is_fitted_within_the_limits(answer, within):
         ({"coupler": 80 + 2 * ALIKE * 30}, 5 + 0j, False),
         ({}, 5 + 2j * ALIKE * 30, False),
         ({"ground_angle": 1.0 + ALIKE}, 5 + 0j, False),
+        ({"ground_angle": 1.0 + 0.7 * ALIKE / 3}, 5 + 0.7j * ALIKE * 30 * cmath.exp(1j), False),  # both one way
     ],
 )
 def test_two_linkages_are_one_if_branch_links_and_pivots_are(bar, pivot, same):
