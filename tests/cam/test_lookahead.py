@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import Motion, course
+from mechwright_cam.controls.lookahead import Motion, blend_arc, course
 from mechwright_cam.controls.lookahead.linuxcnc import KINK, SERVO_S
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.shop.machine import Machine
@@ -151,6 +151,43 @@ def test_an_arc_after_a_line_is_bounded_by_speed_and_acceleration_not_by_p() -> 
     assert claimed(0.5, p=0.0001) == pytest.approx(claimed(0.5), rel=0.05)
     assert claimed(0.5) > 3 * claimed(1.0)
     assert claimed(0.5, feed=600.0) < 0.005
+
+
+@pytest.mark.parametrize("ccw", [True, False])
+@pytest.mark.parametrize(
+    ("bend", "around", "radius"), [(1.2, 8.0, 1.0), (0.4, 30.0, 2.0), (math.pi / 2, 2.0, 0.9), (2.4, 5.0, 0.5)]
+)
+def test_a_blend_touches_line_and_arc_and_is_none_where_it_is_too_high(ccw, bend, around, radius) -> None:
+    """A line along X into (0, 0), and an arc that leaves it ``bend`` to the left: the circle's middle by hand."""
+    sense = 1 if ccw else -1
+    cx, cy = sense * around * np.array((-math.sin(bend), math.cos(bend)))
+    reach = around - sense * radius  # inside of an arc to the left, outside of one to the right
+    x = cx + np.array((1, -1)) * math.sqrt(reach**2 - (radius - cy) ** 2)
+    middle = np.array((x[np.argmin(np.abs(x))], radius))
+    high = math.hypot(*middle)
+    row = SimpleNamespace(
+        before=np.array([0]),
+        after=np.array([1]),
+        last=np.array([[1.0, 0.0, 0.0]] * 2),
+        first=np.array([[math.cos(bend), math.sin(bend), 0.0]] * 2),
+        radius=np.array([math.inf, around]),
+        signed=np.array([0.0, sense]),
+    )
+
+    def fitted(radius: float, tolerance: float):
+        within = [np.zeros(1), np.array([-1.0 if ccw else 1.0])]
+        return blend_arc._fitted(
+            row, np.array([0]), np.array([radius]), np.ones(1), within, np.array([tolerance])
+        )
+
+    fits, trim, angle = fitted(radius, high - radius + 1e-2)
+    assert fits.all()
+    assert trim == pytest.approx(math.sqrt(high**2 - radius**2), abs=2e-3)
+    spoke = sense * (middle - (cx, cy)) / reach  # from the middle to where it touches the arc
+    assert angle == pytest.approx(math.acos(-spoke[1]), abs=2e-3)
+    assert not fitted(radius, high - radius - 1e-2)[0].any()
+    if ccw and bend > 1:  # a circle almost as large as the arc it should be in has no place
+        assert not fitted(0.99 * around, math.inf)[0].any()
 
 
 def test_two_small_arcs_overlap_as_fast_as_their_radius_allows_whatever_is_asked() -> None:

@@ -48,6 +48,7 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
     for up in (0.1, 0.5, 0.9):
         narrow = 18.0 - 2 * (1 - math.sqrt(1 - (1 - up) ** 2))
         assert fillet.solid(-3.0 + up).area == pytest.approx(18.0**2 - narrow**2, rel=1e-2)
+    assert fillet.solid(-3.0).area == pytest.approx(18.0**2 - 16.0**2, rel=1e-2)
     assert fillet.solid(-2.0).is_empty
     assert fillet.solid(-3.01).is_empty
     np.testing.assert_allclose(
@@ -58,6 +59,9 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
 def test_what_a_ball_cuts_into_a_fillet_is_its_nose_less_the_room() -> None:
     """A ball of 3 mm along the foot of a fillet of 4 mm: its middle is to be 4 mm off the wall, and as high."""
     (fillet,) = fillets(laid(Pocket("one", square(9.0), (), 0.0, 4.0, 4.0), tools=("ball-6",)))
+    np.testing.assert_allclose(fillet.rise(np.array([0.0, 2.0, 4.0, 5.0])), [4.0, 4 - math.sqrt(12), 0.0, 0.0])
+    assert fillet.deepest(paths_of("G0 X5.5\nG1 Z0.5 F100", BALL)) is None
+    assert replace(fillet, walls=shapely.MultiLineString()).deepest(paths_of("G0 X5.5\nG1 Z-3 F100", BALL)) is None
     for away, up in (
         (4.0, 1.0),
         (4.5, 0.9),

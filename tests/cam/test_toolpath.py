@@ -229,16 +229,23 @@ def test_a_run_goes_one_vertex_on_at_either_end_and_to_the_edge_of_its_room(seam
     turn = np.linspace(0, math.tau, 41)
     ring = 10 * np.column_stack((np.cos(turn), np.sin(turn)))
 
-    def run(room, *around):
-        at = (np.arange(41) + seam) % 40
+    wide, at = shapely.box(-11, -11, 11, 11), (np.arange(41) + seam) % 40
+
+    def run(room, *around, wanted=7):
         near = (at >= 5) & (at <= 9)
-        found = pieces(ring[at], at == 7, near, room, 3, around)
-        (one,) = found
+        (one,) = pieces(ring[at], at == wanted, near, room, 3, around)
         assert one.order == 3
         assert not one.closed
         return one.points
 
-    np.testing.assert_allclose(run(shapely.box(-11, -11, 11, 11)), ring[4:11])
+    for wanted in (5, 7, 9):
+        np.testing.assert_allclose(run(wide, wanted=wanted), ring[4:11])
+    for wanted, near in ((4, at == 5), (10, at == 9), (3, at > 40)):
+        assert pieces(ring[at], at == wanted, near, wide, 3) == []
+    (whole,) = pieces(ring[at], at == 7, at >= 0, wide, 3)
+    assert whole.closed
+    np.testing.assert_array_equal(whole.points, ring[at])
+    assert pieces(ring[at], at > 40, at >= 0, wide, 3) == []
     # A room that ends half way from vertex 9 to the next: a thousandth of the edge is exact enough.
     edge = (ring[9, 1] + ring[10, 1]) / 2
     ended = run(shapely.box(-11, -11, 11, edge))
@@ -250,7 +257,7 @@ def test_a_run_goes_one_vertex_on_at_either_end_and_to_the_edge_of_its_room(seam
     np.testing.assert_allclose(begun[0], (ring[4] + ring[5]) / 2, atol=1e-3)
     # With a shape around, the run ends 0.02 mm behind its edge.
     disc = shapely.box(-11, (ring[4, 1] + ring[5, 1]) / 2, 11, edge)
-    both = run(shapely.box(-11, -11, 11, 11), disc)
+    both = run(wide, disc)
     np.testing.assert_allclose(both[1:-1], ring[5:10])
     for end, (a, b) in ((both[0], ring[[5, 4]]), (both[-1], ring[[9, 10]])):
         along = (b - a) / math.dist(a, b)
