@@ -155,7 +155,8 @@ def test_an_arc_after_a_line_is_bounded_by_speed_and_acceleration_not_by_p() -> 
 
 @pytest.mark.parametrize("ccw", [True, False])
 @pytest.mark.parametrize(
-    ("bend", "around", "radius"), [(1.2, 8.0, 1.0), (0.4, 30.0, 2.0), (math.pi / 2, 2.0, 0.9), (2.4, 5.0, 0.5)]
+    ("bend", "around", "radius"),
+    [(1.2, 8.0, 1.0), (0.4, 30.0, 2.0), (math.pi / 2, 2.0, 0.9), (2.4, 5.0, 0.5)],
 )
 def test_a_blend_touches_line_and_arc_and_is_none_where_it_is_too_high(ccw, bend, around, radius) -> None:
     """A line along X into (0, 0), and an arc that leaves it ``bend`` to the left: the circle's middle by hand."""

@@ -59,9 +59,14 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
 def test_what_a_ball_cuts_into_a_fillet_is_its_nose_less_the_room() -> None:
     """A ball of 3 mm along the foot of a fillet of 4 mm: its middle is to be 4 mm off the wall, and as high."""
     (fillet,) = fillets(laid(Pocket("one", square(9.0), (), 0.0, 4.0, 4.0), tools=("ball-6",)))
-    np.testing.assert_allclose(fillet.rise(np.array([0.0, 2.0, 4.0, 5.0])), [4.0, 4 - math.sqrt(12), 0.0, 0.0])
+    np.testing.assert_allclose(
+        fillet.rise(np.array([0.0, 2.0, 4.0, 5.0])), [4.0, 4 - math.sqrt(12), 0.0, 0.0]
+    )
     assert fillet.deepest(paths_of("G0 X5.5\nG1 Z0.5 F100", BALL)) is None
-    assert replace(fillet, walls=shapely.MultiLineString()).deepest(paths_of("G0 X5.5\nG1 Z-3 F100", BALL)) is None
+    assert (
+        replace(fillet, walls=shapely.MultiLineString()).deepest(paths_of("G0 X5.5\nG1 Z-3 F100", BALL))
+        is None
+    )
     for away, up in (
         (4.0, 1.0),
         (4.5, 0.9),

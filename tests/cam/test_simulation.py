@@ -54,8 +54,12 @@ def test_a_slot_is_full_engagement_and_half_a_width_is_a_quarter_turn() -> None:
     assert work.removal == pytest.approx(1 * 2 * 2400 / 1000, rel=0.12)
 
 
-@pytest.mark.parametrize(("over", "width", "side"), [(12.0, 6, 0), (3.0, 3, 0.5), (-3.0, 3, -0.5), (1.5, 1.5, 0.75)])
-def test_windows_of_a_row_beside_a_slot_have_the_loads_of_its_width(over: float, width: float, side: float) -> None:
+@pytest.mark.parametrize(
+    ("over", "width", "side"), [(12.0, 6, 0), (3.0, 3, 0.5), (-3.0, 3, -0.5), (1.5, 1.5, 0.75)]
+)
+def test_windows_of_a_row_beside_a_slot_have_the_loads_of_its_width(
+    over: float, width: float, side: float
+) -> None:
     """4 mm deep; what is taken has its middle so many radii to the left of the path."""
     stuff = material("aluminium")
     seen, _ = simulation(*row(-24, 24, 0, -4.0), *row(-20, 20, over, -4.0))
