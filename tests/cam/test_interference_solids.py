@@ -20,7 +20,7 @@ from mechwright_cad.exporters.step import part as step_of
 from mechwright_cad.interference import interference, smooth_motion
 from mechwright_cad.interference.meshes import meetings
 from mechwright_cad.interference.nearest import Nearest, nearest_to_origin
-from mechwright_cad.interference.path import Path, relative, space_path
+from mechwright_cad.interference.path import Path, relative, rotations, space_path
 from mechwright_cad.interference.prisms import prisms_of
 from mechwright_cad.interference.surface import SKIN, SURE_IN_SPACE, Surface
 
@@ -229,6 +229,14 @@ def flights(draw):
         return Poses(place, about(axis, turns * t + 0.7 * np.sin(t)))
 
     return at
+
+
+@pytest.mark.parametrize("length", [1.0, 3.0])
+def test_quaternions_of_any_length_and_angles_in_the_plane_are_rotations(length):
+    axis, angle = np.array([2.0, -3.0, 6.0]) / 7, np.linspace(-3, 3, 13)
+    quaternions = np.column_stack((np.cos(angle / 2), np.sin(angle / 2)[:, None] * axis))
+    np.testing.assert_allclose(rotations(length * quaternions), about(axis, angle), atol=1e-12)
+    np.testing.assert_allclose(rotations(angle[:, None]), about((0, 0, 1), angle)[:, :2, :2], atol=1e-12)
 
 
 def test_where_bodies_always_overlap_every_look_finds_them():

@@ -103,7 +103,10 @@ def test_places_along_two_chains_of_moves_have_their_ways_lengths_and_times() ->
         np.testing.assert_allclose(
             places[first] + taken.way[first:behind].cumsum(axis=0), places[first:behind]
         )
-    assert not (taken.volume.any() or taken.depth.any() or taken.moment.any() or taken.cuts.size)
+    assert not (taken.volume.any())
+    assert not (taken.depth.any())
+    assert not (taken.moment.any())
+    assert not (taken.cuts.size)
     some = replace(taken, volume=np.arange(23.0))
     assert some.cuts.tolist() == [place for place in range(23) if length[place]]
     assert some.of_steps(paths.cuts).tolist() == [3, 42, 33, 58, 117]

@@ -3,9 +3,13 @@
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from by_control import setup_html
+from hypothesis import given
+from hypothesis import strategies as st
 from planning_parts import bore, job, plate
 from shop import MILL, plate_job, plate_program
 
@@ -13,7 +17,7 @@ from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet.facts import reach
-from mechwright_cam.pages.trace import trace
+from mechwright_cam.pages.trace import Stroke, trace
 from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
 from mechwright_cam.shop.posting import Measured
 
@@ -79,6 +83,19 @@ def test_no_clamp_where_cutters_run() -> None:
     assert (y0, y1) == pytest.approx((-edge + 10, edge - 10))
     found = setup_html(plate_job(), program, None)
     assert "Cutters run from X −36.0 to +36.0 and Y −26.0 to +26.0" in found
+
+
+@given(
+    st.floats(-math.pi, math.pi), st.floats(0.1, 6.2), st.booleans(), st.tuples(*[st.floats(-50, 50)] * 2)
+)
+def test_any_arc_reaches_as_far_as_its_points_and_the_tool(first, turn, ccw, centre) -> None:
+    angles = first + np.linspace(0, turn if ccw else -turn, 2001)
+    way = np.column_stack((np.cos(angles), np.sin(angles))) * 10 + centre
+    stroke = Stroke((*way[0].tolist(), -1.0), (*way[-1].tolist(), -1.0), -1.0, 300.0, centre, ccw)
+    traced = SimpleNamespace(section=SimpleNamespace(tool=SimpleNamespace(radius=2.0)), strokes=(stroke,))
+    wanted = (*(way.min(axis=0) - 2.0), *(way.max(axis=0) + 2.0))
+    assert reach([traced]) == pytest.approx(wanted, abs=1e-4)
+    assert reach([SimpleNamespace(section=traced.section, strokes=(replace(stroke, feed=0.0),))]) is None
 
 
 @pytest.mark.parametrize("ccw", [True, False])
