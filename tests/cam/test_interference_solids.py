@@ -231,6 +231,18 @@ def flights(draw):
     return at
 
 
+def test_a_motion_that_a_cubic_follows_is_asked_for_once():
+    asked = []
+
+    def solve(samples):
+        asked.append(samples)
+        angle = np.linspace(0, math.tau, samples)
+        return Motion("x", {"x": Channel(angle, "rad")}, {"a": Poses.planar(0.0, 0.0, angle)})
+
+    assert smooth_motion(solve, [solid("a", ball(5))]).samples == asked[0]
+    assert len(asked) == 1
+
+
 @pytest.mark.parametrize("length", [1.0, 3.0])
 def test_quaternions_of_any_length_and_angles_in_the_plane_are_rotations(length):
     axis, angle = np.array([2.0, -3.0, 6.0]) / 7, np.linspace(-3, 3, 13)

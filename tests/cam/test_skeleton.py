@@ -9,9 +9,9 @@ from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Trace
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_cad.animation import motion_html
+from mechwright_cad.animation import motion_html, skeleton
 from mechwright_cad.animation.scene import scene
-from mechwright_cad.animation.skeleton import ARC, lines_of, links_of
+from mechwright_cad.animation.skeleton import ARC, COLOURS, FRAME, lines_of, links_of
 
 EXAMPLES = ("elliptic-pair", "figure-eight-train", "four-bar-double-rocker", "geneva-cycloidal")
 IN_SPACE = ("spherical-crank-rocker", "spherical-five-bar-projected")
@@ -145,3 +145,10 @@ def test_the_page_of_a_lever_is_drawn_over_time():
     assert re.search(r"there and back", text)
     turning = motion_html("d", "D", (), motion_of("elliptic-pair"), solids=False)
     assert '"over":"theta2"' in turning
+
+
+def test_neighbours_have_colours_of_their_own_and_the_ground_that_of_a_frame():
+    links, _ = links_of(motion_of("four-bar-double-rocker"))
+    coloured = [(link.body, colour) for link, colour in skeleton._coloured(links)]
+    assert coloured[0] == (GROUND, FRAME)
+    assert [colour for _, colour in coloured[1:]] == list(COLOURS[: len(coloured) - 1])
