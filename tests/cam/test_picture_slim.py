@@ -56,6 +56,11 @@ def test_dimensions_stand_beside_the_stock_in_two_rows() -> None:
         (-39, 29 + near, 0, 29 + near), (-39 - near, 29, -39 - near, 0),  # the origin
     ]  # fmt: skip
     assert rows == [pytest.approx(one, abs=0.02) for one in ends]
+    # The heads of the two axes begin before their lines end.
+    for line, base, tip in re.findall(
+        r'M0,0H([\d.]+)M.*?<path d="M([\d.]+),0L([\d.]+),', picture
+    ) + re.findall(r'M0,0V-([\d.]+)".*?<path d="M0,-([\d.]+)L[-\d.]+,-([\d.]+)L', picture):
+        assert float(tip) < float(line) < float(base)
     assert [line[4] for line in lines] == ["#333333"] * 4 + ["#b00020"] * 2
 
 

@@ -16,7 +16,7 @@ from shop import MILL, plate_job, plate_program
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
-from mechwright_cam.pages.picture import paths
+from mechwright_cam.pages.picture import isometric, paths
 from mechwright_cam.pages.setup_sheet.facts import reach
 from mechwright_cam.pages.trace import Stroke, trace
 from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
@@ -123,3 +123,16 @@ def test_what_a_picture_draws_of_a_path_are_cuts_rapids_and_holes_each_once() ->
     assert cuts.count("L") == cuts.count("A") == cuts.count("M") == 1
     assert rapids == "M10,0L20,-5"
     assert holes == [(30.0, 2.0)]
+
+
+def test_axes_of_the_slanted_view_go_as_a_point_on_them_does() -> None:
+    drawn = isometric._axes(100.0, 3.0)
+    lines = re.findall(r"M([-\d.]+),([-\d.]+)L([-\d.]+),([-\d.]+)", drawn)
+    assert len(lines) == 3
+    seen = isometric._projected(np.eye(3)) - isometric._projected(np.zeros((1, 3)))
+    for line, (u, v) in zip(lines, seen, strict=True):
+        x0, y0, x1, y1 = map(float, line)
+        dx, dy = x1 - x0, y1 - y0
+        assert abs(dx * v - dy * u) < 0.02 * math.hypot(dx, dy) or abs(dx * v + dy * u) < 0.02 * math.hypot(
+            dx, dy
+        )

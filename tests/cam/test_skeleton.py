@@ -152,3 +152,17 @@ def test_neighbours_have_colours_of_their_own_and_the_ground_that_of_a_frame():
     coloured = [(link.body, colour) for link, colour in skeleton._coloured(links)]
     assert coloured[0] == (GROUND, FRAME)
     assert [colour for _, colour in coloured[1:]] == list(COLOURS[: len(coloured) - 1])
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.6, 0.0, 0.8)])
+def test_a_block_on_a_slide_is_as_wide_whichever_way_the_slide_goes(axis):
+    angle = np.linspace(0, 2 * np.pi, 25)
+    way = 20 * np.cos(angle)[:, None] * np.array(axis)
+    poses = {"slider": Poses(way, np.broadcast_to(np.eye(3), (25, 3, 3)).copy())}
+    guide = {"guide": Joint("prismatic", GROUND, "slider", axis=axis, drives=True)}
+    links, size = links_of(Motion("x", {"x": Channel(angle, "")}, poses, joints=guide))
+    (block,) = next(link for link in links if link.body == "slider").strokes
+    long, wide = (np.linalg.norm(block[b] - block[a]) for a, b in ((0, 1), (1, 2)))
+    assert long == pytest.approx(skeleton.BLOCK * size)
+    assert wide == pytest.approx(0.6 * long)
+    assert (block[1] - block[0]) @ (block[2] - block[1]) == pytest.approx(0, abs=1e-9)
