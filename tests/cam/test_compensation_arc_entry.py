@@ -69,6 +69,7 @@ def test_in_an_inner_corner_of_an_arc_and_a_line_the_tool_touches_both(
     (step,) = np.flatnonzero(run.sweep)
     reach = 9.0 if left else 11.0
     there = (10 + math.sqrt(reach**2 - 1), 9.0 * s)
+    assert run.start[step, :2] == pytest.approx((10, s if left else -s), abs=1e-6)
     assert run.end[step, :2] == pytest.approx(there, abs=1e-6)
     assert run.start[step + 1, :2] == pytest.approx(there, abs=1e-6)
     assert run.end[step + 1, :2] == pytest.approx((beyond, 9.0 * s), abs=1e-6)

@@ -82,6 +82,22 @@ def test_a_helix_brakes_with_what_the_bend_of_its_way_leaves(climb: float) -> No
     assert one[-2] == pytest.approx(way / speed + speed / (2 * braking), abs=4 * SERVO_S)
 
 
+@pytest.mark.parametrize("climb", [0.0, 6.0, 15.0])
+@pytest.mark.parametrize("share", [0.2, 0.6, 0.8])
+def test_an_arc_that_the_axes_keep_slow_brakes_with_what_its_bend_leaves(share: float, climb: float) -> None:
+    """Half of the acceleration is for blends; of the other the bend takes a share, up to √0.75."""
+    radius = 20.0
+    longer = math.hypot(math.tau * radius, climb) / (math.tau * radius)
+    half = 500.0 * longer
+    plan = math.sqrt(share * half * (radius + climb**2 / radius)) / longer
+    machine = {"max_feed": 1e5, "rapid": 60 * plan, "rapid_z": 1e5}
+    turns = "".join(f"G3 X20 Y0 Z{-climb * k} I-20 J0\n" for k in range(1, 5))
+    one = moved(f"G0 X0 Y0 Z0\n{P}G1 X20 F90000\n{turns}", **machine)[1].seconds[:-1]
+    around, braking = math.tau * radius / plan, half * math.sqrt(1 - share**2)
+    assert one[-3] == pytest.approx(around, abs=SERVO_S)
+    assert one[-1] == pytest.approx(around + plan * longer / (2 * braking), abs=4 * SERVO_S)
+
+
 def test_the_pieces_of_an_arc_in_another_plane_are_no_cycle_with_a_stop_at_each() -> None:
     along = math.pi * 5.0 / (2000 / 60)
     assert along < seconds(P + "G18 G3 X10 Z0 I5 K0 F2000") < 1.5 * along

@@ -283,6 +283,8 @@ def test_a_machine_has_every_hole_that_its_screws_want(motor):
     assert all(one.body in bodies for part in made.parts for one in part.instances)
     count = {part.name: len(part.instances) for part in made.parts}
     assert count["leg"] == count["foot"] == 4
+    base = next(part for part in made.parts if part.name == "base-plate")
+    assert {f"leg-{k}" for k in (1, 2, 3, 4)} <= {one.name for one in base.features}
     assert count["pillar"] == count["plain-pillar"] == 2
     assert ("motor" in count) == (motor is not None)
     # Screws, studs and threads: each column has three screws, each foot one, each motor pillar two.

@@ -368,11 +368,10 @@ def test_a_study_asks_for_its_family_and_its_own_table_alone():
     assert "stage" not in schema["properties"]
 
 
-def test_sizes_of_stages_may_have_units_as_others_have(tmp_path):
+@pytest.mark.parametrize(("units", "size"), [("mm", '"5 in"'), ("inch", "5")])
+def test_sizes_of_stages_may_have_units_as_others_have(units, size, tmp_path):
     path = tmp_path / "chain.toml"
-    stages = ['[[stage]]\nfamily = "geneva"\n', '[[stage]]\nfamily = "geneva"\n[stage.parameters]\n']
-    path.write_text("format = 1\n" + "".join(stages) + 'centre_distance = "5 in"\n')
-    assert [stage.parameters.centre_distance for stage in load(path, host()).params.stage] == [
-        None,
-        pytest.approx(127),
-    ]
+    stages = '[[stage]]\nfamily = "geneva"\n' * 2
+    path.write_text(f'format = 1\nunits = "{units}"\n{stages}[stage.parameters]\ncentre_distance = {size}\n')
+    found = [stage.parameters.centre_distance for stage in load(path, host()).params.stage]
+    assert found == [None, pytest.approx(127)]
