@@ -192,9 +192,9 @@ def test_a_spindle_may_start_beside_a_rapid_and_not_beside_a_feed_whose_order_th
     for line in ("G0 X5. S900 M3", "S900 M3", "G1 F100. S900 M3"):
         assert interpret(f"{PLAIN}{line}\nM30\n", BY_NAME[name]).states[-1].rpm == 900
     for line in ("G1 Z-1. F100. S900 M3", "G2 X5. Y5. I5. J0. F100. S900 M3"):
-        with pytest.raises(ProgramError, match="^line 5: M3 beside a feed: whether"):
+        with pytest.raises(ProgramError, match=r"^line 5: M3 beside a feed: whether"):
             interpret(f"{PLAIN}{line}\nM30\n", BY_NAME[name])
-    with pytest.raises(ProgramError, match="^line 6: M3 beside a feed: whether"):
+    with pytest.raises(ProgramError, match=r"^line 6: M3 beside a feed: whether"):
         interpret(f"{PLAIN}G1 F100.\nX5. S900 M3\nM30\n", BY_NAME[name])
 
 
@@ -202,7 +202,7 @@ def test_a_spindle_may_start_beside_a_rapid_and_not_beside_a_feed_whose_order_th
 def test_g54_with_p_is_an_offset_of_its_own_and_g55_with_p_is_nothing(name: str) -> None:
     run = interpret(PLAIN.replace("G54", "G54 P3") + "M30\n", BY_NAME[name])
     assert run.states[-1].work_offset == "G54.1 P3"
-    with pytest.raises(ProgramError, match="^line 3: P means nothing in this line"):
+    with pytest.raises(ProgramError, match=r"^line 3: P means nothing in this line"):
         interpret(PLAIN.replace("G54", "G55 P3") + "M30\n", BY_NAME[name])
 
 
