@@ -6,10 +6,14 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from by_control import asked, prove, scene_of
+from planning_parts import job, plate
 from shop import plate_job
 from test_proof_parts import paths_of
 
+from mechwright_cam.proof.cutting_rules import BEYOND
+from mechwright_cam.proof.edge_rules import too_steep
 from mechwright_cam.proof.loads import Loads, Taken
+from mechwright_cam.shop.tool import Tool
 
 HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\nG0 X0 Y0\nG43 H3 Z5\n"
 TAIL = "\nG0 Z5\nM5 M9\nG53 G0 Z0\nM30\n"
@@ -110,3 +114,18 @@ def test_places_along_two_chains_of_moves_have_their_ways_lengths_and_times() ->
     some = replace(taken, volume=np.arange(23.0))
     assert some.cuts.tolist() == [place for place in range(23) if length[place]]
     assert some.of_steps(paths.cuts).tolist() == [3, 42, 33, 58, 117]
+
+
+def test_a_way_straight_down_may_be_as_fast_as_its_limit_and_a_millimetre_a_minute_faster() -> None:
+    of = job(plate(), "mill-6")
+    head = HEAD.replace("T3", f"T{of.tools[0].number}").replace("H3", f"H{of.tools[0].number}")
+
+    def found(feed: float) -> tuple[tuple[int, Tool, float, float], ...]:
+        return too_steep(scene_of(f"{head}G1 Z-3 F{feed:.4f}\nG1 X10 F300{TAIL}", of))
+
+    ((_, tool, speed, limit),) = found(3000.0)
+    assert speed == 3000
+    data = tool.cutting["aluminium"]
+    assert limit == pytest.approx(BEYOND * data.plunge * data.chip_load * 8000 * tool.flutes)
+    for more, bad in ((-0.5, False), (0.5, False), (1.5, True)):
+        assert bool(found(limit + more)) == bad, more
