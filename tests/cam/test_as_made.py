@@ -186,6 +186,9 @@ def test_the_picture_draws_deviations_as_large_as_it_says():
     factor = exaggeration(part, 2 * HALF_X)
     assert f"{factor:,.0f} : 1".replace(",", " ") in picture
     assert 0.2 < factor * (0.001 + part.corridor) / (0.025 * 2 * HALF_X) <= 1.0
+    x, _, width, _ = map(float, re.search(r'viewBox="([^"]+)"', picture)[1].split())
+    assert x < -HALF_X
+    assert x + width / 2 == pytest.approx(0, abs=0.01)
 
 
 def test_a_circle_fits_whatever_stretch_of_it_there_is():
@@ -206,6 +209,23 @@ def test_a_plot_of_an_input_that_turns_backwards():
     backwards = plot(MadeCurve("Error", "input, degrees", "µrad", turned, {"as made": off}))
     assert '"M170,-15.5L117.69,-62L0,-31"' in backwards
     assert {"-100", "-50", "0"} <= set(re.findall(r">([-\d]+)<", backwards))
+
+
+def test_a_whole_turn_has_a_mark_every_quarter_and_each_line_its_legend_above():
+    x = np.linspace(0.0, 360.0, 73)
+    lines = {name: np.sin(np.radians(x)) * size for name, size in (("as made", 0.3), ("drawn", 0.2))}
+    drawn = plot(MadeCurve("Error", "input, degrees", "mm", x, lines))
+    marks = re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>(\d+)<', drawn)
+    assert [(float(at), words) for at, _, words in marks] == [(n * 170 / 4, f"{90 * n}") for n in range(5)]
+    legends = [
+        (float(at), words) for at, words in re.findall(r'<text x="([\d.]+)"[^>]*>([\w ]+, mm)<', drawn)
+    ]
+    assert legends == [(12.0, "as made, mm"), (97.0, "drawn, mm")]
+    left, _, width, _ = map(float, re.search(r'viewBox="([^"]+)"', drawn)[1].split())
+    scale = re.findall(r'<text x="(-[\d.]+)"[^>]*>[−\d.]+<', drawn)
+    assert scale
+    assert all(left < float(at) < 0 for at in scale)
+    assert left + width > 170
 
 
 def test_an_input_that_turns_backwards_is_plotted_as_one_that_turns_forwards():

@@ -1,10 +1,12 @@
 """The order of assembly: small cases whose order is known, and every family's, done again with meshes."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from by_night import by_night
 from cam.replay import met
 
@@ -20,6 +22,7 @@ from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.screws import screw
+from mechwright_cad.assembly_order import heights
 from mechwright_cad.assembly_order.groups import connected
 from mechwright_cad.assembly_order.heights import CELL, Heights
 from mechwright_cad.assembly_order.layers import frame_of, own_layers
@@ -365,3 +368,18 @@ def test_a_body_of_several_pieces_has_the_layers_of_each():
     layers = own_layers(part)
     assert [(one.low, one.high) for one in layers] == [(0, 3), (3, 7)]
     assert [one.shape.bounds for one in layers] == [(0, 0, 10, 8), (2, 2, 5, 6)]
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.045, 2.0, 3.9, 5.5])
+def test_points_on_a_triangle_leave_no_place_of_a_cell_without_one(angle):
+    corners = np.array([(0.0, 0.0), (30.0, 0.0), (8.0, 14.0)]) * CELL
+    turned = corners @ np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    triangle = np.column_stack((turned, [1.0, 2.0, 3.0]))
+    points = np.concatenate(list(heights._covered(triangle[None])))
+    rng = np.random.default_rng(3)
+    shares = rng.dirichlet((1.0, 1.0, 1.0), 400)
+    apart = np.linalg.norm((shares @ turned)[:, None] - points[None, :, :2], axis=2).min(axis=1)
+    assert apart.max() <= CELL / math.sqrt(2)
+    assert len(points) < 2 * 33 * 33  # no more than twice as many each way as there are cells
+    inside = shapely.Polygon(turned).buffer(1e-9 * CELL)
+    assert shapely.contains_xy(inside, points[:, 0], points[:, 1]).all()

@@ -113,6 +113,14 @@ def test_short_edges_beside_a_bar_that_stands_in_an_opening():
     assert off(shapely.box(-80, -80, 80, 80).difference(opening), -8.0) < 0.0005
 
 
+def test_an_opening_keeps_its_distance_whichever_piece_it_is_in():
+    """Taken for an outer edge, a bar in it has a straight line of centimetres beside its end: 6 µm there."""
+    rim, bar = shapely.Polygon(lobes(3, 24, 6, 2500).flatten()), shapely.box(-2, 15, 2, 45)
+    shape = shapely.union(shapely.box(-80, -80, 80, 80).difference(rim), bar)
+    assert off(shape, 3.0) < 0.0005
+    assert off(shapely.MultiPolygon([shapely.box(100, 0, 110, 10), shape]), 3.0) < 0.0005
+
+
 def test_short_edges_before_a_long_one_are_no_straight_line():
     """GEOS 3.14 goes straight from the end of the bar to the far side of the rim, 8 mm above it in between."""
     rim = shapely.Polygon(lobes(2, 26, 8, 2500).flatten())

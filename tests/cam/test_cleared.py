@@ -2,6 +2,7 @@
 
 import random
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import plate_job
 
+from mechwright.arrays import Array
 from mechwright_cam.proof import Scene
 from mechwright_cam.proof import cleared as module
 from mechwright_cam.proof.entry_rules import rapids_in_stock
@@ -166,3 +168,23 @@ def test_of_many_heights_a_few_are_looked_at_and_common_ones_stay() -> None:
         assert np.abs(levels - (step - module.NEAR / 2)).min() < module.NEAR / 4
     assert module._levels(every, 1000).size > 2 * levels.size
     assert module._levels(steps, cuts).size == 3
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_strip_is_as_wide_as_the_disc_at_its_share_and_goes_up_to_another(axis: int) -> None:
+    """Of a disc of 5 mm between 0.6 and 0.8 of its radius: 4 mm to either side, and 4 mm up or down."""
+    asked: list[list[float]] = []
+
+    class Area:
+        def latest(self, low: Array, high: Array) -> Array:
+            asked.append([*low[0].tolist(), *high[0].tolist()])
+            return np.zeros(len(low), dtype=np.int64)
+
+    low, high = np.array([[1.0, 2.0]]), np.array([[11.0, 22.0]])
+    for up in (0.8, -0.8):
+        one = (np.array([value]) for value in (5.0, 0.6, up))
+        module._Level._strips(SimpleNamespace(area=Area()), axis, low, high, *one)
+    below, above = ([4.0, 4.0] for _ in range(2))
+    for found, way in zip(asked, (1, -1), strict=True):
+        below[axis], above[axis] = (0.0, 4.0) if way > 0 else (4.0, 0.0)
+        assert found == pytest.approx([1 - below[0], 2 - below[1], 11 + above[0], 22 + above[1]])

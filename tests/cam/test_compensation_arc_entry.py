@@ -11,7 +11,7 @@ HEAD = "G17 G21 G40 G90 G94 G54\nG0 X0 Y0 Z5\n"
 
 @pytest.mark.parametrize("side", [41, 42])
 @pytest.mark.parametrize("ccw", [False, True])
-@pytest.mark.parametrize("turn", [0.4, 1.3, math.pi / 2, 2.5])
+@pytest.mark.parametrize("turn", [0.4, 1.3, math.pi / 2, 2.5, 4.0])
 @pytest.mark.parametrize("size", [0.05, 1.0])
 def test_the_tool_arrives_beside_the_contour_in_its_direction(
     side: int, ccw: bool, turn: float, size: float
@@ -69,6 +69,7 @@ def test_in_an_inner_corner_of_an_arc_and_a_line_the_tool_touches_both(
     (step,) = np.flatnonzero(run.sweep)
     reach = 9.0 if left else 11.0
     there = (10 + math.sqrt(reach**2 - 1), 9.0 * s)
+    assert run.start[step, :2] == pytest.approx((10, s if left else -s), abs=1e-6)
     assert run.end[step, :2] == pytest.approx(there, abs=1e-6)
     assert run.start[step + 1, :2] == pytest.approx(there, abs=1e-6)
     assert run.end[step + 1, :2] == pytest.approx((beyond, 9.0 * s), abs=1e-6)

@@ -180,3 +180,40 @@ def test_a_peck_with_a_dwell_is_written_out() -> None:
         run = read(control, one)
         assert run.seconds.sum() == pytest.approx(0.3)
         assert run.end[run.kind == Kind.FEED][:, 2].tolist() == [-1, -3, -5]
+
+
+PLAIN = "G17 G21 G40 G90 G94\nT1 M6\nG54\nG0 X0. Y0. Z5.\n"
+
+
+@pytest.mark.parametrize("name", ["fanuc", "haas"])
+def test_a_spindle_may_start_beside_a_rapid_and_not_beside_a_feed_whose_order_the_builder_sets(
+    name: str,
+) -> None:
+    for line in ("G0 X5. S900 M3", "S900 M3", "G1 F100. S900 M3"):
+        assert interpret(f"{PLAIN}{line}\nM30\n", BY_NAME[name]).states[-1].rpm == 900
+    for line in ("G1 Z-1. F100. S900 M3", "G2 X5. Y5. I5. J0. F100. S900 M3"):
+        with pytest.raises(ProgramError, match=r"^line 5: M3 beside a feed: whether"):
+            interpret(f"{PLAIN}{line}\nM30\n", BY_NAME[name])
+    with pytest.raises(ProgramError, match=r"^line 6: M3 beside a feed: whether"):
+        interpret(f"{PLAIN}G1 F100.\nX5. S900 M3\nM30\n", BY_NAME[name])
+
+
+@pytest.mark.parametrize("name", ["fanuc", "haas"])
+def test_g54_with_p_is_an_offset_of_its_own_and_g55_with_p_is_nothing(name: str) -> None:
+    run = interpret(PLAIN.replace("G54", "G54 P3") + "M30\n", BY_NAME[name])
+    assert run.states[-1].work_offset == "G54.1 P3"
+    with pytest.raises(ProgramError, match=r"^line 3: P means nothing in this line"):
+        interpret(PLAIN.replace("G54", "G55 P3") + "M30\n", BY_NAME[name])
+
+
+def test_an_arc_from_an_unknown_place_names_the_line_that_lost_it() -> None:
+    text = "G17 G21 G40 G90 G94 G54\nG0 X0 Y0 Z5\n{}\nG2 X5 Y5 I5 J0 F100\nM2\n"
+    for line, since in (
+        ("G28", "G28 in line 3"),
+        ("G53 G0 X0", "G53 in line 3"),
+        ("G28 Z9\nG0 Z5\nG28", "G28 in line 5"),
+    ):
+        with pytest.raises(
+            ProgramError, match=f"an arc from an unknown position, unknown since {since}; move"
+        ):
+            interpret(text.format(line), BY_NAME["linuxcnc"])

@@ -13,8 +13,9 @@ from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright_cad.interference import interference
-from mechwright_cad.interference.slabs import SURE_IN_PLAN, TOUCH, Slab
+from mechwright_cad.interference import interference, plates
+from mechwright_cad.interference.path import Path
+from mechwright_cad.interference.slabs import SURE_IN_PLAN, TOUCH, Circle, Slab
 
 TURN = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))
@@ -336,3 +337,16 @@ def test_a_plate_turned_over_meets_what_is_at_its_height(height, hits):
     )
     report = interference([flat, over], motion(flat=STILL, over=turned))
     assert bool(report.collisions) is hits
+
+
+def test_two_circles_that_slide_past_each_other_meet_while_their_rims_cross():
+    """Of 2 and 1 mm, half a millimetre a sample: their rims cross from 3 mm apart to 1 mm, on either side."""
+    way = np.column_stack((np.linspace(-10.0, 10.0, 41), np.zeros(41)))
+    found = plates._circles(Circle(np.zeros(2), 2.0), Circle(np.zeros(2), 1.0), Path(way, np.zeros((41, 1))))
+    away = np.abs(-10.0 + 0.5 * found.hits)
+    assert ((away >= 1.0 - 1e-9) & (away <= 3.0 + 1e-9)).all()
+    assert {int(time) for time in found.hits} >= {14, 15, 16, 17, 22, 23, 24, 25}
+    beside = Path(way + np.array([0.0, 3.2]), np.zeros((41, 1)))
+    found = plates._circles(Circle(np.zeros(2), 2.0), Circle(np.zeros(2), 1.0), beside)
+    assert found.hits.size == 0
+    assert found.gap == pytest.approx(0.2, abs=0.01)

@@ -20,7 +20,7 @@ from mechwright_cad.exporters.step import part as step_of
 from mechwright_cad.interference import interference, smooth_motion
 from mechwright_cad.interference.meshes import meetings
 from mechwright_cad.interference.nearest import Nearest, nearest_to_origin
-from mechwright_cad.interference.path import Path, relative, space_path
+from mechwright_cad.interference.path import Path, relative, rotations, space_path
 from mechwright_cad.interference.prisms import prisms_of
 from mechwright_cad.interference.surface import SKIN, SURE_IN_SPACE, Surface
 
@@ -229,6 +229,37 @@ def flights(draw):
         return Poses(place, about(axis, turns * t + 0.7 * np.sin(t)))
 
     return at
+
+
+def test_a_motion_that_a_cubic_follows_is_asked_for_once():
+    asked = []
+
+    def solve(samples):
+        asked.append(samples)
+        angle = np.linspace(0, math.tau, samples)
+        return Motion("x", {"x": Channel(angle, "rad")}, {"a": Poses.planar(0.0, 0.0, angle)})
+
+    assert smooth_motion(solve, [solid("a", ball(5))]).samples == asked[0]
+    assert len(asked) == 1
+
+
+@pytest.mark.parametrize("length", [1.0, 3.0])
+def test_quaternions_of_any_length_and_angles_in_the_plane_are_rotations(length):
+    axis, angle = np.array([2.0, -3.0, 6.0]) / 7, np.linspace(-3, 3, 13)
+    quaternions = np.column_stack((np.cos(angle / 2), np.sin(angle / 2)[:, None] * axis))
+    np.testing.assert_allclose(rotations(length * quaternions), about(axis, angle), atol=1e-12)
+    np.testing.assert_allclose(rotations(angle[:, None]), about((0, 0, 1), angle)[:, :2, :2], atol=1e-12)
+
+
+def test_where_bodies_always_overlap_every_look_finds_them():
+    """A small block within a large one: 25 looks from the first sample to the last, or one where both rest."""
+    large, small = (surface(manifold3d.Manifold.cube((size,) * 3, center=True)) for size in (20.0, 2.0))
+    turning, resting = (
+        meetings(large, small, space_path(*relative(STILL, other)))
+        for other in (spun((1, 2, 3), place=(1.0, 2.0, 3.0)), STILL)
+    )
+    np.testing.assert_allclose(turning, np.linspace(0, N - 1, 25))
+    np.testing.assert_array_equal(resting, [0.0])
 
 
 @settings(max_examples=25)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import Motion, course
+from mechwright_cam.controls.lookahead import Motion, blend_arc, course
 from mechwright_cam.controls.lookahead.linuxcnc import KINK, SERVO_S
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.shop.machine import Machine
@@ -82,6 +82,22 @@ def test_a_helix_brakes_with_what_the_bend_of_its_way_leaves(climb: float) -> No
     assert one[-2] == pytest.approx(way / speed + speed / (2 * braking), abs=4 * SERVO_S)
 
 
+@pytest.mark.parametrize("climb", [0.0, 6.0, 15.0])
+@pytest.mark.parametrize("share", [0.2, 0.6, 0.8])
+def test_an_arc_that_the_axes_keep_slow_brakes_with_what_its_bend_leaves(share: float, climb: float) -> None:
+    """Half of the acceleration is for blends; of the other the bend takes a share, up to √0.75."""
+    radius = 20.0
+    longer = math.hypot(math.tau * radius, climb) / (math.tau * radius)
+    half = 500.0 * longer
+    plan = math.sqrt(share * half * (radius + climb**2 / radius)) / longer
+    machine = {"max_feed": 1e5, "rapid": 60 * plan, "rapid_z": 1e5}
+    turns = "".join(f"G3 X20 Y0 Z{-climb * k} I-20 J0\n" for k in range(1, 5))
+    one = moved(f"G0 X0 Y0 Z0\n{P}G1 X20 F90000\n{turns}", **machine)[1].seconds[:-1]
+    around, braking = math.tau * radius / plan, half * math.sqrt(1 - share**2)
+    assert one[-3] == pytest.approx(around, abs=SERVO_S)
+    assert one[-1] == pytest.approx(around + plan * longer / (2 * braking), abs=4 * SERVO_S)
+
+
 def test_the_pieces_of_an_arc_in_another_plane_are_no_cycle_with_a_stop_at_each() -> None:
     along = math.pi * 5.0 / (2000 / 60)
     assert along < seconds(P + "G18 G3 X10 Z0 I5 K0 F2000") < 1.5 * along
@@ -151,6 +167,44 @@ def test_an_arc_after_a_line_is_bounded_by_speed_and_acceleration_not_by_p() -> 
     assert claimed(0.5, p=0.0001) == pytest.approx(claimed(0.5), rel=0.05)
     assert claimed(0.5) > 3 * claimed(1.0)
     assert claimed(0.5, feed=600.0) < 0.005
+
+
+@pytest.mark.parametrize("ccw", [True, False])
+@pytest.mark.parametrize(
+    ("bend", "around", "radius"),
+    [(1.2, 8.0, 1.0), (0.4, 30.0, 2.0), (math.pi / 2, 2.0, 0.9), (2.4, 5.0, 0.5)],
+)
+def test_a_blend_touches_line_and_arc_and_is_none_where_it_is_too_high(ccw, bend, around, radius) -> None:
+    """A line along X into (0, 0), and an arc that leaves it ``bend`` to the left: the circle's middle by hand."""
+    sense = 1 if ccw else -1
+    cx, cy = sense * around * np.array((-math.sin(bend), math.cos(bend)))
+    reach = around - sense * radius  # inside of an arc to the left, outside of one to the right
+    x = cx + np.array((1, -1)) * math.sqrt(reach**2 - (radius - cy) ** 2)
+    middle = np.array((x[np.argmin(np.abs(x))], radius))
+    high = math.hypot(*middle)
+    row = SimpleNamespace(
+        before=np.array([0]),
+        after=np.array([1]),
+        last=np.array([[1.0, 0.0, 0.0]] * 2),
+        first=np.array([[math.cos(bend), math.sin(bend), 0.0]] * 2),
+        radius=np.array([math.inf, around]),
+        signed=np.array([0.0, sense]),
+    )
+
+    def fitted(radius: float, tolerance: float):
+        within = [np.zeros(1), np.array([-1.0 if ccw else 1.0])]
+        return blend_arc._fitted(
+            row, np.array([0]), np.array([radius]), np.ones(1), within, np.array([tolerance])
+        )
+
+    fits, trim, angle = fitted(radius, high - radius + 1e-2)
+    assert fits.all()
+    assert trim == pytest.approx(math.sqrt(high**2 - radius**2), abs=2e-3)
+    spoke = sense * (middle - (cx, cy)) / reach  # from the middle to where it touches the arc
+    assert angle == pytest.approx(math.acos(-spoke[1]), abs=2e-3)
+    assert not fitted(radius, high - radius - 1e-2)[0].any()
+    if ccw and bend > 1:  # a circle almost as large as the arc it should be in has no place
+        assert not fitted(0.99 * around, math.inf)[0].any()
 
 
 def test_two_small_arcs_overlap_as_fast_as_their_radius_allows_whatever_is_asked() -> None:

@@ -247,6 +247,17 @@ def test_turn_is_asked_for_in_the_table(tmp_path):
     assert not any(angles[1])
 
 
+def test_between_two_channels_a_frame_of_3_mm_stays(tmp_path):
+    file = tmp_path / "pair.toml"
+    file.write_text(PAIR + "[cam.nest]\n")
+    parts = [box("one", 30, 20), box("other", 30, 20)]
+    (nest,) = arranged(load(file, host()), parts, LIBRARY)
+    channel = channel_of(parts, CamSettings(), LIBRARY)
+    assert channel > 1
+    one, other = (placed.outline.polygon() for placed in nest.placed)
+    assert shapely.distance(one, other) == pytest.approx(2 * channel + 3.0, abs=1e-5)
+
+
 def test_turning_saves_stock():
     parts = [box("long", 100, 20), box("tall", 20, 100)]
     areas = [nest_of("nest", parts, CamSettings(), 10.0, turn=turn).outline.area for turn in (True, False)]

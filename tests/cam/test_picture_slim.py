@@ -42,6 +42,28 @@ def words(picture: str) -> list[tuple[str, shapely.Polygon]]:
     return found
 
 
+def test_dimensions_stand_beside_the_stock_in_two_rows() -> None:
+    """Stock and the way to the origin on the left and below; the part, nearer, on the right and above."""
+    picture = plan_view(slim(60, 40, "axis"))
+    assert re.search(r'<rect x="-39" y="-29" width="78" height="58"[^>]*stroke-width="0.17"', picture)
+    lines = re.findall(r'M([-\d.]+),([-\d.]+)L([-\d.]+),([-\d.]+)" fill="none" stroke="(#\w+)"', picture)
+    rows = [tuple(map(float, line[:4])) for line in lines]
+    size = float(re.search(r'font-size="([\d.]+)" text-anchor="middle" fill="#333333"', picture)[1])
+    near, far = 1.7 * size, 2 * 1.7 * size
+    ends = [
+        (-39, 29 + far, 39, 29 + far), (-39 - far, 29, -39 - far, -29),  # the stock
+        (-30, -29 - near, 30, -29 - near), (39 + near, 20, 39 + near, -20),  # the part
+        (-39, 29 + near, 0, 29 + near), (-39 - near, 29, -39 - near, 0),  # the origin
+    ]  # fmt: skip
+    assert rows == [pytest.approx(one, abs=0.02) for one in ends]
+    # The heads of the two axes begin before their lines end.
+    for line, base, tip in re.findall(
+        r'M0,0H([\d.]+)M.*?<path d="M([\d.]+),0L([\d.]+),', picture
+    ) + re.findall(r'M0,0V-([\d.]+)".*?<path d="M0,-([\d.]+)L[-\d.]+,-([\d.]+)L', picture):
+        assert float(tip) < float(line) < float(base)
+    assert [line[4] for line in lines] == ["#333333"] * 4 + ["#b00020"] * 2
+
+
 @settings(max_examples=40)
 @given(
     width=st.floats(5, 300), height=st.floats(5, 300), origin=st.sampled_from(["axis", "corner", "centre"])

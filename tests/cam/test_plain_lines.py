@@ -271,6 +271,27 @@ def test_a_comment_beside_plain_words_moves_nothing() -> None:
         assert run.end[1:, 0].tolist() == [*range(30)][1:] or run.end[-1, 0] == 29.0
 
 
+@pytest.mark.parametrize("code", ["G0", "G1", "G2", "G3"])
+def test_a_line_that_is_not_plain_goes_on_with_the_motion_of_those_before(code: str) -> None:
+    ends = " I5 J0" if code in {"G2", "G3"} else ""
+    lines = "".join(f"X{k % 2 * 10} Y0{ends if k % 2 else ends.replace('5', '-5')}\n" for k in range(1, 31))
+    text = f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{code} {lines}X10 Y0{ends} M8\nM2\n"
+    assert_alike(text, BY_NAME["linuxcnc"])
+    run = interpret(text, BY_NAME["linuxcnc"])
+    assert run.kind[-2] == {"G0": Kind.RAPID, "G1": Kind.FEED}.get(code, Kind.ARC)
+    assert run.end[-1, 0] == 10
+
+
+@pytest.mark.parametrize("name", ["fanuc", "haas"])
+def test_a_speed_with_a_point_is_plain_where_a_control_takes_it(name: str) -> None:
+    dialect = BY_NAME[name].dialect
+    lines = "".join(f"G1 X{k}. F100. S{900 + k}{{}}\n" for k in range(30))
+    for point in ("", "."):
+        plain = PlainLines(lines.replace("{}", point), dialect).plain[:30]
+        taken = not point or "S" not in dialect.whole_words
+        assert plain.all() == plain.any() == taken, (name, point)
+
+
 def test_an_arc_from_an_unknown_height_is_no_plain_arc() -> None:
     arcs = "".join("G2 X10 Y0 I5 J0\nG2 X0 Y0 I-5 J0\n" for _ in range(20))
     for start in ("G0 X0 Y0\n", "G0 X0 Y0 Z5\n", "G0 X0 Y0 Z5\nG53 G0 Z0\n", "G0 Z5\nX0\n"):

@@ -15,6 +15,7 @@ from mechwright.plugins.host import Host
 from mechwright_cam import plugin
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.mach3 import Mach3
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines
 from mechwright_cam.controls.writing.writer import AGREEING, Writer
@@ -266,3 +267,10 @@ def test_every_tool_s_first_height_has_its_offset() -> None:
         states = {run.states[s].length_offset for s in run.state[(run.tool == number) & run.cutting]}
         assert states == {number}
     assert {tool.number for tool in TOOLS} >= {2, 3}
+
+
+@pytest.mark.parametrize("dwell", [0.0, 0.5, 2.0])
+def test_mach3_is_told_the_unit_of_dwells_where_there_is_one(dwell: float) -> None:
+    moves = (Rapid(x=0.0, y=0.0), Rapid(z=5.0), Drill(0.0, 0.0, -2.0, 2.0, 120.0, dwell=dwell))
+    program = Program("plate", "G54", 5.0, (ToolSection(DRILL, 900, "off", (Operation("drill", moves),)),))
+    assert ("dwells are in seconds" in Mach3().write(program)) == (dwell > 0)

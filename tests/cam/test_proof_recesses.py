@@ -20,7 +20,7 @@ from mechwright_cam.proof import carried, sweep
 from mechwright_cam.proof.carried import SHARES
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.sweep import Sweeps
-from mechwright_cam.proof.wall import on_walls
+from mechwright_cam.proof.wall import Wall, on_walls
 from mechwright_cam.proof.wanted import TAB_SLACK, Wanted
 from mechwright_cam.proof.witness import witnesses
 from mechwright_cam.setup.lay_out import make_job
@@ -48,6 +48,7 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
     for up in (0.1, 0.5, 0.9):
         narrow = 18.0 - 2 * (1 - math.sqrt(1 - (1 - up) ** 2))
         assert fillet.solid(-3.0 + up).area == pytest.approx(18.0**2 - narrow**2, rel=1e-2)
+    assert fillet.solid(-3.0).area == pytest.approx(18.0**2 - 16.0**2, rel=1e-2)
     assert fillet.solid(-2.0).is_empty
     assert fillet.solid(-3.01).is_empty
     np.testing.assert_allclose(
@@ -58,6 +59,14 @@ def test_a_fillet_ends_where_a_deeper_recess_begins() -> None:
 def test_what_a_ball_cuts_into_a_fillet_is_its_nose_less_the_room() -> None:
     """A ball of 3 mm along the foot of a fillet of 4 mm: its middle is to be 4 mm off the wall, and as high."""
     (fillet,) = fillets(laid(Pocket("one", square(9.0), (), 0.0, 4.0, 4.0), tools=("ball-6",)))
+    np.testing.assert_allclose(
+        fillet.rise(np.array([0.0, 2.0, 4.0, 5.0])), [4.0, 4 - math.sqrt(12), 0.0, 0.0]
+    )
+    assert fillet.deepest(paths_of("G0 X5.5\nG1 Z0.5 F100", BALL)) is None
+    assert (
+        replace(fillet, walls=shapely.MultiLineString()).deepest(paths_of("G0 X5.5\nG1 Z-3 F100", BALL))
+        is None
+    )
     for away, up in (
         (4.0, 1.0),
         (4.5, 0.9),
@@ -122,6 +131,44 @@ def test_floors_chamfers_and_threads_are_handed_on() -> None:
     of = SimpleNamespace(thickness=8.0, features=features, tabs=(), details=details)
     heights = carried._heights(paths_of("G1 Z-2 F100"), of)  # type: ignore[arg-type]
     assert heights == {-8.0, -5.0, -4.0, -0.4, -0.3, -0.2, -0.1}
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_wall_has_its_material_on_the_left_all_round_in_steps_of_one_length(turned: bool) -> None:
+    """A plate of 10 x 6 mm with a window of 2 x 3 mm, whose corner stands twice, and a block beside it."""
+    outer = [(0, 0), (10, 0), (10, 6), (10, 6), (0, 6)]
+    window = [(2, 2), (2, 5), (4, 5), (4, 2)]
+    if turned:
+        outer, window = outer[::-1], window[::-1]
+    shape = shapely.MultiPolygon([shapely.Polygon(outer, [window]), shapely.box(20, 0, 22, 2)])
+    wall = Wall(shape)
+    assert wall.length == pytest.approx(32 + 10 + 8)
+    for spacing, count in ((1.0, 50), (0.99, 51), (80.0, 1)):
+        stations = wall.stations(spacing)
+        np.testing.assert_allclose(stations, (np.arange(count) + 0.5) * 50 / count)
+        points, outward = wall.at(stations)
+        assert shapely.distance(shapely.boundary(shape), shapely.points(points)).max() < 1e-12
+        np.testing.assert_allclose(np.hypot(*outward.T), 1.0)
+        assert shapely.contains_xy(shape, points - 1e-3 * outward).all()
+        assert not shapely.contains_xy(shape, points + 1e-3 * outward).any()
+        assert len(np.unique(points.round(9), axis=0)) == count
+    end, _ = wall.at(np.array([50.0]))
+    assert shapely.distance(shapely.boundary(shape), shapely.points(end)).max() < 1e-12
+    nothing = Wall(shapely.Polygon())
+    assert (nothing.length, len(nothing.stations(1.0))) == (0.0, 1)
+    assert on_walls(shapely.Polygon(), None, None, plate_job(), [], 3.0) == (0.0, None)
+
+
+def test_nothing_is_asked_of_a_wall_at_the_edge_of_the_stock() -> None:
+    job = plate_job()
+    assert on_walls(shapely.box(*job.stock), None, None, job, [], 3.0) == (0.0, None)
+    for side, inwards in enumerate((5.0, 5.0, -5.0, -5.0)):
+        bounds = list(job.stock)
+        bounds[side] += inwards
+        thick, place = on_walls(shapely.box(*bounds), None, None, job, [], 3.0)
+        assert thick == math.inf
+        assert place is not None
+        assert place[side % 2] == pytest.approx(bounds[side])
 
 
 @pytest.mark.parametrize("left", [0.0, 0.02, 0.15])

@@ -247,3 +247,20 @@ def test_the_kept_lines_are_in_the_order_that_is_safe() -> None:
             at = lines.index(line)
             kinds = [re.sub(r"[-\d.]+", "#", words) for words in lines[at : at + 6]]
             assert kinds == ["T#", "M#", "G# S# M#", "G# X# Y#", "D# Z#", "M#"]
+
+
+def test_a_called_block_is_read_behind_the_end_and_a_line_as_long_as_the_control_takes() -> None:
+    head = "G17 G710 G40 G90 G94 G54\nG0 X0 Y0 Z5\nG1 F100\n"
+    for call in ("CALL BLOCK AB_1 TO AB_2", "N30 call block ab_1 to ab_2 ; twice"):
+        run = interpret(f"{head}{call}\nX9\n{call}\nM30\nAB_1:\nX5\nX1\nAB_2:\n", SIEMENS)
+        assert run.end[run.kind == Kind.FEED, 0].tolist() == [5, 1, 9, 5, 1]
+    for spaces, taken in ((505, True), (506, False)):
+        text = f"{head}G1 X1{' ' * spaces}Y1\nM30\n"
+        assert len(text.splitlines()[3]) == 7 + spaces
+        if taken:
+            assert interpret(text, SIEMENS).end[-1, 1] == 1
+        else:
+            with pytest.raises(
+                ProgramError, match=r"^line 4: 513 characters; SINUMERIK 840D reads at most 512"
+            ):
+                interpret(text, SIEMENS)

@@ -13,6 +13,7 @@ from by_control import LINUXCNC, read, setup_html, simulated
 from planning_parts import bore, job, plate
 from shop import DRILL, MILL, SPOT, TOOLS, plate_job, plate_program
 
+from mechwright.contracts.materials import material
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
@@ -51,6 +52,41 @@ def test_a_slot_is_full_engagement_and_half_a_width_is_a_quarter_turn() -> None:
     seen, _ = simulation(*row(-24, 24, 0, -2.0, 60.0), *row(-20, 20, 1.0, -2.0, 2400.0))
     (work,) = seen.works
     assert work.removal == pytest.approx(1 * 2 * 2400 / 1000, rel=0.12)
+
+
+@pytest.mark.parametrize(
+    ("over", "width", "side"), [(12.0, 6, 0), (3.0, 3, 0.5), (-3.0, 3, -0.5), (1.5, 1.5, 0.75)]
+)
+def test_windows_of_a_row_beside_a_slot_have_the_loads_of_its_width(
+    over: float, width: float, side: float
+) -> None:
+    """4 mm deep; what is taken has its middle so many radii to the left of the path."""
+    stuff = material("aluminium")
+    seen, _ = simulation(*row(-24, 24, 0, -4.0), *row(-20, 20, over, -4.0))
+    (begin,) = np.flatnonzero(seen.loads.down)[1:]
+    plunge, level = seen.loads.only(slice(begin, begin + 1)), seen.loads.only(slice(begin + 1, None))
+    assert not level.down.any()
+    assert level.path.sum() == pytest.approx(40)
+    assert ((level.path > 3.5) & (level.path < 6.5)).all()
+    np.testing.assert_allclose(level.depth, 4.0, rtol=1e-6)
+    np.testing.assert_allclose(level.section, 4.0 * width, rtol=0.02)
+    np.testing.assert_allclose(level.width, level.section / 4.0, rtol=1e-6)
+    np.testing.assert_allclose(level.engagement, np.arccos(1 - level.width / 3.0))
+    np.testing.assert_allclose(level.side, side, atol=0.015)
+    np.testing.assert_allclose(level.removal, level.section * 0.6, rtol=1e-9)
+    np.testing.assert_allclose(level.tooth, 600 / 8000 / 3)
+    np.testing.assert_allclose(level.chip, level.tooth * np.sin(np.minimum(level.engagement, np.pi / 2)))
+    for n, engagement in enumerate(level.engagement):
+        angle = (np.arange(20000) + 0.5) / 20000 * engagement
+        share = (np.sin(angle) ** (1 - stuff.force_exponent)).mean() * engagement / (1 - math.cos(engagement))
+        force = stuff.force * level.tooth[n] ** -stuff.force_exponent * share
+        assert level.power[n] == pytest.approx(force * level.removal[n] / 60 / 1000, rel=1e-4)
+    assert plunge.engagement == pytest.approx(math.pi)
+    assert (plunge.feed, plunge.tooth) == (100, pytest.approx(100 / 8000 / 3))
+    drilled = stuff.force * plunge.tooth**-stuff.force_exponent
+    assert plunge.power == pytest.approx(drilled * plunge.removal / 60 / 1000, rel=1e-6)
+    for loads in (plunge, level):
+        np.testing.assert_allclose(loads.torque * 8000 * math.tau / 60, 1000 * loads.power)
 
 
 @pytest.mark.parametrize("over", [0.6, 1.5, 3.0])
@@ -132,6 +168,13 @@ def test_the_picture_shows_what_is_left_and_what_is_hurt() -> None:
     assert tuple(image[2, 2]) == (222, 212, 190)
     middle = image[image.shape[0] // 2, image.shape[1] // 2 + image.shape[1] // 6]
     assert tuple(middle) == (200, 0, 30)
+    # It lies where the stock is, y upwards, and all of that is shown.
+    aside = replace(made, stock=(-20.0, -15.0, 60.0, 45.0))
+    view = simulated_view(seen, aside)
+    assert re.search(r'viewBox="([^"]+)"', view)[1].split() == ["-20", "-45", "80", "60"]
+    assert [re.search(rf' {key}="([^"]+)"', view)[1] for key in ("x", "y", "width", "height")] == [
+        "-20", "-45", "80", "60",
+    ]  # fmt: skip
     assert simulated_view(seen, made) == simulated_view(seen, made)
 
 

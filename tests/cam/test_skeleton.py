@@ -9,9 +9,9 @@ from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Trace
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_cad.animation import motion_html
+from mechwright_cad.animation import motion_html, skeleton
 from mechwright_cad.animation.scene import scene
-from mechwright_cad.animation.skeleton import ARC, lines_of, links_of
+from mechwright_cad.animation.skeleton import ARC, COLOURS, FRAME, lines_of, links_of
 
 EXAMPLES = ("elliptic-pair", "figure-eight-train", "four-bar-double-rocker", "geneva-cycloidal")
 IN_SPACE = ("spherical-crank-rocker", "spherical-five-bar-projected")
@@ -107,6 +107,7 @@ def test_the_picture_in_the_plane_holds_all_of_it(name):
     found = scene((), motion, solids=False)
     x, y, width, height = found["window"]
     assert found["bare"]
+    assert found["poses"][GROUND] == {"columns": [[0], [0], [0]]}  # x, y and angle
     assert all(layer["bones"] for layer in found["layers"])
     assert {layer["body"] for layer in found["layers"]} <= found["poses"].keys()
     for path in found["traces"].values():
@@ -119,6 +120,7 @@ def test_the_picture_in_the_plane_holds_all_of_it(name):
 def test_the_picture_in_space_has_lines(name):
     found = scene((), motion_of(name), solids=False)
     assert found["meshes"]
+    assert found["poses"][GROUND] == {"columns": [[0], [0], [0], [1], [0], [0], [0]]}  # place and quaternion
     for mesh in found["meshes"]:
         assert mesh["triangles"] == []
         assert len(mesh["lines"]) % 6 == 0
@@ -143,3 +145,24 @@ def test_the_page_of_a_lever_is_drawn_over_time():
     assert re.search(r"there and back", text)
     turning = motion_html("d", "D", (), motion_of("elliptic-pair"), solids=False)
     assert '"over":"theta2"' in turning
+
+
+def test_neighbours_have_colours_of_their_own_and_the_ground_that_of_a_frame():
+    links, _ = links_of(motion_of("four-bar-double-rocker"))
+    coloured = [(link.body, colour) for link, colour in skeleton._coloured(links)]
+    assert coloured[0] == (GROUND, FRAME)
+    assert [colour for _, colour in coloured[1:]] == list(COLOURS[: len(coloured) - 1])
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.6, 0.0, 0.8)])
+def test_a_block_on_a_slide_is_as_wide_whichever_way_the_slide_goes(axis):
+    angle = np.linspace(0, 2 * np.pi, 25)
+    way = 20 * np.cos(angle)[:, None] * np.array(axis)
+    poses = {"slider": Poses(way, np.broadcast_to(np.eye(3), (25, 3, 3)).copy())}
+    guide = {"guide": Joint("prismatic", GROUND, "slider", axis=axis, drives=True)}
+    links, size = links_of(Motion("x", {"x": Channel(angle, "")}, poses, joints=guide))
+    (block,) = next(link for link in links if link.body == "slider").strokes
+    long, wide = (np.linalg.norm(block[b] - block[a]) for a, b in ((0, 1), (1, 2)))
+    assert long == pytest.approx(skeleton.BLOCK * size)
+    assert wide == pytest.approx(0.6 * long)
+    assert (block[1] - block[0]) @ (block[2] - block[1]) == pytest.approx(0, abs=1e-9)

@@ -83,7 +83,9 @@ def test_part_file(part):
 def test_names_colours_and_poses_of_an_assembly_come_back(part, tmp_path):
     motion = turning()
     path = tmp_path / "pair.step"
-    path.write_bytes(StepExporter().assembly("pair", [part], motion, 4))
+    text = StepExporter().assembly("pair", [part], motion, 4)
+    assert text.count(b"COLOUR_RGB") == 1  # the part's, which both of its bodies have
+    path.write_bytes(text)
     read = cq.Assembly.importStep(str(path))
     assert read.name == "pair"
     assert [node.name for node in read.children] == ["driver", "driven"]

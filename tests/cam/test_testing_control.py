@@ -11,6 +11,34 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
 from mechwright_cam.testing import ControlContract, sample_program
+from mechwright_cam.testing.changes import changed
+
+
+def numbers(move):
+    """What stands in a move and can be changed alone."""
+    names = {f.name for f in fields(move) if getattr(move, f.name) is not None} - {"breaking"}
+    if isinstance(move, FeedArc):
+        return names & {"z", "feed", "ccw"}
+    if isinstance(move, Drill) and move.dwell == 0:
+        return names - {"dwell"} | ({"breaking"} if move.peck else set())
+    return names
+
+
+def test_in_each_changed_program_one_number_of_one_move_is_another():
+    program = sample_program()
+    moves = [move for section in program.sections for one in section.operations for move in one.moves]
+    seen = {at: [] for at in range(len(moves))}
+    for what, other in changed(program):
+        again = [move for section in other.sections for one in section.operations for move in one.moves]
+        assert len(again) == len(moves), what
+        (at,) = (at for at, pair in enumerate(zip(moves, again, strict=True)) if pair[0] != pair[1])
+        old, new = moves[at], again[at]
+        (name,) = (f.name for f in fields(old) if getattr(old, f.name) != getattr(new, f.name))
+        if isinstance(getattr(old, name), float):
+            assert getattr(new, name) - getattr(old, name) == pytest.approx(0.125)
+        seen[at].append(name)
+    for move, names in zip(moves, seen.values(), strict=True):
+        assert sorted(names) == sorted(numbers(move)), move
 
 
 def note(text):

@@ -59,6 +59,10 @@ def test_a_hole_is_drilled_if_that_saves_more_than_its_changes(material, change,
     assert ("drill-10" in found) == ("spot-6" in found) == drilled
 
 
+def test_where_all_is_drilled_no_mill_is_chosen():
+    assert names(plate(machined=(Bore("hole", (0.0, 0.0), 2.0, 0.0, 6.0),))) == ["spot-6", "drill-2"]
+
+
 def test_holes_that_only_drills_make_keep_their_drills():
     assert {"spot-6", "drill-2"} <= set(names(plate(bore(2, (-15, 0)))))
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mechwright_cam.plane import runs
 from mechwright_cam.plane.arcfit import fit, fit_all
-from mechwright_cam.plane.offsets import grow, rings
+from mechwright_cam.plane.offsets import SPARE, grow, pieces, rings
 from mechwright_cam.plane.path import Path, arc, circle, line, polyline
 from mechwright_cam.plane.runs import GREATEST_RADIUS, LONGEST_TURN
 
@@ -221,6 +221,47 @@ def test_rings_have_the_wall_on_the_right_when_climbing():
         outer, inner = rings(grow(frame, 1.0), climb)
         assert bool(shapely.is_ccw(shapely.LinearRing(outer))) is not climb
         assert bool(shapely.is_ccw(shapely.LinearRing(inner))) is climb
+
+
+@pytest.mark.parametrize("seam", [0, 7, 30])
+def test_a_run_goes_one_vertex_on_at_either_end_and_to_the_edge_of_its_room(seam):
+    """Of a ring of 40 vertices 5 to 9 are near something and 7 is to be cut; the room may end in between."""
+    turn = np.linspace(0, math.tau, 41)
+    ring = 10 * np.column_stack((np.cos(turn), np.sin(turn)))
+
+    wide, at = shapely.box(-11, -11, 11, 11), (np.arange(41) + seam) % 40
+
+    def run(room, *around, wanted=7):
+        near = (at >= 5) & (at <= 9)
+        (one,) = pieces(ring[at], at == wanted, near, room, 3, around)
+        assert one.order == 3
+        assert not one.closed
+        return one.points
+
+    for wanted in (5, 7, 9):
+        np.testing.assert_allclose(run(wide, wanted=wanted), ring[4:11])
+    for wanted, near in ((4, at == 5), (10, at == 9), (3, at > 40)):
+        assert pieces(ring[at], at == wanted, near, wide, 3) == []
+    (whole,) = pieces(ring[at], at == 7, at >= 0, wide, 3)
+    assert whole.closed
+    np.testing.assert_array_equal(whole.points, ring[at])
+    assert pieces(ring[at], at > 40, at >= 0, wide, 3) == []
+    # A room that ends half way from vertex 9 to the next: a thousandth of the edge is exact enough.
+    edge = (ring[9, 1] + ring[10, 1]) / 2
+    ended = run(shapely.box(-11, -11, 11, edge))
+    np.testing.assert_allclose(ended[:-1], ring[4:10])
+    np.testing.assert_allclose(ended[-1], (ring[9] + ring[10]) / 2, atol=1e-3)
+    assert ended[-1, 1] <= edge
+    begun = run(shapely.box(-11, (ring[4, 1] + ring[5, 1]) / 2, 11, 11))
+    np.testing.assert_allclose(begun[1:], ring[5:11])
+    np.testing.assert_allclose(begun[0], (ring[4] + ring[5]) / 2, atol=1e-3)
+    # With a shape around, the run ends 0.02 mm behind its edge.
+    disc = shapely.box(-11, (ring[4, 1] + ring[5, 1]) / 2, 11, edge)
+    both = run(wide, disc)
+    np.testing.assert_allclose(both[1:-1], ring[5:10])
+    for end, (a, b) in ((both[0], ring[[5, 4]]), (both[-1], ring[[9, 10]])):
+        along = (b - a) / math.dist(a, b)
+        np.testing.assert_allclose(end, (a + b) / 2 + SPARE * along, atol=1e-3)
 
 
 @given(radius=st.floats(0.1, 20.0))

@@ -1,6 +1,7 @@
 """The deviation along walls: known offsets, a planted cut, corners, and the picture of all that."""
 
 import math
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -108,6 +109,11 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
     assert view.count("<circle") == 3 + 3
     assert view.count("stroke-dasharray") == 3  # corners are dashed
     assert f"1: {walls.left[0].off:+.4f}" in view
+    # The bar of the scale stands below the part, between its two ends, and all of it is in the picture.
+    x, top, end = map(float, re.search(r'M([-\d.]+),[-\d.]+V([-\d.]+)H([-\d.]+)V[-\d.]+"', view).groups())
+    left, high, width, height = map(float, re.search(r'viewBox="([^"]+)"', view)[1].split())
+    assert left < x < end < left + width
+    assert 20.0 < top < high + height
     from mechwright_cam.pages.picture import Frame
 
     small, large = (exaggeration(walls, Frame(0, 0, size, size)) for size in (50.0, 500.0))

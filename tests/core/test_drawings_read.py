@@ -12,9 +12,9 @@ from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright import Bore, Part, Pocket
+from mechwright import Bore, Loop, Outline, Part, Pocket, Profile
 from mechwright.contracts.details import Chamfer, Engraving, Thread
-from mechwright.drawings import shown
+from mechwright.drawings import edged, plate, shown
 from mechwright.drawings.asked import Asked
 from mechwright.drawings.fault import Told
 from mechwright.drawings.plate import Cut, part_of
@@ -316,3 +316,53 @@ def test_any_plate_comes_out_of_any_order_of_its_pieces(corners, random, gap):
     assert np.isclose(
         again.outline.area, whole.outline.area, atol=gap * whole.outline.polygon().length + 1e-3
     )
+
+
+def test_what_is_drawn_shows_its_own_look_that_of_its_layer_or_that_of_its_block():
+    document = ezdxf.new(setup=True)
+    document.layers.add("cut", color=3, linetype="HIDDEN")
+    document.layers.add("off", color=5).off()  # which its colour says, below 0
+    space = document.modelspace()
+    outer = shown._Look("cut", 4, "dashdot", "7F")
+
+    def look(outer, **said):
+        found = shown._look(document, space.add_line((0, 0), (1, 0), dxfattribs=said), outer)
+        return found.layer, found.colour, found.linetype
+
+    own = {"layer": "cut", "color": 1, "linetype": "DASHED"}
+    by_layer, by_block = {"color": 256, "linetype": "BYLAYER"}, {"color": 0, "linetype": "BYBLOCK"}
+    for around in (None, outer):
+        assert look(around, **own) == ("cut", 1, "dashed")
+        assert look(around, layer="cut", **by_layer) == look(around, layer="cut") == ("cut", 3, "hidden")
+        assert look(around, layer="off", **by_layer) == ("off", 5, "continuous")
+        assert look(around, layer="nowhere", **by_layer) == ("nowhere", 7, "continuous")
+    assert look(None, layer="cut", **by_block) == ("cut", 7, "continuous")
+    assert look(outer, layer="off", **by_block) == ("off", 4, "dashdot")
+    assert look(None, layer="0", **by_layer) == ("0", 7, "continuous")
+    assert look(outer, layer="0", **by_layer) == (
+        "cut",
+        3,
+        "hidden",
+    )  # layer 0 is that of the block's reference
+
+
+def test_a_bore_is_shifted_with_the_plate_that_it_is_drawn_in():
+    assert plate._moved(Bore("hole", (3.0, 4.0), 6.0, 1.0, 2.0), 10.0, 20.0) == Bore(
+        "hole", (13.0, 24.0), 6.0, 1.0, 2.0
+    )
+
+
+def test_edges_that_a_chamfer_may_have_are_those_of_the_top_face():
+    rim, box = (Loop.polygon([(-h, -h), (h, -h), (h, h), (-h, h)]) for h in (30.0, 5.0))
+    features = (
+        Pocket("recess", box.moved(-15, 0, 0), (Loop.polygon([(-16, -1), (-14, -1), (-15, 1)]),), 0.0, 2.0),
+        Pocket("deeper", box.moved(-15, 0, 0), (), 2.0, 2.0),
+        Bore("hole", (15.0, 15.0), 6.0, 0.0, 8.0),
+        Profile("window", box.moved(15, -15, 0), "inside", 0.0, 8.0),
+        Profile("rim", rim, "outside", 0.0, 8.0),
+    )
+    found = list(edged._edges(Part("plate", Outline(rim), 8.0, "steel", machined=features)))
+    assert [(name, rim) for name, _, rim in found] == [
+        ("outside", True), ("recess", False), ("recess-island-1", True), ("hole", False), ("window", False),
+    ]  # fmt: skip
+    assert found[3][1].bounds == pytest.approx((12.0, 12.0, 18.0, 18.0), abs=1e-3)

@@ -1,6 +1,7 @@
 """Fillets between floor and walls of a recess: sections and volume against closed forms."""
 
 import math
+from dataclasses import replace
 
 import pytest
 import shapely
@@ -71,6 +72,8 @@ def test_sections_grow_towards_the_floor_and_end_there() -> None:
     assert foot.bottom == 5
     assert foot.shape.area == pytest.approx(2400 - math.pi * 64, rel=1e-4)
     assert len(sections(plate(pocket), steps=0)) == 2
+    assert len(sections(plate(replace(pocket, floor_radius=0.5)))) == 10
+    assert len(sections(plate(replace(pocket, floor_radius=0.0)))) == 2
 
 
 def test_a_bore_through_the_floor_takes_the_fillet_with_it() -> None:

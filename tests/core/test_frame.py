@@ -1,8 +1,10 @@
 """Frames: bearings that have room, shafts that go together, pillars clear of what moves; closed forms."""
 
+import cmath
 import math
 from dataclasses import replace
 from itertools import combinations, pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -29,6 +31,9 @@ from mechwright.contracts.surroundings import OVER, Place, Surroundings, turned
 from mechwright.contracts.turned import TAP_RUN, EndThread, Step, Turned
 from mechwright.errors import GeometryError, KinematicsError
 from mechwright.machine import MachineSettings
+from mechwright.machine.frame import findings
+from mechwright.machine.frame.bracket import bracket_for
+from mechwright.machine.frame.coupled import Coupled
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around
 from mechwright.machine.frame.findings import bent
@@ -278,12 +283,37 @@ def test_a_machine_has_every_hole_that_its_screws_want(motor):
     assert all(one.body in bodies for part in made.parts for one in part.instances)
     count = {part.name: len(part.instances) for part in made.parts}
     assert count["leg"] == count["foot"] == 4
+    base = next(part for part in made.parts if part.name == "base-plate")
+    assert {f"leg-{k}" for k in (1, 2, 3, 4)} <= {one.name for one in base.features}
     assert count["pillar"] == count["plain-pillar"] == 2
     assert ("motor" in count) == (motor is not None)
     # Screws, studs and threads: each column has three screws, each foot one, each motor pillar two.
     screws = sum(number for name, number in count.items() if name.startswith(("screw", "stud")))
     pillars = count.get("motor-pillar", 0)
     assert screws == 4 * 3 + 4 + 2 * pillars + (0 if motor is None else motor.face.holes)
+
+
+@pytest.mark.parametrize("motor", motors(), ids=lambda motor: motor.name)
+def test_motor_and_shaft_meet_in_the_middle_of_their_coupling(motor):
+    """The bearing plate above lies from 40 to 52 mm; the shaft's bearing of 8 mm reaches down to its inner face."""
+    found = bracket_for(motor, ((3.0, -2.0), 10.0, 8.0), (52.0, 40.0), 0.1, [])
+    assert 52.0 - 8.0 - found.stub[1] == pytest.approx(found.coupling_low + found.coupling.of.length / 2)
+    assert found.coupling_low + found.coupling.of.length < 40.0
+    shaft = found.face + motor.face.shaft_length
+    assert found.coupling_low < shaft <= found.coupling_low + found.coupling.of.length / 2
+    assert found.low == pytest.approx(found.face - motor.length)
+
+
+@given(st.floats(-math.pi, math.pi), st.tuples(*[st.floats(-50, 50)] * 4))
+def test_places_of_a_motors_plate_turn_about_the_axis(angle, numbers):
+    axis, place = complex(*numbers[:2]), complex(*numbers[2:])
+    plate = SimpleNamespace(axis=numbers[:2], angle=angle)
+    assert complex(*Coupled.at(plate, numbers[2:])) == pytest.approx(axis + place * cmath.exp(1j * angle))
+
+
+def test_a_life_of_bearings_is_told_with_two_digits_up_to_a_million_hours():
+    told = [findings._hours(hours) for hours in (2100.0, 0.99e6, 1.01e6, math.inf)]
+    assert told == ["L10 2.1e+03 h", "L10 9.9e+05 h", "L10 above 1e6 h", "no load"]
 
 
 @pytest.mark.parametrize("motor", motors(), ids=lambda motor: motor.name)

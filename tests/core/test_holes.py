@@ -1,5 +1,6 @@
 """Holes that are threaded, or made to a fit."""
 
+import cmath
 import math
 from typing import get_args
 
@@ -7,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.contracts.details import Thread
+from mechwright.contracts.details import Engraving, Thread, moved
 from mechwright.contracts.fits import HoleClass, hole_fit
 from mechwright.contracts.holes import CLEARANCE, fitted, hole, joined, threaded
 from mechwright.contracts.moments import volume
@@ -172,3 +173,16 @@ def test_a_fit_beyond_the_tables_is_refused():
     )
     with pytest.raises(GeometryError, match="the table goes up to 400 mm"):
         fitted(big, "bore", "H7")
+
+
+def test_a_thread_and_an_engraving_are_turned_about_the_origin_before_they_are_shifted():
+    def at(x: float, y: float) -> tuple[float, float]:
+        place = complex(x, y) * cmath.exp(0.7j) + complex(5.0, -2.0)
+        return place.real, place.imag
+
+    thread = moved(Thread("m5", (3.0, 8.0), 5.0, 0.8, 6.0), 5.0, -2.0, 0.7)
+    assert isinstance(thread, Thread)
+    assert thread.centre == pytest.approx(at(3.0, 8.0))
+    engraved = moved(Engraving("a", (((1.0, 2.0), (4.0, 7.0)),), 0.2), 5.0, -2.0, 0.7)
+    assert isinstance(engraved, Engraving)
+    assert engraved.strokes[0] == (pytest.approx(at(1.0, 2.0)), pytest.approx(at(4.0, 7.0)))

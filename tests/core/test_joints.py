@@ -1,6 +1,7 @@
 """Joints of a motion: what may be said, and that the test kit holds them against the poses."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -65,6 +66,15 @@ def test_right_joints_have_no_fault():
 def test_wrong_joints_are_named(changes, words):
     faults = joint_faults(slider_crank(**changes))
     assert any(words in fault for fault in faults), faults
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.0, False), (0.7, False), (1.3, True)])
+def test_a_driven_joint_may_differ_from_its_input_by_rounding_of_the_largest_angle(share, found):
+    """By 10^-8 of one more than the angle, which is a whole turn here."""
+    motion, limit = slider_crank(), 1e-8 * (2 * math.pi + 1)
+    off = Channel(ANGLE + share * limit * (1 - np.cos(ANGLE)) / 2, "rad")
+    faults = joint_faults(replace(motion, channels={"phi": off}))
+    assert [fault.startswith("joint shaft:") for fault in faults] == [True] * found
 
 
 def test_a_gear_of_changing_ratio_and_an_input_of_time_are_let_be():

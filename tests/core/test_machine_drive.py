@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from mechwright import GROUND, Channel, Instance, Joint, Load, Loop, Motion, Outline, Part, Poses, circle
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.machine import MachineSettings, drive_of
+from mechwright.machine.course import course_of
 from mechwright.machine.drive import GRAVITY
 from mechwright.machine.rates import differences, over_time
 from mechwright.mechanics.planar import BodyMotion, Turning
@@ -152,6 +153,23 @@ def test_a_speed_of_its_own_scales_inertia_with_its_square_exact_rates_too():
         np.testing.assert_allclose(fast.inertia, 9 * slow.inertia, rtol=0, atol=NOISE * energy_of(fast))
         assert fast.speed == pytest.approx(3 * OMEGA)
         assert fast.mean_speed == pytest.approx(3 * OMEGA)
+
+
+def test_speed_and_acceleration_are_those_that_the_body_of_the_driven_shaft_has():
+    """Exactly, however few samples there are, and wherever its joint stands among others."""
+    phase = np.linspace(0, math.tau, 25)
+    angle, speed = 0.5 * (1 - np.cos(phase)), 0.5 * OMEGA * np.sin(phase)
+    acceleration = 0.5 * OMEGA**2 * np.cos(phase)
+    exact = {
+        "crank": BodyMotion.about(0j, Turning.of(angle, speed, acceleration)).poses(rates=True),
+        "output": BodyMotion.about(50 + 0j, Turning.of(-2 * angle, -2 * speed, -2 * acceleration)).poses(
+            rates=True
+        ),
+    }
+    joints = dict(reversed(geared().joints.items()))
+    course = course_of(turning(angle, phase / OMEGA, exact, joints=joints), None)
+    np.testing.assert_allclose(course.speed, speed, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(course.acceleration, acceleration, rtol=0, atol=1e-11)
 
 
 def test_a_crank_that_accelerates_asks_for_j_alpha():

@@ -33,6 +33,16 @@ def test_a_form_has_the_moments_of_its_solid(name):
     np.testing.assert_allclose(whole, solid, rtol=0, atol=KERNEL * np.abs(solid).max())
 
 
+@pytest.mark.parametrize("name", SHAPES)
+def test_upside_down_a_form_has_the_moments_of_its_mirror_image(name):
+    shape, mirror = SHAPES[name], np.diag([1.0, 1.0, -1.0, 1.0])
+    up, down = (
+        mass_moments(Part("form", None, 0.0, "steel", bought=Bought("form", shape=one)))
+        for one in (shape, shape.turned_over())
+    )
+    np.testing.assert_allclose(down, mirror @ up @ mirror, rtol=1e-12, atol=1e-15)
+
+
 def test_a_shaft_with_a_groove_is_plain_and_one_with_a_seat_asks_the_kernel():
     steps = (Step(10.0, 20.0), Step(14.0, 8.0), Step(8.0, 12.0, start=10.0))
     plain = Turned(steps, 3.0, chamfer=0.5, grooves=(Groove(3.0, 1.1, 9.0),))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mechwright as mw
+from mechwright.scripting import moving as module
 from mechwright.scripting.moving import FRAMES, moving
 
 
@@ -46,3 +47,21 @@ def test_points_that_are_asked_for_are_dots_where_they_are():
 
 def test_what_does_not_move_has_none():
     assert moving(mw.design("four-bar", crank=300, coupler=10, follower=10, ground=20)) is None
+
+
+def test_a_link_of_two_joints_is_a_line_and_one_of_a_joint_is_none():
+    angle = np.linspace(0, math.tau, 2 * FRAMES)
+    poses = {name: mw.Poses.planar(0.0, 0.0, angle) for name in ("crank", "rod", "wheel")}
+    joints = {
+        "shaft": mw.Joint("revolute", mw.GROUND, "crank", drives=True),
+        "pin": mw.Joint("revolute", "crank", "rod", (10.0, 0.0, 0.0)),
+        "axle": mw.Joint("revolute", "rod", "wheel", (10.0, 5.0, 0.0)),
+        "mesh": mw.Joint("gear", "crank", "wheel", ratio=1.0),
+    }
+    motion = mw.Motion("phi", {"phi": mw.Channel(angle, "rad")}, poses, joints=joints)
+    crank, rod = module._lines(motion, np.eye(3)[:2])
+    assert crank.shape == rod.shape == (FRAMES, 2, 2)
+    turned = 10 * np.exp(1j * angle[:FRAMES])
+    for line in (crank[:, 1], rod[:, 0]):
+        np.testing.assert_allclose(line[:, 0] + 1j * line[:, 1], turned)
+    assert not crank[:, 0].any()

@@ -357,3 +357,21 @@ def test_editors_are_offered_the_columns_and_parameters_of_the_family() -> None:
     asked = of_studies("four-bar")["properties"]["study"]["properties"]
     assert {"swing", "alpha_b_max"} <= set(asked["objectives"]["properties"])
     assert "crank" in asked["ranges"]["properties"]
+
+
+def test_a_study_asks_for_its_family_and_its_own_table_alone():
+    """A design has parameters or stages; of a study what has a range is left out, and chains have none."""
+    assert "anyOf" in file_schema(host(), "")
+    schema = study_schema(host(), "")
+    assert "anyOf" not in schema
+    assert schema["required"] == ["family", "study"]
+    assert "stage" not in schema["properties"]
+
+
+@pytest.mark.parametrize(("units", "size"), [("mm", '"5 in"'), ("inch", "5")])
+def test_sizes_of_stages_may_have_units_as_others_have(units, size, tmp_path):
+    path = tmp_path / "chain.toml"
+    stages = '[[stage]]\nfamily = "geneva"\n' * 2
+    path.write_text(f'format = 1\nunits = "{units}"\n{stages}[stage.parameters]\ncentre_distance = {size}\n')
+    found = [stage.parameters.centre_distance for stage in load(path, host()).params.stage]
+    assert found == [None, pytest.approx(127)]

@@ -261,6 +261,19 @@ def test_larger_motors_hold_more():
 def test_couplings_join_two_shafts_and_carry_a_torque():
     assert [one.torque for one in couplings()] == [0.5, 2.0]
     assert coupling_for(5, 8, 0.6).of.outside == 25
+    for lower, upper in ((5, 8), (8, 5), (6, 6)):
+        found = coupling_for(lower, upper, 0.6)
+        solid, (r, high) = found.bought.shape.solid(), (found.of.outside / 2, found.of.length)
+        bores = math.pi / 4 * (lower**2 + upper**2) * high / 2
+        assert solid.Volume() == pytest.approx(math.pi * r**2 * high - bores)
+        box = solid.BoundingBox()
+        assert (box.xmax, box.zmin, box.zmax) == (
+            pytest.approx(r),
+            pytest.approx(0, abs=1e-9),
+            pytest.approx(high),
+        )
+        more = (solid.Center().z - high / 2) * (lower - upper)  # more is left where the bore is smaller
+        assert more > 0 or lower == upper
     with pytest.raises(DesignError, match="carry 2 N m; 3 N m are asked for"):
         coupling_for(5, 10, 3)
     with pytest.raises(DesignError, match="no coupling for 12 mm"):

@@ -33,6 +33,12 @@ HANDBOOK = {
 """Limits of ISO 286-2, µm, by range of diameters, over the one and up to the other."""
 
 
+def test_limits_of_a_pair_are_those_of_its_hole_and_of_its_shaft():
+    pair = pair_of(8, "F8/h6")
+    assert (pair.hole, pair.shaft) == (pytest.approx((0.013, 0.035)), pytest.approx((-0.009, 0.0)))
+    assert (pair.least, pair.greatest) == (pytest.approx(0.013), pytest.approx(0.044))
+
+
 class Line(ToleranceModel):
     """An error that is linear by construction; at x the slope of the first contributor is 1 + sin x."""
 

@@ -1,5 +1,6 @@
 """Linkages that guide a body or answer a crank, against the independent check and against their own motion."""
 
+import cmath
 import math
 from dataclasses import replace
 from itertools import permutations
@@ -10,10 +11,12 @@ from by_night import by_night
 from pydantic import ValidationError
 from synthesis_reference import fact, facts
 
+from mechwright import Scalar
 from mechwright.contracts.finding import errors
-from mechwright_four_bar.burmester import dyads, freudenstein
+from mechwright.contracts.synthesis import ALIKE
+from mechwright_four_bar.burmester import dyads, freudenstein, kept
 from mechwright_four_bar.burmester.dyads import Poses
-from mechwright_four_bar.burmester.kept import driven
+from mechwright_four_bar.burmester.kept import Option, driven
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.dimensions import FourBar
@@ -322,6 +325,28 @@ def test_a_function_is_fitted_within_the_limits(answer, within):
     for one in result.candidates:
         assert one.figures["least_transmission_angle"].value >= math.radians(20)
         assert one.figures["longest_link"].value <= 400
+
+
+@pytest.mark.parametrize(
+    ("bar", "pivot", "same"),
+    [
+        ({"coupler": 80 + 0.2 * ALIKE * 30, "ground_angle": 1.0 + 0.1 * ALIKE}, 5 + 0.2j * ALIKE * 30, True),
+        ({"branch": -1}, 5 + 0j, False),
+        ({"coupler": 80 + 2 * ALIKE * 30}, 5 + 0j, False),
+        ({}, 5 + 2j * ALIKE * 30, False),
+        ({"ground_angle": 1.0 + ALIKE}, 5 + 0j, False),
+        (
+            {"ground_angle": 1.0 + 0.7 * ALIKE / 3},
+            5 + 0.7j * ALIKE * 30 * cmath.exp(1j),
+            False,
+        ),  # both one way
+    ],
+)
+def test_two_linkages_are_one_if_branch_links_and_pivots_are(bar, pivot, same):
+    way = Way(FourBar(30, 80, 70, 90, 1.0), np.radians([60.0, 70.0, 80.0]), True)
+    one = Option(way, Scalar(0.0, "mm"), {}, 5 + 0j)
+    other = replace(one, way=replace(way, bar=replace(way.bar, **bar)), pivot=pivot)
+    assert kept._same(one, other) == kept._same(other, one) == same
 
 
 def test_a_crank_that_could_turn_swings_where_its_turn_would_be_too_weak():

@@ -233,6 +233,15 @@ class TestLopsided:
             assert (width[0] > 0) == (mirror.width[0] > 0)
             assert web[0] - 2 * radius == pytest.approx(mirror.web[0], abs=0.02)
 
+    @pytest.mark.parametrize(("half", "offset", "radius"), [(50, 8, 4), (45, -12, 5), (60, 3, 7)])
+    def test_run_backwards_it_has_the_same_neck_width_and_web(self, half, offset, radius):
+        """The way out is then the way in, as in a mirror."""
+        backwards = Polynomial((0, 0, 0, 10 - 6, -15 + 18, 6 - 18, 6))
+        frame = columns(4, np.array([float(half)]), np.array([float(offset)]), 100)
+        one, other = (measure(frame, law, np.array([[float(radius)]]), 161) for law in (LOPSIDED, backwards))
+        for name in ("neck", "width", "web"):
+            np.testing.assert_allclose(getattr(one, name), getattr(other, name), rtol=1e-9)
+
     def test_walls_keep_the_roller_free(self):
         frame = Frame.of(math.pi / 4, math.radians(50), math.radians(8), 100.0)
         u = np.linspace(0, 1, 20_001)

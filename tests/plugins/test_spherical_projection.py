@@ -106,6 +106,21 @@ def test_fitted_on_the_sphere_the_projected_machine_is_exact_and_has_one_set_of_
     assert settings_of(space, pins).crank_chords.shape == (2, 2)
 
 
+@pytest.mark.parametrize("moves", ["moving", "fixed", "both"])
+@pytest.mark.parametrize("bars", [4, 5])
+def test_pins_on_the_sphere_give_their_unknowns_back(bars, moves):
+    rng = np.random.default_rng(2)
+    pole = np.array([2.0, -1.0, 2.0]) / 3
+    unknowns = Unknowns(SphereSpace(pole), bars, moves, 3, 0.5 if bars == 5 else 0.0, arm_turned=True)
+    pins = unknowns.pins(rng.uniform(-0.5, 0.1, (5, unknowns.size)))
+    again = unknowns.pins(unknowns.of_pins(pins))
+    for name in Pins.__slots__:
+        place = getattr(pins, name)
+        assert place.shape == (3, 5, 3)
+        np.testing.assert_allclose(np.linalg.norm(place, axis=0), 1.0)
+        np.testing.assert_allclose(getattr(again, name), place, atol=1e-12)
+
+
 def test_the_spherical_reference_comes_back_from_its_points():
     fact = FACTS["adjust.sphere4.two.points"]
     points = tuple(np.array(row).T for row in fact["expected"])

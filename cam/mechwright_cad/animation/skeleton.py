@@ -132,6 +132,7 @@ def _slide(
     own, across = _seen(joint, poses, leader[joint.two])
     middle = own[0] + float(way[0]) * across[0]  # where the slide's own origin is on its line
     side = np.cross(across[0], [0.0, 0.0, 1.0]) if abs(across[0][2]) < 1 - CENTRED else np.array([1.0, 0, 0])
+    side /= np.linalg.norm(side)
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)]
     block = [middle + half * (u * across[0] + 0.6 * v * side) for u, v in corners]
     links[leader[joint.two]].strokes.append(np.array(block))

@@ -10,7 +10,7 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright_cam.operations.bore import cutters_of
-from mechwright_cam.operations.choice import entry_place, usable_mills
+from mechwright_cam.operations.choice import entry_place
 from mechwright_cam.operations.compensation import has_entries
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
@@ -84,13 +84,12 @@ def _chosen(
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in part.outlines:
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
-    mills = usable_mills(every, -every.floor)[:1]
     chosen: list[Tool] = []
     twins = Twins(every)
     for feature in sorted(every.features, key=_turn):
         if twins.first(feature) is None:  # a turned copy asks for the same again
             chosen += _wanted(feature, every, chosen, operations)
-    chosen = [*(chosen or mills), *_floor_mills(replace(every, tools=library.tools))]
+    chosen += _floor_mills(replace(every, tools=library.tools))
     mills = list({mill.name: mill for mill in chosen}.values())
     drills = _drills(every, mills)
     details = [tool for detail in every.details for tool in _wanted(detail, every, mills, operations)]

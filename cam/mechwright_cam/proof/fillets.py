@@ -77,8 +77,6 @@ class Fillet:
         """The deepest cut into the fillet."""
         top = self.floor + self.radius
         pieces = paths.below(top - NEAR)
-        if len(pieces) == 0 or self.walls.is_empty:
-            return None
         lines, steps = paths.lines(pieces), pieces.step
         foot = self.foot
         foot = prepared(foot)

@@ -222,15 +222,14 @@ class Compensation(Recorder):
         Its start was moved into an inner corner, and lies beyond that end then.
         """
         move = self.last
-        if move is None:
-            return
+        if move is None or move.entry:
+            return  # of an entry move the control asks on which side it ends, and there is one alone
         end = end or move.end
         if move.centre is not None:
             slack = MORE_TURN_INCH if self.scale != 1.0 else MORE_TURN
             backward = abs(sweep_of(move.start, end, move.centre, move.ccw)) > move.sweep + slack
         else:
-            # Of an entry move the control asks on which side it ends.
-            heading = move.heading(end) + (self.side * math.pi / 2 if move.entry else 0.0)
+            heading = move.heading(end)
             way = end[0] - move.start[0], end[1] - move.start[1]
             backward = way[0] * math.cos(heading) + way[1] * math.sin(heading) < -ONE_PLACE
         if backward:
