@@ -57,6 +57,7 @@ class Called(Protocol):
 
     kind: ClassVar[str]
     limited: ClassVar[bool]
+    steady: ClassVar[bool]
     unlimited: ClassVar[frozenset[str]]
     piecewise: ClassVar[frozenset[str]]
     registered_by: str
@@ -82,16 +83,20 @@ def guard(cls: "type[Called]", contract: type["Called"]) -> None:
     """
     for name in methods_of(contract):
         home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
-        if not (home in contract.__mro__ or getattr(own, _MARK, False)):
+        if home in contract.__mro__ or getattr(getattr(own, "fget", own), _MARK, False):
+            continue
+        if not isinstance(vars(contract)[name], property):
             setattr(cls, name, _wrapped(own, name, contract))
+        elif hasattr(own, "__get__"):  # else a plain value, which is looked at when it is registered
+            setattr(cls, name, property(_wrapped(_asked(own), name, contract)))
 
 
 def methods_of(contract: "type[Called]") -> list[str]:
-    """What is called of the plugins of a contract."""
+    """What is called, or asked for as a property, of the plugins of a contract."""
     return [
         name
         for name, one in vars(contract).items()
-        if isinstance(one, types.FunctionType) and not name.startswith("_")
+        if isinstance(one, (types.FunctionType, property)) and not name.startswith("_")
     ]
 
 
@@ -112,6 +117,16 @@ def during(who: str) -> Iterator[None]:
 
 
 _MARK = "_goes_through_the_guard"
+
+
+def _asked(own: Any) -> Callable[[Any], Any]:
+    """A function that gives what a property gives, cached or not."""
+
+    def asked(self: Any) -> Any:
+        return own.__get__(self, type(self))
+
+    getter = getattr(own, "fget", getattr(own, "func", None))
+    return functools.wraps(getter)(asked) if getter else asked
 
 
 def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., Any]:
@@ -155,8 +170,9 @@ def _guarded(
 ) -> Iterator[None]:
     limited = contract.limited and method not in contract.unlimited
     seconds = _seconds() if limited else 0.0
-    with _watched(f"{who_of(plugin)}: {method}()", seconds, code, own=_is_own(plugin)):
-        before = repr(arguments[0]) if limited and arguments and len(_inside) == 1 else ""
+    said = method if isinstance(vars(contract)[method], property) else f"{method}()"
+    with _watched(f"{who_of(plugin)}: {said}", seconds, code, own=_is_own(plugin)):
+        before = repr(arguments[0]) if contract.steady and arguments and len(_inside) == 1 else ""
         yield
         if before and repr(arguments[0]) != before:
             raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
@@ -254,6 +270,11 @@ def who_of(plugin: "Called") -> str:
     """A plugin in words: what registered it, its kind and its name."""
     name = getattr(plugin, "name", type(plugin).__name__)
     return f"{plugin.registered_by}: {plugin.kind} {name}".removeprefix(": ")
+
+
+def is_foreign() -> bool:
+    """Whether the call under way is of a plugin that is not of this distribution."""
+    return now().startswith("plugin ") and _OURS not in now()
 
 
 def _is_own(plugin: "Called") -> bool:

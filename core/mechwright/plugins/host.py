@@ -127,7 +127,7 @@ class Host:
             fail(f"{HOOK}: {_reason(error)}")
             return
         for cls in classes:
-            reason = _class_fault(cls) or self._taken(cls)
+            reason = _class_fault(cls, distribution) or self._taken(cls)
             if reason:
                 fail(reason)
                 continue
@@ -189,7 +189,7 @@ def _call(hook: pluggy.HookCaller) -> list[Any]:
     return list(batches[0])
 
 
-def _class_fault(cls: Any) -> str:
+def _class_fault(cls: Any, distribution: str) -> str:
     """What keeps a class from being registered; nothing if it is well made."""
     if not (isinstance(cls, type) and issubclass(cls, Plugin)):
         return f"{cls!r} is no class of a contract, such as mechwright.Family"
@@ -216,6 +216,10 @@ def _class_fault(cls: Any) -> str:
         raise
     except BaseException as error:
         fault = f"fault(): {_reason(error)}"
+    if not fault and contract.guarded and distribution != BUILT_IN:
+        from mechwright.contracts.declared import unstated  # it needs numpy, which our own listings do not
+
+        fault = unstated(contract, cls)
     return f"{cls.__name__}: {fault}" if fault else ""
 
 
