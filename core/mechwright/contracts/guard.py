@@ -12,7 +12,7 @@ through the guard whoever makes it. Inside of a call
 - the answer is what the contract says (:meth:`~mechwright.contracts.plugin.Plugin.sound`), and parameters
   stay as they were.
 
-The keyboard, and a want of memory, pass through as they are.
+The keyboard (:mod:`~mechwright.contracts.stops`), and a want of memory, pass through as they are.
 """
 
 import functools
@@ -30,6 +30,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
 from mechwright.contracts.ground import kept, leave_behind, opened_again
+from mechwright.contracts.stops import UnaskedError, listening
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
@@ -182,7 +183,7 @@ def _guarded(
 def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> Iterator[None]:
     """Have what goes wrong meanwhile be told with who was called, in a time if it is above 0."""
     try:
-        with _aside(who), _in_time(seconds), _ground(who, code):
+        with _aside(who), _listening(who), _in_time(seconds), _ground(who, code):
             yield
     except (MemoryError, KeyboardInterrupt):
         raise
@@ -195,6 +196,8 @@ def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> It
         raise
     except UnsoundError as error:
         raise PluginFaultError(f"{who}: {error}") from error
+    except UnaskedError as error:
+        raise PluginFaultError(f"{who}: {error}{_at(error)}") from error
     except SystemExit as error:
         raise PluginFaultError(
             f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
@@ -257,8 +260,13 @@ def loading(who: str, module: str) -> Iterator[None]:
 
     Raises TimeUpError in the module.
     """
-    with _aside(who), _in_time(LOADING), kept(f"{module}.py", 1):
+    with _aside(who), listening(), _in_time(LOADING), kept(f"{module}.py", 1):
         yield
+
+
+def _listening(who: str) -> AbstractContextManager[None]:
+    """Know the keyboard's stops from those of a plugin; ours raise none."""
+    return nullcontext() if _OURS in who else listening()
 
 
 def _ground(who: str, code: types.CodeType) -> AbstractContextManager[None]:
@@ -281,14 +289,17 @@ def _is_own(plugin: "Called") -> bool:
     return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
 
 
-def _said(error: BaseException) -> str:
+def _at(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
-    at = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+
+
+def _said(error: BaseException) -> str:
     try:
         reason = " ".join(str(error).split())
     except Exception:  # words of its own may fail as well
         reason = ""
-    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + at
+    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + _at(error)
 
 
 @contextmanager
