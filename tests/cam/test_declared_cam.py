@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -54,14 +55,18 @@ def of(contract: type[Plugin], does: Callable[..., Any]) -> Any:
 ARGUMENTS: dict[str, tuple[Any, ...]] = {"claim": (BORE, JOB), "claim_copy": (BORE, JOB, None)}
 
 
+def asked(plugin: Any, method: str, arguments: tuple[Any, ...]) -> Any:
+    """What a method or a property gives."""
+    found = getattr(plugin, method)
+    return found(*arguments) if callable(found) else found
+
+
 def told(contract: type[Plugin], method: str, does: Callable[..., Any]) -> str:
     """What is said where a method does that."""
     arguments = ARGUMENTS.get(method, (None, Stock(), Steps(JOB, 5.0)))
     bad = of(contract, does)
     with pytest.raises(MechwrightError) as caught:
-        found = getattr(bad, method)
-        if callable(found):
-            found(*arguments)
+        asked(bad, method, arguments)
     said = str(caught.value)
     call = method if isinstance(vars(contract)[method], property) else f"{method}()"
     who = f"plugin bad of bad-mechanisms: {contract.kind} bad: {call}: "
@@ -97,7 +102,7 @@ def test_no_method_ends_the_program_or_fails_unnamed(contract: type[Plugin], met
         assert told(contract, method, raises(error)).startswith(type(error).__name__)
 
 
-@pytest.mark.skipif(not hasattr(guard.signal, "setitimer"), reason="the system has no alarm")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")
 @pytest.mark.parametrize("contract", CONTRACTS)
 def test_every_method_has_a_time(contract: type[Plugin], monkeypatch: pytest.MonkeyPatch) -> None:
     def endless(*_: object) -> None:
@@ -305,5 +310,7 @@ def test_attributes_are_what_the_contract_declares(contract: Any, name: str, val
 def test_whatever_is_built_in_is_so_too_and_nothing_is_left_out() -> None:
     for contract, registered in host().registered.items():
         if contract.guarded:
-            assert [unstated(contract, type(one.item)) for one in registered.values()] == [""] * len(registered)
+            assert [unstated(contract, type(one.item)) for one in registered.values()] == [""] * len(
+                registered
+            )
             assert all(gives(contract, method) is not None for method in methods_of(contract))

@@ -25,9 +25,7 @@ from mechwright_cam.proof.walls import wall_deviation
 
 ROOT = Path(__file__).parents[2]
 TEXT = LINUXCNC.write(plate_program())
-WHO = (
-    "rule own cannot judge the program of plate: plugin another of another-shop: rule own: check(): "
-)
+WHO = "rule own cannot judge the program of plate: plugin another of another-shop: rule own: check(): "
 
 
 def with_rules(*classes: type[Rule]) -> Host:

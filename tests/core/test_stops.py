@@ -76,9 +76,8 @@ def test_the_keyboard_is_not_lost(does: Callable[..., Any]) -> None:
 
 @needs_kill
 def test_a_call_within_a_call_and_after_a_stop() -> None:
-    with pytest.raises(KeyboardInterrupt), listening():
-        with listening():
-            pressed()
+    with pytest.raises(KeyboardInterrupt), listening(), listening():
+        pressed()
     with pytest.raises(UnaskedError), listening():
         interrupts()
     assert is_stop(KeyboardInterrupt())
@@ -106,7 +105,10 @@ def test_the_command_line_tells_one_from_the_other(tmp_path: Path) -> None:
     signals = "import os, signal\nos.kill(os.getpid(), signal.{})\n"
     cases = {
         "raise KeyboardInterrupt": (2, f"{foreign_plugin.WHO}: family rude: check(): {OWN}rude.py, line "),
-        "try:\n    import os\n    os.kill(os.getpid(), 2)\nexcept BaseException:\n    pass": (130, "stopped; "),
+        "try:\n    import os\n    os.kill(os.getpid(), 2)\nexcept BaseException:\n    pass": (
+            130,
+            "stopped; ",
+        ),
         signals.format("SIGTERM"): (143, "stopped; nothing was written"),
     }
     for place, (body, (code, said)) in enumerate(cases.items()):

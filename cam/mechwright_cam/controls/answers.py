@@ -66,7 +66,9 @@ def _hold_motion(motion: Motion, run: Run) -> None:
     for name in ("seconds", "off"):
         values = getattr(motion, name)
         if values.shape != (len(run),) or not (values >= 0).all():
-            raise UnsoundError(f"{name} of what it gives is not a number from 0 on for each of {len(run)} steps")
+            raise UnsoundError(
+                f"{name} of what it gives is not a number from 0 on for each of {len(run)} steps"
+            )
 
 
 def hold_run(run: Run) -> None:
@@ -83,4 +85,6 @@ def hold_run(run: Run) -> None:
         bad = (values < 0) | (values >= ends)
         if bad.any():
             at = int(np.argmax(bad))
-            raise UnsoundError(f"{name} of what it gives is {values[at]} at step {at}; {ends} are there, from 0 on")
+            raise UnsoundError(
+                f"{name} of what it gives is {values[at]} at step {at}; {ends} are there, from 0 on"
+            )

@@ -98,7 +98,8 @@ class Control(Plugin):
         from mechwright_cam.controls.reading.run import Run
         from mechwright_cam.shop.posting import ToolChange
 
-        return dict(locals())
+        found = (Mapping, Sequence, Finding, Lookahead, Run)
+        return {one.__name__: one for one in found} | {"Units": Units, "ToolChange": ToolChange}
 
     def speaking(self, units: "Units") -> "Self":
         """The same control with other units."""

@@ -144,7 +144,9 @@ def _hold_task(task: Task, feature: Feature | Detail, job: Job) -> None:
         raise UnsoundError(f"claims {task.feature.name!r}; it is asked about {feature.name!r}")
     for tool in (*task.tools, *([task.hole.drill] if task.hole else [])):
         if tool not in job.tools:
-            raise UnsoundError(f"takes {tool.name!r}, which is no tool of the job, or another one of that name")
+            raise UnsoundError(
+                f"takes {tool.name!r}, which is no tool of the job, or another one of that name"
+            )
     if is_foreign() and not shapely.is_valid(task.region):
         raise UnsoundError(f"region of what it gives is no area: {shapely.is_valid_reason(task.region)}")
 

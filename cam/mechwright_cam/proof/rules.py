@@ -8,7 +8,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mechwright.contracts.guard import UnsoundError
+from mechwright.contracts.guard import UnsoundError, who_of
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import MechwrightError, PluginFaultError, ProgramError
 from mechwright_cam.proof.report import Check
@@ -42,7 +42,7 @@ class Rule(Plugin):
 
 
 def ask(rule: Rule, scene: "Scene") -> Check:
-    """The check of a rule, under the rule's name; raises PluginFaultError if it cannot tell, which is no pass.
+    """The check of a rule, under the rule's name; raises PluginFaultError if it cannot tell: no pass.
 
     ProgramError is raised if the program is more than it has time for.
     """
@@ -51,6 +51,8 @@ def ask(rule: Rule, scene: "Scene") -> Check:
     except ProgramError:  # more than a proof has time for
         raise
     except MechwrightError as error:
+        if isinstance(error, PluginFaultError) and who_of(rule) not in str(error):
+            raise  # of a plugin that the rule has asked
         raise PluginFaultError(
             f"rule {rule.name} cannot judge the program of {scene.job.part.name}: {error}"
         ) from error

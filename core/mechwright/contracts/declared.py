@@ -27,7 +27,10 @@ SHOWN = 80
 
 _WANTED = " is wanted"
 
-_SOUND: dict[bool, WeakValueDictionary[int, Any]] = {True: WeakValueDictionary(), False: WeakValueDictionary()}
+_SOUND: dict[bool, WeakValueDictionary[int, Any]] = {
+    True: WeakValueDictionary(),
+    False: WeakValueDictionary(),
+}
 """Outlines that have been looked through, whether for finite numbers too or not: they never change, are given
 again and again, and have thousands of segments."""
 
@@ -291,7 +294,6 @@ def _fields(cls: Any) -> tuple[tuple[str, Any], ...]:
 
 def _resolved(declared: Any, module: str, more: Mapping[str, Any] | None = None, own: Any = Any) -> Any:
     """What an annotation of a module says, with names that the module imports for type checkers alone."""
-
     holder = type("Holder", (), {"__annotations__": {"it": declared}})  # of classes ClassVar is known as well
     kind = get_type_hints(holder, {**vars(sys.modules[module]), "Self": Self, **(more or {})})["it"]
     while get_origin(kind) is ClassVar:

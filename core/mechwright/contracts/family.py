@@ -77,7 +77,20 @@ class Family(Plugin, Generic[P]):
         from mechwright.contracts.tolerances import ToleranceModel
         from mechwright.contracts.transmission import Transmission
 
-        return dict(locals())
+        found = (
+            AsMade,
+            Columns,
+            Motion,
+            Flange,
+            GroundPlate,
+            Mounting,
+            Part,
+            Synthesis,
+            Target,
+            ToleranceModel,
+            Transmission,
+        )
+        return {one.__name__: one for one in found}
 
     @classmethod
     def fault(cls) -> str:

@@ -172,7 +172,7 @@ def _guarded(
     limited = contract.limited and method not in contract.unlimited
     seconds = _seconds() if limited else 0.0
     said = method if isinstance(vars(contract)[method], property) else f"{method}()"
-    with _watched(f"{who_of(plugin)}: {said}", seconds, code, own=_is_own(plugin)):
+    with _watched(f"{who_of(plugin)}: {said}", seconds, code, own=is_own(plugin)):
         before = repr(arguments[0]) if contract.steady and arguments and len(_inside) == 1 else ""
         yield
         if before and repr(arguments[0]) != before:
@@ -285,7 +285,8 @@ def is_foreign() -> bool:
     return now().startswith("plugin ") and _OURS not in now()
 
 
-def _is_own(plugin: "Called") -> bool:
+def is_own(plugin: "Called") -> bool:
+    """Whether a plugin is of this distribution, or made by hand."""
     return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
 
 

@@ -60,7 +60,7 @@ class Plugin(ABC):
 
     @classmethod
     def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:  # noqa: ARG003 - by some
-        """The answer of a method, if it is what the annotation of the contract says; raises UnsoundError if not."""
+        """The answer of a method, if it is what its annotation says; raises UnsoundError if not."""
         from mechwright.contracts.declared import hold  # it needs numpy, which listings do not
 
         hold(cls, method, answer)

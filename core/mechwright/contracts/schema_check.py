@@ -28,7 +28,7 @@ def hold_lines(lines: Sequence[str]) -> None:
 
 
 def hold_schema(schema: Mapping[str, Any]) -> None:
-    """Raise UnsoundError where a schema is none: not of JSON, or with something else in the place of a schema."""
+    """Raise UnsoundError where a schema is not of JSON, or has something else in the place of one."""
     _plain(schema, "it")
     _schema(schema, "it", schema.get("$defs", {}))
 

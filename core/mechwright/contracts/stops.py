@@ -1,7 +1,7 @@
 """Whether a ``KeyboardInterrupt`` is the keyboard's, or was raised by a plugin that no key was pressed for.
 
-A signal is known by its handler having run. So while a plugin runs, whoever handles the signals that stop a
-program is listened to; what a plugin makes of a stop, nothing at all among it, does not keep the program going.
+A signal is known by its handler having run. So while a plugin runs, the handlers of the signals that stop a
+program are listened to; a plugin that swallows one, or makes another error of it, stops nobody from stopping.
 """
 
 import signal

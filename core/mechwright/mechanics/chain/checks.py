@@ -12,7 +12,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
-from mechwright.errors import MechwrightError
+from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.mechanics.chain.asked import asked_findings
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import moves_of
@@ -60,6 +60,8 @@ def _findings(params: ChainParams, families: Families, judge: Judge) -> tuple[Fi
 def _joined(params: ChainParams, families: Families) -> Iterator[Finding]:
     try:
         whole = assembly_of(params, families)
+    except PluginFaultError:  # of no design
+        raise
     except MechwrightError as error:
         key, _, rest = str(error).partition(": ")
         said, _, cure = rest.partition("; ")
