@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.declared import LOOSE, Declared, hold, refuse, shown
-from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.guard import UnsoundError
 from mechwright.contracts.materials import MATERIALS
@@ -21,8 +20,8 @@ TURNED = 1e-6
 """How far a rotation may be off an orthogonal one: rounding over some turns is a thousandth of it."""
 
 
-def sound(method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-    """The answer of a family's method, if it is one.
+def sound(contract: Any, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+    """The answer of a family's method, if it is one of the contract.
 
     Raises
     ------
@@ -32,7 +31,7 @@ def sound(method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
     check = _CHECKS.get(method)
     if check is not None:
         return check(answer, arguments)
-    hold(Family, method, answer, LOOSE if method != "evaluate" else _EMPTY)
+    hold(contract, method, answer, LOOSE if method != "evaluate" else _EMPTY)
     return answer
 
 

@@ -62,7 +62,7 @@ class Family(Plugin, Generic[P]):
         """Whether it is findings, a motion of finite numbers, parts that can be made."""
         from mechwright.contracts.answers import sound
 
-        return sound(method, answer, arguments)
+        return sound(cls, method, answer, arguments)
 
     @classmethod
     def named(cls) -> Mapping[str, Any]:
