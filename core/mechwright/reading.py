@@ -24,6 +24,9 @@ INPUT_LIMIT = 20_000_000
 SECONDS = 60.0
 """A file that is not read by then hangs: disks and networks that work give the largest in a second or two."""
 
+_WAITS = (0.0, 0.1, 0.4)
+"""Seconds before each try to read a file: who saves one in place is done with it by the last of them."""
+
 _PIECE = 1 << 20
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 _FLAGS = os.O_RDONLY | _NONBLOCK | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
@@ -88,18 +91,29 @@ def read_bytes(path: Path, limit: int = INPUT_LIMIT, *, anew: bool = False) -> b
 
 def _read(path: Path, limit: int) -> bytes:
     try:
-        # Asked before it is opened: opening alone rewinds a tape.
-        _require_regular(path, path.stat().st_mode)
-        handle = os.open(path, _FLAGS)
-        try:
-            return _content(path, handle, limit)
-        finally:
-            os.close(handle)
+        for wait in _WAITS:
+            time.sleep(wait)
+            # Asked before it is opened: opening alone rewinds a tape.
+            _require_regular(path, path.stat().st_mode)
+            handle = os.open(path, _FLAGS)
+            try:
+                before = os.fstat(handle)
+                data = _content(path, handle, limit)
+                if _as_before(before, os.fstat(handle)):
+                    return data
+            finally:
+                os.close(handle)
+        raise OutputError(f"{path}: cannot be read: it changes meanwhile; try again when it is written")
     except MechwrightError:
         raise
     except (OSError, ValueError) as error:  # a null byte in its name
         reason = getattr(error, "strerror", None) or error
         raise OutputError(f"{path}: cannot be read: {reason}") from error
+
+
+def _as_before(before: os.stat_result, after: os.stat_result) -> bool:
+    """Whether nobody has written to a file: half of the old and half of the new would be nobody's design."""
+    return (before.st_size, before.st_mtime_ns) == (after.st_size, after.st_mtime_ns)
 
 
 def _content(path: Path, handle: int, limit: int) -> bytes:

@@ -1,6 +1,7 @@
 """Rules of the proof: all judgements are of one table, a third party's too, and none passes by failing."""
 
 import re
+import sys
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -12,7 +13,7 @@ from by_control import LINUXCNC
 from planning_parts import bore, job, plate
 from shop import plate_job, plate_program
 
-from mechwright import Build, Host, PluginError, ProofError, Wanted, hookimpl
+from mechwright import Build, Host, PluginError, ProofError, ToolError, Wanted, hookimpl
 from mechwright.plugins.host import host
 from mechwright_cam import plugin
 from mechwright_cam.controls.reading import Run
@@ -24,6 +25,7 @@ from mechwright_cam.proof.walls import wall_deviation
 
 ROOT = Path(__file__).parents[2]
 TEXT = LINUXCNC.write(plate_program())
+WHO = "rule own cannot judge the program of plate: plugin another of another-shop: rule own: check(): "
 
 
 def with_rules(*classes: type[Rule]) -> Host:
@@ -91,13 +93,14 @@ def test_a_program_is_read_once_for_its_proof_and_its_pictures(monkeypatch: pyte
 @pytest.mark.parametrize(
     ("judge", "said"),
     [
-        (lambda _: 1 / 0, "rule own cannot judge the program of plate: ZeroDivisionError: division by zero"),
-        (lambda scene: scene.nothing, "cannot judge the program of plate: AttributeError: "),
-        (lambda _: exit(0), "rule own cannot judge the program of plate: SystemExit: 0"),
+        (lambda _: 1 / 0, f"{WHO}ZeroDivisionError: division by zero (test_rules.py, line "),
+        (lambda scene: scene.nothing, f"{WHO}AttributeError: "),
+        (lambda _: sys.exit(0), f"{WHO}ends the program by sys.exit(0)"),
+        (lambda _: (_ for _ in ()).throw(ToolError("blunt")), "cannot judge the program of plate: blunt"),
         (lambda _: (_ for _ in ()).throw(ValueError("two\nlines")), "ValueError: two lines"),
-        (lambda _: None, "rule own gives None; a rule gives a Check"),
-        (lambda _: True, "rule own gives True; a rule gives a Check"),
-        (lambda _: Check("no", "it fails"), "rule own gives Check(passed='no'"),
+        (lambda _: None, f"{WHO}what it gives is None; a Check is wanted"),
+        (lambda _: True, f"{WHO}what it gives is True; a Check is wanted"),
+        (lambda _: Check("no", "it fails"), f"{WHO}passed of what it gives is 'no'; True or False is wanted"),
     ],
 )
 def test_a_rule_that_cannot_tell_is_a_fault_of_its_own_and_never_a_pass(

@@ -7,6 +7,7 @@ from functools import partial
 import pytest
 from by_control import LINUXCNC
 
+from mechwright.errors import PluginFaultError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
@@ -196,15 +197,20 @@ def test_words_that_become_commands(careless, words):
 @pytest.mark.parametrize(
     "table",
     [
-        ("", "T1\n"),
         ("tool.tbl", ""),
-        ("../tool.tbl", "T3\nT12\n"),
         ("tool.tbl", "T3\nT12"),
         ("tool.tbl", "T3\nT1\n"),
     ],
 )
 def test_tool_table(table):
     assert_refused(type("Other", (Plain,), {"tool_table": lambda *_: table}), "test_tool_table")
+
+
+@pytest.mark.parametrize("name", ["", "../tool.tbl"])
+def test_the_guard_asks_for_a_plain_name_of_the_tool_table(name):
+    other = type("Other", (Plain,), {"tool_table": lambda *_: (name, "T3\nT12\n")})
+    with pytest.raises(PluginFaultError, match=f"control plain: tool_table\\(\\): '{name}' is no plain file"):
+        other().tool_table(())
 
 
 def test_a_control_may_have_no_tool_table():

@@ -2,8 +2,9 @@
 
 from abc import abstractmethod
 from copy import copy
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from mechwright.contracts.guard import is_foreign
 from mechwright.contracts.plugin import Plugin
 from mechwright.designs.inches import FACTORS
 from mechwright.errors import ProgramError
@@ -40,6 +41,7 @@ class Control(Plugin):
 
     kind = "control"
     plural = "controls"
+    limited = True
     texts = ("title", "suffix")
 
     title: ClassVar[str]
@@ -63,6 +65,41 @@ class Control(Plugin):
 
     units: "Units" = "mm"
     """Of the programs and tables that it writes, and of the words on its sheets; it reads both."""
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """Texts can be written, files have plain names, and a run is one."""
+        from mechwright.contracts.declared import Declared, hold
+        from mechwright_cam.controls.answers import HeldLookahead, hold_files, hold_run
+
+        if method == "read":
+            hold(cls, method, answer, Declared(finite=False, nan=True))  # places that no text says are NaN
+            hold_run(answer)
+            return answer
+        found = super().sound(method, answer, arguments)
+        if method == "lookahead" and is_foreign():
+            return HeldLookahead(found)
+        if method in {"files", "measure"}:
+            hold_files(found)
+        elif method in {"tool_table", "offset_table"}:
+            hold_files({found[0]: found[1]} if any(found) else {})
+        elif method in {"write", "probe"}:
+            hold_files({"text": found})
+        return found
+
+    @classmethod
+    def named(cls) -> "Mapping[str, Any]":
+        """What its methods give and its attributes are, which a listing of controls does not load."""
+        from collections.abc import Mapping, Sequence
+
+        from mechwright.contracts.finding import Finding
+        from mechwright.designs.inches import Units
+        from mechwright_cam.controls.lookahead import Lookahead
+        from mechwright_cam.controls.reading.run import Run
+        from mechwright_cam.shop.posting import ToolChange
+
+        found = (Mapping, Sequence, Finding, Lookahead, Run)
+        return {one.__name__: one for one in found} | {"Units": Units, "ToolChange": ToolChange}
 
     def speaking(self, units: "Units") -> "Self":
         """The same control with other units."""

@@ -31,12 +31,14 @@ from typing import Any, get_args
 
 import shapely
 
+from mechwright.contracts.declared import Declared, hold
 from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
+from mechwright.contracts.guard import UnsoundError, is_foreign
 from mechwright.contracts.part import Feature
 from mechwright.contracts.plugin import Plugin
 from mechwright.geometry.segments import Point
-from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
@@ -87,6 +89,17 @@ class Operation(Plugin):
 
     kind = "operation"
     plural = "operations"
+    limited = True
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """Numbers are finite, a task is of what was asked about, and its cuts are some."""
+        hold(cls, method, answer, Declared())
+        if isinstance(answer, Task):
+            _hold_task(answer, *arguments[:2])
+        elif method == "cut":
+            _hold_cuts(arguments[2])
+        return answer
 
     @abstractmethod
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
@@ -123,3 +136,29 @@ class Operation(Plugin):
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """What the cutters of a task do not reach."""
         return []
+
+
+def _hold_task(task: Task, feature: Feature | Detail, job: Job) -> None:
+    """Raise UnsoundError where a task is of something else, or wants tools that the job has not."""
+    if task.feature.name != feature.name:
+        raise UnsoundError(f"claims {task.feature.name!r}; it is asked about {feature.name!r}")
+    for tool in (*task.tools, *([task.hole.drill] if task.hole else [])):
+        if tool not in job.tools:
+            raise UnsoundError(
+                f"takes {tool.name!r}, which is no tool of the job, or another one of that name"
+            )
+    if is_foreign() and not shapely.is_valid(task.region):
+        raise UnsoundError(f"region of what it gives is no area: {shapely.is_valid_reason(task.region)}")
+
+
+def _hold_cuts(steps: Steps) -> None:
+    """Raise UnsoundError where something else than cuts was added, or some of before are gone.
+
+    Of our own operations no move is looked at: there are thousands, and the proof looks at all.
+    """
+    if len(steps.cuts) < steps.held:
+        raise UnsoundError(f"takes away {steps.held - len(steps.cuts)} of the cuts that are not its own")
+    added, steps.held = steps.cuts[steps.held :], len(steps.cuts)
+    if is_foreign() and (found := Declared().fault(added, list[Cut])):
+        where, said = found
+        raise UnsoundError(f"cut {where.lstrip('.')} of those it adds {said}")

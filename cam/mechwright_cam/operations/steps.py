@@ -39,6 +39,8 @@ class Steps:
         self.job, self.clearance, self.depths = job, clearance, depths or {}
         self.copies = Copies()
         self.cuts: list[Cut] = []
+        self.held = 0
+        """How many of them have been looked at."""
 
     def step_down(self, tool: Tool, *, to_size: bool = False) -> float:
         """Deepest pass of a mill with its whole width, mm; ``to_size`` if it leaves no allowance."""

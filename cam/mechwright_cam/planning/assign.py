@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mechwright.errors import DesignError, MechwrightError
+from mechwright.errors import DesignError, MechwrightError, PluginFaultError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.drilling import spot_drill
@@ -67,6 +67,8 @@ def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
                 )
             tasks.append(task)
             claimed[feature.name] = task
+        except PluginFaultError:  # of no design
+            raise
         except MechwrightError as error:
             refused.append(error)
     return Assigned(tuple(tasks), tuple(refused))

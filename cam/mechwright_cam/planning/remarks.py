@@ -8,7 +8,7 @@ from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.contracts.materials import HSS_SPEED
 from mechwright.contracts.materials import material as material_of
 from mechwright.contracts.part import Feature, Part
-from mechwright.errors import DesignError, MechwrightError, ToolError
+from mechwright.errors import DesignError, MechwrightError, PluginFaultError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.bending import SLENDER, deflection, most_bent, pass_depth, says_step_down
 from mechwright_cam.operations.choice import MisfitError, long_enough
@@ -49,6 +49,8 @@ def lay_out(
         tools = choose_tools(part, settings, library, assignments)
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
+    except PluginFaultError:  # of no design
+        raise
     except MechwrightError as error:
         return None, [refusal(error, listed=settings.tools, part=part.name)]
     refused = list(assigned.refused)

@@ -7,6 +7,7 @@ from itertools import count
 
 import numpy as np
 
+from mechwright.contracts.guard import is_own
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.cores import together
 from mechwright.errors import ProgramError
@@ -115,7 +116,10 @@ def _judged(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -
         progress(SIMULATED + (1 - SIMULATED) * next(asked) / len(rules), "asking the rules")
         return ask(rule, scene=scene)
 
-    checks = together(answer, rules)  # none depends on another
+    ours = [rule for rule in rules if is_own(rule)]
+    known = dict(zip(ours, together(answer, ours), strict=True))  # none depends on another
+    # Those of others in this thread, in which the guard has an alarm, and keeps the ground.
+    checks = [known.get(rule) or answer(rule) for rule in rules]
     seconds, left = step_times(run, scene.job.settings.machine, scene.motion), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
     notes = [*remarks(scene), *(check.message for check in checks if check.told)]

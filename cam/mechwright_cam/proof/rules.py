@@ -6,10 +6,11 @@ Nothing heavy is imported before one is asked.
 from abc import abstractmethod
 from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from mechwright.contracts.guard import UnsoundError, who_of
 from mechwright.contracts.plugin import Plugin
-from mechwright.errors import PluginError, ProgramError
+from mechwright.errors import MechwrightError, PluginFaultError, ProgramError
 from mechwright_cam.proof.report import Check
 
 if TYPE_CHECKING:
@@ -25,7 +26,15 @@ class Rule(Plugin):
 
     kind = "rule"
     plural = "rules"
-    guarded = False  # :func:`ask` is their guard: a rule that fails is no pass
+    limited = True
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """What is told is one line."""
+        found = super().sound(method, answer, arguments)
+        if len(found.message.splitlines()) != 1:
+            raise UnsoundError(f"message of what it gives is {found.message!r:.80}; one line is wanted")
+        return found
 
     @abstractmethod
     def check(self, scene: "Scene") -> Check:
@@ -33,24 +42,20 @@ class Rule(Plugin):
 
 
 def ask(rule: Rule, scene: "Scene") -> Check:
-    """The check of a rule, under the rule's name; raises PluginError if the rule fails or gives no check.
+    """The check of a rule, under the rule's name; raises PluginFaultError if it cannot tell: no pass.
 
     ProgramError is raised if the program is more than it has time for.
     """
     try:
-        found = rule.check(scene)
+        return replace(rule.check(scene), name=rule.name)
     except ProgramError:  # more than a proof has time for
         raise
-    except (Exception, SystemExit) as error:  # a rule that cannot tell must not end as a pass
-        reason = " ".join(f"{type(error).__name__}: {error}".split())
-        raise PluginError(
-            f"rule {rule.name} cannot judge the program of {scene.job.part.name}: {reason}"
+    except MechwrightError as error:
+        if isinstance(error, PluginFaultError) and who_of(rule) not in str(error):
+            raise  # of a plugin that the rule has asked
+        raise PluginFaultError(
+            f"rule {rule.name} cannot judge the program of {scene.job.part.name}: {error}"
         ) from error
-    if not isinstance(found, Check) or not isinstance(found.passed, bool):
-        raise PluginError(
-            f"rule {rule.name} gives {found!r}; a rule gives a Check, which has passed or has not"
-        )
-    return replace(found, name=rule.name)
 
 
 if TYPE_CHECKING:

@@ -17,7 +17,6 @@ class Inspection(Plugin):
 
     kind = "inspection"
     plural = "inspections"
-    typed = True
     commands: ClassVar[frozenset[str]]
     """Names of the commands that ask it."""
     stage: ClassVar[Stage]

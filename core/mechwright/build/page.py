@@ -27,7 +27,6 @@ class Page(Plugin):
 
     kind = "page"
     plural = "pages"
-    typed = True
     commands: ClassVar[frozenset[str]]
     """Names of the commands that write it."""
     doing: ClassVar[str] = ""

@@ -27,7 +27,6 @@ class RawStock(Plugin):
 
     kind = "raw stock"
     plural = "raw stocks"
-    typed = True
     commands: ClassVar[frozenset[str]]
     """Names of the commands in which it knows."""
 

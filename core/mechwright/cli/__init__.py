@@ -25,9 +25,11 @@ def main() -> None:
 
 def _stoppable() -> None:
     from mechwright.cli.stopping import StoppedError, ended, heard
+    from mechwright.cli.streams import present
 
     with heard():
         try:
+            present()
             _run()
         except (KeyboardInterrupt, StoppedError) as stop:
             ended(str(stop))
@@ -39,6 +41,7 @@ def _run() -> None:
     from mechwright.cli import failure
     from mechwright.cli.app import make_app
     from mechwright.cli.stopping import StoppedError, stopped
+    from mechwright.cli.streams import say
     from mechwright.errors import ProofError
 
     warnings.showwarning = failure.warned
@@ -58,16 +61,17 @@ def _run() -> None:
             raise KeyboardInterrupt from error
         # A traceback is of no use to a machinist.
         for line in failure.lines(error):
-            print(f"mechwright: {line}", file=sys.stderr)  # noqa: T201 - this is the program's own output
+            say(f"mechwright: {line}")
         sys.exit(1 if isinstance(error, ProofError) else 2)
 
 
 def _flush() -> None:
     """Write what is still held back, while a full disk can still be told; a reader that left is no fault."""
+    from mechwright.cli.streams import silent
+
     try:
         sys.stdout.flush()
     except OSError as error:
-        # The interpreter tries once more at its end, and would print a second complaint.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        silent(sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):
             raise

@@ -1,10 +1,10 @@
 """What the command line says when something fails: one line each, also for a fault that nobody expected."""
 
 import os
-import sys
 import traceback
 from pathlib import Path
 
+from mechwright.cli.streams import say
 from mechwright.contracts.guard import now
 from mechwright.errors import MechwrightError, PluginFaultError, shortened
 
@@ -37,7 +37,7 @@ def warned(
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
     who = now() or "this program"
     said = _printable(shortened(" ".join(f"{category.__name__}: {message}".split())))
-    print(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})", file=sys.stderr)  # noqa: T201
+    say(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
 
 
 def _printable(line: str) -> str:

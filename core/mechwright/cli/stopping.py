@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
 
+from mechwright.cli.streams import say
+
 NOTHING = "nothing was written"
 """What stands when work that writes nothing, or only at its end, is stopped."""
 
@@ -61,7 +63,7 @@ def deaf() -> None:
 def ended(stands: str = "") -> NoReturn:
     """End what has been stopped: a line that says what stands, and exit code 130 by the keyboard."""
     deaf()
-    print(f"mechwright: stopped; {stands or NOTHING}", file=sys.stderr)  # noqa: T201 - the program's own words
+    say(f"mechwright: stopped; {stands or NOTHING}")
     # Python would end by the signal, whatever the code, if the keyboard came while a text was executed,
     # as dataclasses do; it forgets that with the next text.
     exec("")  # noqa: S102

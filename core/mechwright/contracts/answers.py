@@ -1,12 +1,11 @@
 """What a family's methods may give: findings, a motion, parts; anything else is refused by name."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.declared import Declared, refuse, shown
+from mechwright.contracts.declared import LOOSE, Declared, hold, refuse, shown
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.guard import UnsoundError
 from mechwright.contracts.materials import MATERIALS
@@ -21,8 +20,8 @@ TURNED = 1e-6
 """How far a rotation may be off an orthogonal one: rounding over some turns is a thousandth of it."""
 
 
-def sound(method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-    """The answer of a family's method, if it is one.
+def sound(contract: Any, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+    """The answer of a family's method, if it is one of the contract.
 
     Raises
     ------
@@ -32,44 +31,14 @@ def sound(method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
     check = _CHECKS.get(method)
     if check is not None:
         return check(answer, arguments)
-    kind = _kinds().get(method)
-    if kind is not None:
-        _declared(answer, kind, _LOOSE if method != "evaluate" else _EMPTY)
+    hold(contract, method, answer, LOOSE if method != "evaluate" else _EMPTY)
     return answer
 
 
-_LOOSE = Declared(finite=False)
-"""A recess without an end, a figure that no design has, are numbers too."""
 _EMPTY = Declared(finite=False, nan=True)
 """Of designs that are forbidden a column has nothing."""
 _STRICT = Declared(leave=(Poses,))
 """Poses may be worked out as they are asked for, and have a check of their own."""
-
-
-@cache
-def _kinds() -> Mapping[str, Any]:
-    """What methods of a family give that have no check of their own; imported as it is first asked for."""
-    from mechwright.contracts.as_made import AsMade
-    from mechwright.contracts.evaluation import Columns
-    from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
-    from mechwright.contracts.parameters import Parameters
-    from mechwright.contracts.synthesis import Synthesis
-    from mechwright.contracts.target import Target
-    from mechwright.contracts.tolerances import ToleranceModel
-    from mechwright.contracts.transmission import Transmission
-
-    return {
-        "breaks": Sequence[float],
-        "mounting": Mounting | GroundPlate | Flange | None,
-        "transmission": Transmission | None,
-        "settings": Mapping[str, Parameters],
-        "as_made": AsMade,
-        "tolerances": ToleranceModel | None,
-        "synthesise": Synthesis[Parameters],
-        "measures": Mapping[str, str],
-        "evaluate": Columns,
-        "targets": Sequence[Target],
-    }
 
 
 def _declared(answer: Any, kind: Any, asked: Declared = _STRICT) -> None:
@@ -146,7 +115,8 @@ def _poses(poses: Poses, body: str) -> None:
         raise UnsoundError(f"the rotations of body {body!r} are no rotations: off by {error:.3g}")
 
 
-def _parts(answer: Any, _: tuple[Any, ...]) -> Sequence[Part]:
+def parts(answer: Any, _: tuple[Any, ...] = ()) -> Sequence[Part]:
+    """Parts that can be made, of names of their own; raises UnsoundError for others."""
     found = _several(answer, Part, "parts")
     _declared(found, Sequence[Part])
     for part in found:
@@ -195,5 +165,5 @@ _CHECKS: Mapping[str, Callable[[Any, tuple[Any, ...]], Any]] = {
     "check_cut": _findings,
     "solve": _motion,
     "stretches": _stretch,
-    "parts": _parts,
+    "parts": parts,
 }

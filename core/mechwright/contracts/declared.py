@@ -13,12 +13,13 @@ from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache
-from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, ClassVar, Literal, Self, TypeVar, Union, get_args, get_origin, get_type_hints
 from weakref import WeakValueDictionary
 
 import numpy as np
 
 from mechwright.contracts.guard import UnsoundError
+from mechwright.contracts.parameters import Parameters
 from mechwright.geometry import Loop, Outline
 
 SHOWN = 80
@@ -26,9 +27,12 @@ SHOWN = 80
 
 _WANTED = " is wanted"
 
-_SOUND: WeakValueDictionary[int, Any] = WeakValueDictionary()
-"""Outlines that have been looked through: they never change, are given again and again, and have thousands of
-segments."""
+_SOUND: dict[bool, WeakValueDictionary[int, Any]] = {
+    True: WeakValueDictionary(),
+    False: WeakValueDictionary(),
+}
+"""Outlines that have been looked through, whether for finite numbers too or not: they never change, are given
+again and again, and have thousands of segments."""
 
 Fault = tuple[str, str]
 """Where in the value, as ``.instances[0].z``, and what is wrong there."""
@@ -45,7 +49,7 @@ class Declared:
     finite
         Whether numbers have to be finite.
     nan
-        Whether arrays may have NaN, for what there is not.
+        Whether numbers may be NaN, for what there is not.
     """
 
     leave: tuple[type, ...] = ()
@@ -65,14 +69,45 @@ class Declared:
         return next(_Walk(self).faults(value, kind), None)
 
 
-def hold(contract: Any, method: str, answer: Any) -> None:
+LOOSE = Declared(finite=False)
+"""A recess without an end, a figure that no design has, are numbers too."""
+
+
+def hold(contract: Any, method: str, answer: Any, asked: Declared = LOOSE) -> None:
     """Raise UnsoundError where an answer is not what the annotation of a contract's method says it gives."""
-    function = getattr(contract, method)
-    try:
-        kind = _resolved(function.__annotations__["return"], function.__module__)
-    except NameError:  # imported for type checkers alone
-        return
-    refuse(Declared(finite=False).fault(answer, kind))
+    refuse(asked.fault(answer, gives(contract, method)))
+
+
+@cache
+def gives(contract: Any, method: str) -> Any:
+    """What a method or property of a contract gives, as its annotation declares it."""
+    own = vars(contract)[method]
+    function = getattr(own, "fget", own)
+    return _resolved(function.__annotations__["return"], function.__module__, contract.named(), contract)
+
+
+def unstated(contract: Any, cls: Any) -> str:
+    """What is wrong with the attributes that a class states of its contract, in words that follow its name.
+
+    Those are the ones that the contract annotates, and its properties where a class has a value instead.
+    """
+    declared = inspect.get_annotations(contract)
+    plain = [name for name, own in vars(contract).items() if isinstance(own, property)]
+    for name in (*declared, *plain):
+        value = inspect.getattr_static(cls, name, None)
+        if not hasattr(cls, name):
+            return f"has no {name}"
+        if name in plain and hasattr(value, "__get__"):
+            continue  # asked for, and held, call by call
+        kind = (
+            _resolved(declared[name], contract.__module__, contract.named(), contract)
+            if name in declared
+            else gives(contract, name)
+        )
+        found = LOOSE.fault(getattr(cls, name), kind)
+        if found is not None:
+            return f"{name}{found[0]} {found[1]}"
+    return ""
 
 
 def refuse(found: Fault | None) -> None:
@@ -110,7 +145,9 @@ class _Walk:
             if not any(type(value) is type(one) and value == one for one in arguments):
                 yield _wrong(value, f"one of {', '.join(map(repr, arguments))}")
         elif origin is np.ndarray:
-            yield from self._array(value)
+            yield from self._array(value, arguments)
+        elif origin is type:
+            yield from self._type(value, arguments[0])
         elif origin is not None and not is_dataclass(origin):
             yield from self._many(value, origin, arguments)
         elif isinstance(kind, TypeVar):
@@ -125,7 +162,7 @@ class _Walk:
             yield from self._class(value, whole)
 
     def _number(self, value: Any) -> Iterator[Fault]:
-        if not isinstance(value, (int, float)) or math.isnan(value):
+        if not isinstance(value, (int, float)) or (math.isnan(value) and not self._asked.nan):
             yield _wrong(value, "a number")
         elif self._asked.finite and math.isinf(value):
             yield _wrong(value, "a finite number")
@@ -160,12 +197,19 @@ class _Walk:
             for place, one in enumerate(value):
                 yield from self._within(f"[{place}]", one, kinds[0])
 
-    def _array(self, value: Any) -> Iterator[Fault]:
+    def _type(self, value: Any, kind: Any) -> Iterator[Fault]:
+        if isinstance(kind, TypeVar):
+            kind = kind.__bound__ or object
+        if isinstance(kind, type) and not (isinstance(value, type) and issubclass(value, kind)):
+            yield _wrong(value, f"a class of the kind {kind.__name__}")
+
+    def _array(self, value: Any, kinds: Sequence[Any]) -> Iterator[Fault]:
+        held, wanted = _numbers_of(kinds)
         if type(value) is not np.ndarray:
             yield _wrong(value, "an array of numpy")
-        elif value.dtype.kind not in "fiu":
-            yield "", f"is of the type {value.dtype}; real numbers are wanted"
-        else:
+        elif value.dtype.kind not in held:
+            yield "", f"is of the type {value.dtype}; {wanted} are wanted"
+        elif value.dtype.kind == "f" and (self._asked.finite or not self._asked.nan):
             bad = np.isnan(value) & (not self._asked.nan) | np.isinf(value) & self._asked.finite
             if bad.any():
                 place = int(np.argmax(bad))
@@ -174,16 +218,22 @@ class _Walk:
     def _class(self, value: Any, kind: Any) -> Iterator[Fault]:
         if not isinstance(value, kind):
             yield _wrong(value, "None" if kind is types.NoneType else _a(kind))
-        elif is_dataclass(value) and not isinstance(value, self._asked.leave) and not self._known(value):
+        elif _has_fields(value) and not isinstance(value, self._asked.leave) and not self._known(value):
             self._seen[id(value)] = value
             own: Any = type(value)
             for name, declared in _fields(own):
                 yield from self._within(f".{name}", getattr(value, name), declared)
-            if self._asked.finite and isinstance(value, Loop | Outline):
-                _SOUND[id(value)] = value
+            if isinstance(value, Loop | Outline):
+                _SOUND[self._asked.finite][id(value)] = value
+        elif type(value).__module__.partition(".")[0] == "shapely":
+            yield from _shape(value)
 
     def _known(self, value: Any) -> bool:
-        return id(value) in self._seen or _SOUND.get(id(value)) is value
+        return (
+            id(value) in self._seen
+            or _SOUND[True].get(id(value)) is value
+            or (not self._asked.finite and _SOUND[False].get(id(value)) is value)
+        )
 
     def _within(self, where: str, value: Any, kind: Any) -> Iterator[Fault]:
         for further, said in self.faults(value, kind):
@@ -200,19 +250,52 @@ def _wrong(value: Any, wanted: str) -> Fault:
     return "", f"is {shown(value)}; {wanted}{own}{_WANTED}"
 
 
+def _shape(value: Any) -> Iterator[Fault]:
+    import shapely  # whoever gives shapes has it loaded
+
+    if not np.isfinite(shapely.get_coordinates(value)).all():
+        yield "", "has a corner that is at no place; finite numbers are wanted"
+
+
+_NUMBERS = {"b": ("b", "True and False"), "i": ("iu", "whole numbers"), "u": ("iu", "whole numbers")}
+
+
+@cache
+def _numbers_of(kinds: tuple[Any, ...]) -> tuple[str, str]:
+    """The kinds of number that an array may have whose annotation has these arguments, and their name."""
+    (number,) = get_args(kinds[-1])[:1] or (Any,)
+    kind = np.dtype(number).kind if isinstance(number, type) and issubclass(number, np.generic) else "f"
+    return _NUMBERS.get(kind, ("fiu", "real numbers"))
+
+
+def _has_fields(value: Any) -> bool:
+    return is_dataclass(value) or isinstance(value, Parameters) or _is_named(type(value))
+
+
+def _is_named(cls: Any) -> bool:
+    return issubclass(cls, tuple) and hasattr(cls, "_fields")
+
+
 @cache
 def _fields(cls: Any) -> tuple[tuple[str, Any], ...]:
-    """The fields of a dataclass and their kinds, without those whose kind cannot be found."""
+    """The fields of a class and their kinds, without those whose kind cannot be found."""
     found = {}
     for base in reversed(cls.__mro__):
         for name, declared in inspect.get_annotations(base).items():
             with suppress(NameError):
                 found[name] = _resolved(declared, base.__module__)
-    return tuple((one.name, found[one.name]) for one in fields(cls) if one.name in found)
+    names: Collection[str]
+    if is_dataclass(cls):
+        names = [one.name for one in fields(cls)]
+    else:
+        names = cls._fields if _is_named(cls) else cls.model_fields
+    return tuple((name, found[name]) for name in names if name in found)
 
 
-def _resolved(declared: Any, module: str) -> Any:
-    def named() -> None: ...
-
-    named.__annotations__ = {"it": declared}
-    return get_type_hints(named, vars(sys.modules[module]))["it"]
+def _resolved(declared: Any, module: str, more: Mapping[str, Any] | None = None, own: Any = Any) -> Any:
+    """What an annotation of a module says, with names that the module imports for type checkers alone."""
+    holder = type("Holder", (), {"__annotations__": {"it": declared}})  # of classes ClassVar is known as well
+    kind = get_type_hints(holder, {**vars(sys.modules[module]), "Self": Self, **(more or {})})["it"]
+    while get_origin(kind) is ClassVar:
+        (kind,) = get_args(kind)
+    return own if kind is Self else kind

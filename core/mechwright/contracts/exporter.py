@@ -17,7 +17,6 @@ class Exporter(Plugin):
 
     kind = "exporter"
     plural = "formats"
-    typed = True
     piecewise = frozenset({"part", "assembly"})
     texts = ("suffix",)
 

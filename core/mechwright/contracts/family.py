@@ -40,6 +40,7 @@ class Family(Plugin, Generic[P]):
     plural = "families"
     texts = ("title", "summary")
     limited = True
+    steady = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
     piecewise = frozenset({"stretches"})
 
@@ -61,7 +62,35 @@ class Family(Plugin, Generic[P]):
         """Whether it is findings, a motion of finite numbers, parts that can be made."""
         from mechwright.contracts.answers import sound
 
-        return sound(method, answer, arguments)
+        return sound(cls, method, answer, arguments)
+
+    @classmethod
+    def named(cls) -> Mapping[str, Any]:
+        """What its methods give, which a listing of families does not load."""
+        from mechwright.contracts.as_made import AsMade
+        from mechwright.contracts.evaluation import Columns
+        from mechwright.contracts.motion import Motion
+        from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
+        from mechwright.contracts.part import Part
+        from mechwright.contracts.synthesis import Synthesis
+        from mechwright.contracts.target import Target
+        from mechwright.contracts.tolerances import ToleranceModel
+        from mechwright.contracts.transmission import Transmission
+
+        found = (
+            AsMade,
+            Columns,
+            Motion,
+            Flange,
+            GroundPlate,
+            Mounting,
+            Part,
+            Synthesis,
+            Target,
+            ToleranceModel,
+            Transmission,
+        )
+        return {one.__name__: one for one in found}
 
     @classmethod
     def fault(cls) -> str:

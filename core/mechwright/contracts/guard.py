@@ -12,7 +12,7 @@ through the guard whoever makes it. Inside of a call
 - the answer is what the contract says (:meth:`~mechwright.contracts.plugin.Plugin.sound`), and parameters
   stay as they were.
 
-The keyboard, and a want of memory, pass through as they are.
+The keyboard (:mod:`~mechwright.contracts.stops`), and a want of memory, pass through as they are.
 """
 
 import functools
@@ -30,6 +30,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
 from mechwright.contracts.ground import kept, leave_behind, opened_again
+from mechwright.contracts.stops import UnaskedError, listening
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
@@ -57,6 +58,7 @@ class Called(Protocol):
 
     kind: ClassVar[str]
     limited: ClassVar[bool]
+    steady: ClassVar[bool]
     unlimited: ClassVar[frozenset[str]]
     piecewise: ClassVar[frozenset[str]]
     registered_by: str
@@ -82,16 +84,20 @@ def guard(cls: "type[Called]", contract: type["Called"]) -> None:
     """
     for name in methods_of(contract):
         home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
-        if not (home in contract.__mro__ or getattr(own, _MARK, False)):
+        if home in contract.__mro__ or getattr(getattr(own, "fget", own), _MARK, False):
+            continue
+        if not isinstance(vars(contract)[name], property):
             setattr(cls, name, _wrapped(own, name, contract))
+        elif hasattr(own, "__get__"):  # else a plain value, which is looked at when it is registered
+            setattr(cls, name, property(_wrapped(_asked(own), name, contract)))
 
 
 def methods_of(contract: "type[Called]") -> list[str]:
-    """What is called of the plugins of a contract."""
+    """What is called, or asked for as a property, of the plugins of a contract."""
     return [
         name
         for name, one in vars(contract).items()
-        if isinstance(one, types.FunctionType) and not name.startswith("_")
+        if isinstance(one, (types.FunctionType, property)) and not name.startswith("_")
     ]
 
 
@@ -112,6 +118,16 @@ def during(who: str) -> Iterator[None]:
 
 
 _MARK = "_goes_through_the_guard"
+
+
+def _asked(own: Any) -> Callable[[Any], Any]:
+    """A function that gives what a property gives, cached or not."""
+
+    def asked(self: Any) -> Any:
+        return own.__get__(self, type(self))
+
+    getter = getattr(own, "fget", getattr(own, "func", None))
+    return functools.wraps(getter)(asked) if getter else asked
 
 
 def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., Any]:
@@ -155,8 +171,9 @@ def _guarded(
 ) -> Iterator[None]:
     limited = contract.limited and method not in contract.unlimited
     seconds = _seconds() if limited else 0.0
-    with _watched(f"{who_of(plugin)}: {method}()", seconds, code, own=_is_own(plugin)):
-        before = repr(arguments[0]) if limited and arguments and len(_inside) == 1 else ""
+    said = method if isinstance(vars(contract)[method], property) else f"{method}()"
+    with _watched(f"{who_of(plugin)}: {said}", seconds, code, own=is_own(plugin)):
+        before = repr(arguments[0]) if contract.steady and arguments and len(_inside) == 1 else ""
         yield
         if before and repr(arguments[0]) != before:
             raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
@@ -166,7 +183,7 @@ def _guarded(
 def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> Iterator[None]:
     """Have what goes wrong meanwhile be told with who was called, in a time if it is above 0."""
     try:
-        with _aside(who), _in_time(seconds), _ground(who, code):
+        with _aside(who), _listening(who), _in_time(seconds), _ground(who, code):
             yield
     except (MemoryError, KeyboardInterrupt):
         raise
@@ -179,6 +196,8 @@ def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> It
         raise
     except UnsoundError as error:
         raise PluginFaultError(f"{who}: {error}") from error
+    except UnaskedError as error:
+        raise PluginFaultError(f"{who}: {error}{_at(error)}") from error
     except SystemExit as error:
         raise PluginFaultError(
             f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
@@ -241,8 +260,13 @@ def loading(who: str, module: str) -> Iterator[None]:
 
     Raises TimeUpError in the module.
     """
-    with _aside(who), _in_time(LOADING), kept(f"{module}.py", 1):
+    with _aside(who), listening(), _in_time(LOADING), kept(f"{module}.py", 1):
         yield
+
+
+def _listening(who: str) -> AbstractContextManager[None]:
+    """Know the keyboard's stops from those of a plugin; ours raise none."""
+    return nullcontext() if _OURS in who else listening()
 
 
 def _ground(who: str, code: types.CodeType) -> AbstractContextManager[None]:
@@ -256,18 +280,27 @@ def who_of(plugin: "Called") -> str:
     return f"{plugin.registered_by}: {plugin.kind} {name}".removeprefix(": ")
 
 
-def _is_own(plugin: "Called") -> bool:
+def is_foreign() -> bool:
+    """Whether the call under way is of a plugin that is not of this distribution."""
+    return now().startswith("plugin ") and _OURS not in now()
+
+
+def is_own(plugin: "Called") -> bool:
+    """Whether a plugin is of this distribution, or made by hand."""
     return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
 
 
-def _said(error: BaseException) -> str:
+def _at(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
-    at = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+
+
+def _said(error: BaseException) -> str:
     try:
         reason = " ".join(str(error).split())
     except Exception:  # words of its own may fail as well
         reason = ""
-    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + at
+    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + _at(error)
 
 
 @contextmanager

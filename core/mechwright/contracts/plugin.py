@@ -11,6 +11,7 @@ kind
 """
 
 from abc import ABC
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from mechwright.contracts.guard import guard
@@ -41,13 +42,13 @@ class Plugin(ABC):
     guarded: ClassVar[bool] = True
     """Whether calls of its methods go through the guard; of commands they do not, which may print and end."""
     limited: ClassVar[bool] = False
-    """Whether a call has a time, and works on parameters that stay as they are."""
+    """Whether a call has a time."""
+    steady: ClassVar[bool] = False
+    """Whether a call works on parameters, its first argument, that stay as they are."""
     unlimited: ClassVar[frozenset[str]] = frozenset()
     """Methods whose calls have none all the same."""
     piecewise: ClassVar[frozenset[str]] = frozenset()
     """Methods that give one thing after the other; what others give so is gathered by the guard."""
-    typed: ClassVar[bool] = False
-    """Whether answers are held to the annotations of the contract."""
     registered_by: str = ""
     """What registered it, in words, where the host did: ``"plugin geneva of mechwright"``."""
 
@@ -59,12 +60,16 @@ class Plugin(ABC):
 
     @classmethod
     def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:  # noqa: ARG003 - by some
-        """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
-        if cls.typed:
-            from mechwright.contracts.declared import hold  # it needs numpy, which listings do not
+        """The answer of a method, if it is what its annotation says; raises UnsoundError if not."""
+        from mechwright.contracts.declared import hold  # it needs numpy, which listings do not
 
-            hold(cls, method, answer)
+        hold(cls, method, answer)
         return answer
+
+    @classmethod
+    def named(cls) -> Mapping[str, Any]:
+        """What annotations of the contract name that its module imports for type checkers alone."""
+        return {}
 
     @classmethod
     def fault(cls) -> str:

@@ -25,10 +25,34 @@ class Table(Plugin, Generic[V]):
 
     kind = "table"
     plural = "tables"
+    limited = True
     settings: ClassVar[type[Parameters] | None] = None
     """The model of its keys, whose bounds and choices a search for remedies keeps to; None if it has none."""
     lender: ClassVar[bool] = False
     """Whether it lends keys to other tables, see :meth:`lends`; it is read before them then."""
+
+    @classmethod
+    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+        """Parts can be made, lines are such of TOML, and schemas are some."""
+        from mechwright.contracts import answers, schema_check
+
+        found = super().sound(method, answer, arguments)
+        if method == "parts":
+            answers.parts(found)
+        elif method == "surroundings" and found is not None:
+            answers.parts(found.parts)
+        elif method in {"schema", "file_schema"}:
+            schema_check.hold_schema(found)
+        elif method in {"text", "first", "head"}:
+            schema_check.hold_lines(found)
+        return found
+
+    @classmethod
+    def named(cls) -> Mapping[str, Any]:
+        """What its methods give, which a listing does not load."""
+        from mechwright.contracts.surroundings import Surroundings
+
+        return {"Surroundings": Surroundings}
 
     @abstractmethod
     def read(self, content: object, path: Path) -> V:

@@ -102,8 +102,16 @@ def check_folder(target: Path) -> None:
 def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:
     """The folder itself, behind any symbolic link, and what an earlier run wrote into it."""
     try:
+        here = _current()
+        if here is None and not target.is_absolute():
+            raise OutputError(f"{target}: cannot be written: the current folder is gone; nothing was changed")
         target = target.resolve()
-        if Path.cwd().is_relative_to(target):
+        if os.path.ismount(target):
+            raise OutputError(
+                f"{target}: is a disk of its own, and cannot be replaced in one step; give a folder in it, "
+                f"such as -o {target / 'out'}"
+            )
+        if here is not None and here.is_relative_to(target):
             raise OutputError(
                 f"{target}: is the current folder or above it, and cannot be replaced in one step; "
                 "give a folder below it, such as -o out"
@@ -111,6 +119,14 @@ def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:
         return target, _earlier_run(target)
     except (OSError, RuntimeError) as error:  # RuntimeError: a loop of links
         raise _refusal(target, error) from error
+
+
+def _current() -> Path | None:
+    """The current folder; None where somebody has removed it."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        return None
 
 
 def _refusal(target: Path, error: OSError | RuntimeError) -> OutputError:

@@ -14,6 +14,7 @@ import pluggy
 from mechwright.contracts.guard import TimeUpError, loading, methods_of
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.contracts.result import Result, found_by
+from mechwright.contracts.stops import is_stop
 from mechwright.errors import PluginError, did_you_mean, shortened
 from mechwright.plugins import hookspecs
 
@@ -121,21 +122,21 @@ class Host:
                 fail(reason)
         try:
             classes = _call(manager.hook.mechwright_register)
-        except KeyboardInterrupt:
-            raise
         except BaseException as error:
+            if is_stop(error):
+                raise
             fail(f"{HOOK}: {_reason(error)}")
             return
         for cls in classes:
-            reason = _class_fault(cls) or self._taken(cls)
+            reason = _class_fault(cls, distribution) or self._taken(cls)
             if reason:
                 fail(reason)
                 continue
             try:
                 made = cls()
-            except KeyboardInterrupt:
-                raise
             except BaseException as error:
+                if is_stop(error):
+                    raise
                 fail(f"{cls.__name__}(): {_reason(error)}")
                 continue
             contract = contract_of(cls)
@@ -164,9 +165,9 @@ def _hook_fault(module: object, name: str) -> str:
         value = getattr(module, name)
         marked = isinstance(getattr(value, f"{hookspecs.PROJECT}_impl", None), dict)
         marks_others = isinstance(getattr(value, f"{hookspecs.PROJECT}_spec", None), dict)
-    except KeyboardInterrupt:
-        raise
-    except BaseException:
+    except BaseException as error:
+        if is_stop(error):
+            raise
         return ""  # A lazy attribute that fails is no hook.
     looks_like = name.startswith(HOOK) and callable(value) and not marks_others
     if not (marked or looks_like):
@@ -189,7 +190,7 @@ def _call(hook: pluggy.HookCaller) -> list[Any]:
     return list(batches[0])
 
 
-def _class_fault(cls: Any) -> str:
+def _class_fault(cls: Any, distribution: str) -> str:
     """What keeps a class from being registered; nothing if it is well made."""
     if not (isinstance(cls, type) and issubclass(cls, Plugin)):
         return f"{cls!r} is no class of a contract, such as mechwright.Family"
@@ -212,10 +213,14 @@ def _class_fault(cls: Any) -> str:
         return f"{cls.__name__}: suffix {suffix!r} is not a dot with lower-case letters and digits"
     try:
         fault = cls.fault()
-    except KeyboardInterrupt:
-        raise
     except BaseException as error:
+        if is_stop(error):
+            raise
         fault = f"fault(): {_reason(error)}"
+    if not fault and contract.guarded and distribution != BUILT_IN:
+        from mechwright.contracts.declared import unstated  # it needs numpy, which our own listings do not
+
+        fault = unstated(contract, cls)
     return f"{cls.__name__}: {fault}" if fault else ""
 
 
@@ -248,9 +253,9 @@ def load(
         with _guarded(distribution, point):
             try:
                 module = point.load()
-            except KeyboardInterrupt:
-                raise
             except BaseException as error:
+                if is_stop(error):
+                    raise
                 found.broken.append(Broken(distribution, point.name, _reason(error)))
                 continue
             found.add(module, distribution, point.name)
@@ -280,9 +285,9 @@ def hook_points(
                 if point.group == group:
                     # An editable install can be listed twice; the first on the path counts.
                     points.setdefault((name, point.name, point.value), (name, point))
-        except KeyboardInterrupt:
-            raise
         except BaseException as error:
+            if is_stop(error):
+                raise
             broken.append(Broken(name, "entry_points.txt", _reason(error)))
     ordered = sorted(points.values(), key=lambda item: (item[0] != BUILT_IN, item[0], item[1].name))
     return ordered, broken

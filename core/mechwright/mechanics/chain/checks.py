@@ -13,7 +13,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
-from mechwright.errors import MechwrightError
+from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.mechanics.chain.asked import asked_findings
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import moves_of
@@ -99,6 +99,8 @@ def _turned_slower(first: Link, share: float) -> tuple[str, str, tuple[Change, .
 def _joined(params: ChainParams, families: Families) -> Iterator[Finding]:
     try:
         whole = assembly_of(params, families)
+    except PluginFaultError:  # of no design
+        raise
     except MechwrightError as error:
         key, _, rest = str(error).partition(": ")
         said, _, cure = rest.partition("; ")

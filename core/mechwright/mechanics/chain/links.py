@@ -14,7 +14,7 @@ from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.transmission import Transmission
 from mechwright.contracts.turning import Turning
-from mechwright.errors import KinematicsError, MechwrightError
+from mechwright.errors import KinematicsError, MechwrightError, PluginFaultError
 from mechwright.mechanics.chain.params import ChainParams, Families, StageTable
 from mechwright.tolerances import exceeds
 
@@ -108,6 +108,8 @@ def _joined(params: ChainParams, families: Families) -> tuple[tuple[Link, ...], 
             transmission = family.transmission(own)
             if number == 1 and transmission is not None:
                 transmission.at(np.zeros(1))  # whether its own drive goes on turn by turn
+        except PluginFaultError:  # of no design
+            raise
         except MechwrightError as error:
             faults.append(_no_stage(number, family, error))
             continue

@@ -17,7 +17,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.synthesis import Candidate, Progress, Rejected, Synthesis
-from mechwright.errors import MechwrightError
+from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.mechanics.chain.checks import judged
 from mechwright.mechanics.chain.indexing import index_figures
 from mechwright.mechanics.chain.links import links_of
@@ -83,6 +83,8 @@ class Search:
         try:
             params = self.numbers.at(place)
             figures = self.figures(params)
+        except PluginFaultError:  # of no design
+            raise
         except (MechwrightError, ValidationError) as error:
             self.unable = self.unable or _first(error)
             self.rejected.because("chain.no-motion", _first(error))

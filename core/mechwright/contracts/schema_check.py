@@ -1,0 +1,70 @@
+"""Whether what a table says of itself can be read: its schema by editors and by us, its lines as TOML."""
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mechwright.contracts.declared import shown
+from mechwright.contracts.guard import UnsoundError
+
+_NAMED = ("properties", "$defs", "patternProperties")
+"""Keys of a schema that hold schemas by name."""
+_LISTED = ("anyOf", "allOf", "oneOf", "prefixItems")
+"""Keys that hold several, one after the other."""
+_ONE = ("items", "additionalProperties", "not")
+"""Keys that hold one, which may be True or False as well."""
+_DEFS = "#/$defs/"
+
+
+def hold_lines(lines: Sequence[str]) -> None:
+    """Raise UnsoundError where lines are none of a TOML file."""
+    for line in lines:
+        if len(line.splitlines()) > 1:
+            raise UnsoundError(f"gives {shown(line)} among its lines, which is several")
+    try:
+        tomllib.loads("\n".join(lines))
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise UnsoundError(f"gives lines that are no TOML: {error}") from error
+
+
+def hold_schema(schema: Mapping[str, Any]) -> None:
+    """Raise UnsoundError where a schema is not of JSON, or has something else in the place of one."""
+    _plain(schema, "it")
+    _schema(schema, "it", schema.get("$defs", {}))
+
+
+def _plain(value: Any, where: str, deep: int = 0) -> None:
+    """JSON has texts, numbers, True, False, None, lists, and objects by names; and it ends."""
+    if deep > 100:
+        raise UnsoundError("gives a schema without an end")
+    if isinstance(value, Mapping):
+        for key, one in value.items():
+            if not isinstance(key, str):
+                raise UnsoundError(f"{where} has the key {shown(key)}; a text is wanted")
+            _plain(one, f"{where}[{key!r}]", deep + 1)
+    elif isinstance(value, list):
+        for place, one in enumerate(value):
+            _plain(one, f"{where}[{place}]", deep + 1)
+    elif value is not None and type(value) not in {str, int, float, bool}:
+        raise UnsoundError(f"{where} is {shown(value)}; something of JSON is wanted")
+
+
+def _schema(schema: Any, where: str, defs: Any) -> None:
+    if not isinstance(schema, Mapping):
+        raise UnsoundError(f"{where} is {shown(schema)}; a schema is wanted")
+    name = schema.get("$ref", _DEFS)
+    if not isinstance(name, str) or (name != _DEFS and name.removeprefix(_DEFS) not in defs):
+        raise UnsoundError(f"{where} refers to {shown(name)}, which is not among its $defs")
+    for key in _NAMED:
+        if not isinstance(found := schema.get(key, {}), Mapping):
+            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; schemas by name are wanted")
+        for named, one in found.items():
+            _schema(one, f"{where}[{key!r}][{named!r}]", defs)
+    for key in _LISTED:
+        if not isinstance(found := schema.get(key, []), list):
+            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; a list of schemas is wanted")
+        for place, one in enumerate(found):
+            _schema(one, f"{where}[{key!r}][{place}]", defs)
+    for key in _ONE:
+        if not isinstance(schema.get(key, True), bool):
+            _schema(schema[key], f"{where}[{key!r}]", defs)
