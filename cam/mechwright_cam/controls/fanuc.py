@@ -56,6 +56,7 @@ class Fanuc(GcodeControl):
         percent_ends=False,
         program_numbers=True,
         home_cancels_length=True,
+        length_moves=True,
         numbers_needed="DH",
         length_write=(10, "R"),
         bare_home=False,

@@ -36,6 +36,7 @@ class Haas(Fanuc):
         inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,
+        length_moves=False,
         whole_dwells=False,
         feeds_with_point="always",  # setting 77, as it comes
         whole_words="",
