@@ -79,6 +79,8 @@ class Dialect:
     """Seconds per unit of P in G4."""
     bare_dwell_unit: float | None = None
     """The same for a P without a decimal point; None if the point makes no difference."""
+    dwells_first: bool = True
+    """Whether a dwell beside a move is carried out before it, and not as nobody has said."""
     whole_dwells: bool = False
     """Whether P of a dwell has no decimal point."""
     one_unit: bool = False

@@ -42,6 +42,7 @@ class Fanuc(GcodeControl):
         inert_with=frozenset({51, 80}),
         m_codes=USUAL_M | {19, 29},
         bare_dwell_unit=0.001,
+        dwells_first=False,
         semicolon_comments=False,
         peck_clearance=1.0,
         decimals=3,

@@ -58,6 +58,6 @@ def begins(run: Run) -> Array:
     for axis in range(2):
         known = np.isfinite(run.end[:, axis]) | away
         since = np.append(-1, np.maximum.accumulate(np.where(known, steps, -1))[:-1])
-        left = (last >= 0) & (since < last) & (offset == offset[last]) & np.isnan(start[:, axis])
-        start[left, axis] = run.start[last[left], axis]
+        left = (since >= 0) & (since < last) & (offset == offset[since]) & np.isnan(start[:, axis])
+        start[left, axis] = run.end[since[left], axis]
     return start

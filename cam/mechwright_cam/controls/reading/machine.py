@@ -98,6 +98,7 @@ class Machine(Moving):
                     f"machine's builder has set; write {word} in a line before",
                 )
         if 40 in block.g:
+            self._check_dwell(block)
             bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
             seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")
             if seconds < 0:
@@ -115,6 +116,19 @@ class Machine(Moving):
         if words:
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
+
+    def _check_dwell(self, block: Block) -> None:
+        """Refuse a dwell beside a move where both take P, or where nothing says which comes first."""
+        letters = set("XYZIJKR")
+        if self.dialect.bare_dwell_unit is not None and "P" not in block.words:
+            letters.discard("X")  # the time
+        if block.words.keys().isdisjoint(letters):
+            return
+        motion = next((code for code in block.g if code in MOTIONS - {800}), self.motion)
+        if self.dialect.dwells_first and not (self.dialect.arc_turns and motion in {20, 30}):
+            return
+        why = "both take P" if self.dialect.dwells_first else "which of them comes first, nothing says"
+        raise fail(block.line, f"G4 beside {spell(motion or 0)}: {why}; write each in a line of its own")
 
     def _feeds(self, block: Block) -> bool:
         """Whether a block moves at a feed."""
