@@ -122,7 +122,7 @@ BESIDE_ARCS = ["G4 P0.5 G3 X2 Y0 I1 J0", "G3 X2 Y0 R1 G4 P1", "G3 X2 Y0 I1 J0\nG
 def test_p_is_no_time_and_number_of_turns_at_once(lines: str, tmp_path: Path) -> None:
     with pytest.raises(ProgramError, match=r"^line [45]: G4 beside G3: both take P; write each in a line"):
         interpret(HEAD + lines + "\nM2\n")
-    if RS274:
+    if RS274 and "\n" not in lines:  # in a line without G2 or G3 LinuxCNC takes P twice
         assert not run_rs274(HEAD + lines + "\nM2\n", tmp_path).ok
     assert interpret("G91.1\n" + HEAD + lines + "\nM2\n", BY_NAME["grbl"]).seconds.max() <= 1.0
 
