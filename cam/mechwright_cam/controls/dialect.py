@@ -106,6 +106,8 @@ class Dialect:
     """Whether P of an arc is the number of its turns."""
     arc_entry: bool = True
     """Whether cutter compensation may be turned on along an arc."""
+    idle_most: float = math.inf
+    """Blocks in a row without X and Y past which the control sees the next move beside compensation."""
     line_length: int = 255
     """Longest line, characters."""
     ascii_comments: bool = False

@@ -54,6 +54,7 @@ class Fanuc(GcodeControl):
         capitals=True,
         one_m=True,
         arc_entry=False,
+        idle_most=1,
         percent_ends=False,
         program_numbers=True,
         home_cancels_length=True,
