@@ -1,18 +1,23 @@
 """What a change of tool leaves unknown: where X and Y stand then, and on Fanuc what a length does to Z."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from by_control import BY_NAME, EVERY, interpret
 from klartext_blocks import anew
 from machine_programs import job_of, text_of
+from shop import plate_program
 
 from mechwright.errors import ProgramError
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.lookahead.geometry import begins
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof import prove
 from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Posting
 
 CHANGES = tuple(name for name in EVERY if name != "grbl")
 """Grbl has none: hands put the tool in."""
@@ -125,3 +130,14 @@ def test_a_length_that_moves_nothing_is_read(old: str, new: str) -> None:
     text = text_of("fanuc")
     assert old in text
     assert said(text.replace(old, new), "fanuc") == ""
+
+
+def test_a_restart_point_of_fanuc_leaves_the_length_in_force() -> None:
+    """Run through, G49 there would move Z down by the tool's length; started from, there is none."""
+    text = host().get(Control, "fanuc").write(replace(plate_program(), posting=Posting(restart=True)))
+    points = text.split("(RESTART POINT")[1:]
+    assert points
+    assert all("G17 G21 G40 G80 G90 G94\nG64\nG91 G28 Z0.\n" in point for point in points)
+    assert text.count("G49") == 1
+    assert said(text, "fanuc") == ""
+    assert "G49 without a height" in said(text.replace("G40 G80", "G40 G49 G80"), "fanuc")

@@ -103,6 +103,16 @@ class Fanuc(GcodeControl):
         """To the reference point of Z, from where the tool stands: G91 makes that the way."""
         return f"G91 G28 Z{self.length(0.0)}", "G90"
 
+    def restate(self, out: Writer) -> None:
+        """Without G49, which may move Z by the tool's length where it stands: the next G43 takes its place."""
+        if not self.dialect.length_moves:
+            super().restate(out)
+            return
+        self.end_drilling(out)
+        out.line(*(word for word in self.safe_modes if word != self.no_length))
+        self.take_usual_corners(out)
+        self.retract(out)
+
     def subprogram_number(self, out: Writer, number: int) -> int:
         """An O number of its own, which no other program of the job has."""
         own = out.program.posting.program_number * SUBPROGRAMS + number
