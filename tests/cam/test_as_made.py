@@ -82,6 +82,32 @@ def test_what_leaves_stock_is_no_part_of_the_corridor():
     assert 0 < part.corridor < 0.005
 
 
+def test_a_loose_pass_beside_the_wall_counts_by_what_it_may_cut_of_it():
+    """It makes the wall, or may cut it by less than it is off, or not at all, though it is near."""
+    machined = (Profile("outside", ANGLE, "outside", 0, 6),)
+    of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6")
+    text = posted(of)
+    lines = text.splitlines()
+    end = lines.index("M9")
+
+    def beside(left):
+        """The corridor with a pass that leaves so much, and how far that is off."""
+        y = -23 - left
+        cut = ["G64 P0.02 Q0", "G0 Z5", "G0 X-20 Y-30", "G1 Z-6.2 F100", "G1 X-21 F600", f"G1 Y{y:.4f}"]
+        loose = "\n".join([*lines[:end], *cut, "G1 X20", "G1 Y-30", "G0 Z5", *lines[end:]])
+        scene = scene_of(loose, of)
+        (part,) = parts_as_made(scene)
+        along = scene.run.cutting & (np.abs(scene.run.end[:, :2] - (20, y)) < 1e-9).all(axis=1)
+        return part.corridor, float(scene.motion.off[along].max())
+
+    before = made(text, of)[0].corridor
+    assert before < 0.005
+    for left, counts in ((0.005, 0.0), (0.015, 0.01), (0.023, None), (0.028, None)):
+        found, off = beside(left)
+        assert 0.0195 < off < 0.0225
+        assert found == pytest.approx(before if counts is None else off - counts, abs=1e-6)
+
+
 def test_a_pass_on_a_line_of_its_own_leaves_a_witness_line():
     machined = (Profile("outside", ANGLE, "outside", 0, 6),)
     of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_control import BY_NAME, LINUXCNC, prove, read, setup_html, summary_html
+from by_control import BY_NAME, LINUXCNC, interpret, prove, read, setup_html, summary_html
 from golden_compensation import CONTROLS, FOLDER, WAYS, made, texts
 from planning_parts import LIBRARY
 from rs274 import needs_rs274, run_rs274
@@ -176,3 +176,21 @@ def test_a_larger_wear_limit_leaves_more_in_corners() -> None:
 def test_the_golden_programs_are_of_the_ways_they_are_named_after() -> None:
     for way in WAYS:
         assert made(way, "linuxcnc").program.compensation == way
+
+
+IDLE = ("G4 P500", "M8", "S2000", "F90.", "G91", "Z-2.5")
+BESIDE = "G21 G90 G17 G40 G80 G94\nG54 S1000 M3\nG0 X0. Y0. Z-2.\nG1 F100. G41 D3 X10. Y0.\nX20.\n{}\nG90 Y20.\n"
+
+
+@pytest.mark.parametrize("one", IDLE)
+def test_fanuc_sees_one_block_past_the_next_one(one: str) -> None:
+    """A corner behind two blocks without X and Y is cut as if the first of its sides went on."""
+    end = "X0.\nG40 X-10.\nM30\n"
+    for words in (one, f"{one}\n(a comment)", f"(a comment)\n\n{one}"):
+        interpret(BESIDE.format(words) + end, BY_NAME["fanuc"], diameters={3: 6.0})
+    twice = BESIDE.format(f"{one}\n(a comment)\nM9") + end
+    with pytest.raises(ProgramError, match=r"^line 9: 2 blocks without X and Y before this one while comp"):
+        interpret(twice, BY_NAME["fanuc"], diameters={3: 6.0})
+    interpret(twice, BY_NAME["haas"], diameters={3: 6.0})
+    beside = BESIDE.format("") + f"X0.\nG40 X-10.\n{one}\nM9\nG90 X-20.\nM30\n"
+    interpret(beside, BY_NAME["fanuc"], diameters={3: 6.0})

@@ -189,6 +189,29 @@ def test_files_of_one_tool_each_are_proven_together() -> None:
         prove({**files, last: "G1 X..2\n" + files[last]}, made.job, BY_NAME["grbl"])
 
 
+@pytest.mark.parametrize(
+    ("check", "old", "new", "says"),
+    [
+        ("modes", " G90", "", "moves before G90; set the modes first"),
+        ("modes", " G21", "", "moves before G21; set the modes first"),
+        ("modes", "G17 ", "", "moves before G17; set the modes first"),
+        ("program-end", "G0 Z5\nM9\nM5\nG53 G0 Z-2\n", "M9\nM5\n", "the program ends with the tool down"),
+        ("program-end", "M30\n", "", "the program has no end; write M30 or M2"),
+    ],
+)
+def test_each_file_is_a_program_of_its_own(check: str, old: str, new: str, says: str) -> None:
+    """Between two files hands move the machine, by the same words as a program."""
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, "post": {"tool_change": "files"}}
+    made = machine(planned_job(**settings), post_of("grbl"))
+    files = {name + ".nc": text for name, text in made.files.items()}
+    for name in files:
+        assert old in files[name]
+        found = asked(check, {**files, name: files[name].replace(old, new)}, made.job, BY_NAME["grbl"])
+        assert not found.passed
+        assert found.message.startswith(f"{name}: ")
+        assert says in found.message
+
+
 # -- Grbl's published list of words -------------------------------------------------------------------------
 
 GRBL_WORDS = re.compile(

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from by_control import BY_NAME, interpret, prove
 from golden_operations import made
-from rs274 import needs_rs274, run_rs274
+from rs274 import RS274, needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
 
@@ -113,3 +113,25 @@ def test_what_stands_behind_a_percent_sign_is_not_run(control: str) -> None:
     lines = text.splitlines()
     lines.insert(21, "%")
     assert said("\n".join(lines), control, "pocket-contour").startswith("line 23: this stands behind")
+
+
+BESIDE_ARCS = ["G4 P0.5 G3 X2 Y0 I1 J0", "G3 X2 Y0 R1 G4 P1", "G3 X2 Y0 I1 J0\nG4 P1 X0 Y0 I-1 J0"]
+
+
+@pytest.mark.parametrize("lines", BESIDE_ARCS)
+def test_p_is_no_time_and_number_of_turns_at_once(lines: str, tmp_path: Path) -> None:
+    with pytest.raises(ProgramError, match=r"^line [45]: G4 beside G3: both take P; write each in a line"):
+        interpret(HEAD + lines + "\nM2\n")
+    if RS274 and "\n" not in lines:  # in a line without G2 or G3 LinuxCNC takes P twice
+        assert not run_rs274(HEAD + lines + "\nM2\n", tmp_path).ok
+    assert interpret("G91.1\n" + HEAD + lines + "\nM2\n", BY_NAME["grbl"]).seconds.max() <= 1.0
+
+
+@pytest.mark.parametrize("words", ["G4 P500 Y1.", "G4 P500 G1 Z1.", "G4 X1. Y1.", "G4 P500 X1."])
+def test_whether_a_dwell_comes_first_fanuc_and_haas_do_not_say(words: str) -> None:
+    for control in ("fanuc", "haas"):
+        with pytest.raises(ProgramError, match=r"^line 2: G4 beside G[01]: which of them comes first, noth"):
+            interpret(f"G21 G90 G17 G40 G80 G94 G0 X0. Y0. Z5. F9.\n{words}\nM30\n", BY_NAME[control])
+        for alone in ("G4 P500", "G4 X1.", "G4 P500 M3 S100"):
+            interpret(f"G21 G90 G17 G40 G80 G94 G0 X0. Y0. Z5.\n{alone}\nM30\n", BY_NAME[control])
+    assert interpret(f"{HEAD}G4 P1 X1\nM2\n").seconds.max() == 1.0  # LinuxCNC waits first

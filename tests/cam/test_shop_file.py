@@ -3,7 +3,8 @@
 import json
 
 import pytest
-from shop import DRILL, MILL, SPOT, plate_job
+from by_control import LINUXCNC, asked
+from shop import DRILL, MILL, SPOT, plate_job, plate_program
 
 from mechwright.build import Build, Wanted
 from mechwright.designs.design import load
@@ -241,14 +242,35 @@ def test_the_command_writes_a_file_that_is_read(tmp_path, command_line):
     ("wear", "way", "severities"),
     [
         (-0.04, "wear", []),
-        (-0.04, "computer", ["note"]),
+        (-0.04, "computer", ["warning"]),
         (-0.01, "computer", []),
         (-0.3, "wear", ["error"]),
         (0.3, "control", ["error"]),
-        (-0.3, "computer", ["note"]),
+        (-0.3, "computer", ["warning"]),
     ],
 )
 def test_wear_goes_to_d_within_its_limit(wear, way, severities):
     mill = MILL.model_copy(update={"wear_diameter": wear})
     found = list(worn([plate_job(tools=(SPOT, DRILL, mill), compensation=way)]))
     assert [str(one.severity) for one in found] == severities
+
+
+@pytest.mark.parametrize(
+    ("number", "wear", "says"),
+    [
+        (3, -0.03, "T3 (mill-6) is worn by -0.015 mm as a radius and comes to walls without cutter comp"),
+        (3, 0.012, "they lose as much, 0.005 mm at most"),
+        (3, -0.02, ""),
+        (3, 0.01, ""),
+        (1, -0.5, ""),  # a spot drill comes to no wall
+    ],
+)
+def test_a_program_of_a_tool_that_is_known_to_be_worn_is_not_proven(number, wear, says):
+    tools = tuple(
+        tool.model_copy(update={"wear_diameter": wear} if tool.number == number else {})
+        for tool in (SPOT, DRILL, MILL)
+    )
+    found = asked("diameter-offset", LINUXCNC.write(plate_program()), plate_job(tools=tools))
+    assert found.passed == (not says)
+    assert says in found.message
+    assert found.passed or found.value == pytest.approx(abs(wear) / 2)

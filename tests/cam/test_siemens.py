@@ -46,6 +46,7 @@ def said(line: str, head: str = HEAD) -> str:
         ("/G60 ; slowly (here)", "/G61 ; slowly (here)"),
         ('N30 MSG("load T3; then start")', "; load T3; then start"),
         ("MSG()", ""),
+        ('MSG("load T3; then start") ; by hand', "; load T3; then start"),
         ("T3 M06", "T3 M6 G49"),
         ("G0 SUPA Z-2 D0", "G0 G53 Z-2 G49"),
         ("D1 Z5", "G43 Z5"),

@@ -308,3 +308,24 @@ def test_a_floating_holder_may_be_fed_a_little_less_than_the_pitch(share: float,
     text = re.sub(r"(G84.*F)([\d.]+)", lambda found: f"{found[1]}{float(found[2]) * share:.1f}", one.text)
     assert text != one.text
     assert asked("tapping", text, one.job, BY_NAME["mach3"]).passed == taken
+
+
+@pytest.mark.parametrize(
+    ("control", "operation", "old", "again", "taken"),
+    [
+        ("fanuc", "tap", r"(?m)^.*G84 .*\n", r"\g<0>X8. Y0.\nX-8. Y0.\n", False),
+        ("haas", "tap", r"(?m)^G98 G84 .*\n", r"\g<0>\g<0>", False),
+        ("mach3", "tap-floating", r"(?m)^G98 G84 .*\n", r"\g<0>\g<0>", False),
+        ("linuxcnc", "tap", r"(?m)^G33.1 .*\n", r"\g<0>\g<0>", True),  # it waits for the encoder's index
+        ("linuxcnc", "tap-floating", r"(?m)^G98 G84 .*\n", r"\g<0>\g<0>", False),
+    ],
+)
+def test_a_thread_is_tapped_twice_only_where_the_spindle_has_a_mark(
+    control: str, operation: str, old: str, again: str, taken: bool
+) -> None:
+    (one,) = made(operation, control)
+    text, count = re.subn(old, again, one.text, count=1)
+    assert count == 1
+    found = asked("tapping", text, one.job, BY_NAME[control])
+    assert found.passed == taken
+    assert taken or "taps a thread that has been tapped before" in found.message

@@ -59,6 +59,8 @@ class Control(Plugin):
     """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not
     say is written with the middle one."""
 
+    taps_again: ClassVar[bool] = False
+    """Whether rigid tapping begins at one mark of the spindle each time, so that it finds a thread again."""
     taps: ClassVar[frozenset[str]] = frozenset()
     """The ways in which it taps: ``"rigid"``, where it keeps feed and spindle together itself, ``"floating"``
     in a holder that gives way, and each with ``" left"`` behind it for left-hand taps."""

@@ -83,6 +83,8 @@ class Dialect:
     """Seconds per unit of P in G4."""
     bare_dwell_unit: float | None = None
     """The same for a P without a decimal point; None if the point makes no difference."""
+    dwells_first: bool = True
+    """Whether a dwell beside a move is carried out before it, and not as nobody has said."""
     whole_dwells: bool = False
     """Whether P of a dwell has no decimal point."""
     one_unit: bool = False
@@ -108,6 +110,8 @@ class Dialect:
     """Whether P of an arc is the number of its turns."""
     arc_entry: bool = True
     """Whether cutter compensation may be turned on along an arc."""
+    idle_most: float = math.inf
+    """Blocks in a row without X and Y past which the control sees the next move beside compensation."""
     line_length: int = 255
     """Longest line, characters."""
     ascii_comments: bool = False
@@ -190,6 +194,8 @@ class Dialect:
     start with ``/`` are skipped. None if the control has these words itself."""
     home_cancels_length: bool = False
     """Whether G28 of Z may end G43, so that it has to be stated anew."""
+    length_moves: bool = False
+    """Whether G43 and G49 may move Z by the length themselves, so that the height has to stand beside them."""
     numbers_needed: str = ""
     """Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written."""
     length_write: tuple[int, str] | None = (1, "Z")

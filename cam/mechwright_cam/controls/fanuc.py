@@ -41,6 +41,7 @@ class Fanuc(GcodeControl):
         inert_with=frozenset({51, 80}),
         m_codes=USUAL_M | {19, 29},
         bare_dwell_unit=0.001,
+        dwells_first=False,
         semicolon_comments=False,
         peck_clearance=1.0,
         decimals=3,
@@ -52,9 +53,11 @@ class Fanuc(GcodeControl):
         capitals=True,
         one_m=True,
         arc_entry=False,
+        idle_most=1,
         percent_ends=False,
         program_numbers=True,
         home_cancels_length=True,
+        length_moves=True,
         numbers_needed="DH",
         length_write=(10, "R"),
         bare_home=False,
@@ -98,6 +101,16 @@ class Fanuc(GcodeControl):
     def retract_lines(self, z: float) -> Sequence[str]:  # noqa: ARG002 - the reference point is the control's
         """To the reference point of Z, from where the tool stands: G91 makes that the way."""
         return f"G91 G28 Z{self.length(0.0)}", "G90"
+
+    def restate(self, out: Writer) -> None:
+        """Without G49, which may move Z by the tool's length where it stands: the next G43 takes its place."""
+        if not self.dialect.length_moves:
+            super().restate(out)
+            return
+        self.end_drilling(out)
+        out.line(*(word for word in self.safe_modes if word != self.no_length))
+        self.take_usual_corners(out)
+        self.retract(out)
 
     def subprogram_number(self, out: Writer, number: int) -> int:
         """An O number of its own, which no other program of the job has."""

@@ -1,5 +1,6 @@
 """Haas mills (Next Generation Control and before)."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -36,6 +37,8 @@ class Haas(Fanuc):
         inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,
+        length_moves=False,
+        idle_most=math.inf,  # it looks many blocks ahead
         whole_dwells=False,
         feeds_with_point="always",  # setting 77, as it comes
         whole_words="",

@@ -71,6 +71,7 @@ class LinuxCnc(Measuring, GcodeControl):
     stages = True
     subprograms = "first"
     taps = EVERY_WAY
+    taps_again = True
     tap_needs = "G33.1 needs an encoder on the spindle, whose index is wired to spindle.0.index-enable."
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
     active_comments = (

@@ -166,9 +166,14 @@ def worn(jobs: Sequence[Job]) -> Iterator[Finding]:
         for tool in job.end_mills:
             off = abs(tool.wear_diameter) / 2
             if cam.compensation == "computer" and off > TOLERANCES.leftover:
-                message = f"{tool.name} is worn by {off:g} mm as a radius, and paths are those of a new one"
-                remedy = 'use cam.compensation = "wear", and D allows for it'
-                yield Finding("cam.wear", Severity.NOTE, "cam.compensation", message, remedy=remedy)
+                message = (
+                    f"{tool.name} is worn by {off:g} mm as a radius, and paths are those of a new one: no "
+                    "program is proven in which it comes to walls"
+                )
+                remedy = 'use cam.compensation = "wear", and D allows for it, or put in a new cutter'
+                yield Finding.warning(
+                    "cam.wear", "cam.compensation", message, off, TOLERANCES.leftover, "mm", remedy
+                )
             elif cam.compensation != "computer" and off > cam.wear_limit:
                 message = f"the wear of {tool.name} is beyond what D may differ by, as a radius"
                 remedy = "raise wear_limit, or put in a new cutter"

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
@@ -24,21 +25,22 @@ def program_end(scene: Scene) -> Check:
         )
         return Check(False, message, run.beyond)
     if not run.ended:
-        where = "" if run.files else f"line {run.lines}: "
+        ends = set(run.file[run.kind == Kind.END].tolist())
+        where = next((f"{name}: " for n, name in enumerate(run.files) if n not in ends), f"line {run.lines}: ")
         end = f"{scene.control.m(30)} or {scene.control.m(2)}"
         return Check(False, f"{where}the program has no end; write {end}", run.lines)
     moved = np.flatnonzero(run.moving | (run.kind == Kind.HOME))
     if moved.size == 0 or not run.cutting.any():
         return Check(False, "the program cuts nothing", run.lines)
-    last = int(moved[-1])
-    height = float(run.end[last, 2])
-    if not height >= scene.clear:
-        return scene.bad(last, f"the program ends with the tool down; {retract(scene)}", height)
+    for last in _of_files(run, moved, last=True):
+        height = float(run.end[last, 2])
+        if not height >= scene.clear:
+            return scene.bad(last, f"the program ends with the tool down; {retract(scene)}", height)
     return Check(True, "the program ends with the tool up")
 
 
 def modes(scene: Scene) -> Check:
-    """Units, distances, plane and compensation are set before the first move in work coordinates.
+    """Units, distances, plane and compensation are set before the first move in work coordinates of each file.
 
     So are G94, G98 and G91.1, where a move hangs on them and the control keeps them from program to program;
     where it begins with them their lack is told.
@@ -50,10 +52,10 @@ def modes(scene: Scene) -> Check:
             f"line {line}: moves before {word}, so that what an earlier program has set holds; set it first"
         )
         return Check(False, message, line)
-    if (step := first(scene.run.moving)) is not None:
-        words = {"units": scene.control.unit_word, **SAFE_MODES}
-        if not scene.control.compensates:
-            del words["cutter compensation"]
+    words = {"units": scene.control.unit_word, **SAFE_MODES}
+    if not scene.control.compensates:
+        del words["cutter compensation"]
+    for step in _of_files(scene.run, np.flatnonzero(scene.run.moving)):
         missing = [word for group, word in words.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
@@ -64,6 +66,14 @@ def modes(scene: Scene) -> Check:
     said = "units, distance mode, plane and compensation are stated"
     left = scene.control.leftover
     return Check(True, f"{said}; not told by any program is {left}" if left else said)
+
+
+def _of_files(run: Run, steps: Ints, *, last: bool = False) -> list[int]:
+    """The first of some steps in each file, or the last: between two of them hands move the machine."""
+    files = run.file[steps] if run.file.size else np.zeros(steps.size, dtype=np.int64)
+    order = slice(None, None, -1) if last else slice(None)
+    found = steps[order][np.unique(files[order], return_index=True)[1]]
+    return [int(step) for step in np.sort(found)]
 
 
 def tools(scene: Scene) -> Check:

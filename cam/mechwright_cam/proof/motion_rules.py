@@ -34,11 +34,21 @@ def travel(scene: Scene) -> Check:
             middle = np.nanmedian(lower)
             far = int(np.nanargmax(np.maximum(np.abs(upper - middle), np.abs(lower - middle))))
             message = f"the moves span {extent:.1f} mm in {axis}, the machine travels {limit:g} mm"
-            return scene.bad(int(paths.steps[far]), message, extent, limit, "mm")
+            return scene.bad(_going_there(scene, int(paths.steps[far]), axis), message, extent, limit, "mm")
         beyond = _beyond(scene, axis, lower, upper, limit)
         if beyond is not None:
             return beyond
     return Check(True, "all moves are within the machine's travel")
+
+
+def _going_there(scene: Scene, step: int, axis: str) -> int:
+    """A step, or the move before that has gone to where it starts, if that is where it is furthest.
+
+    A move from a place that the text does not say is none of the paths.
+    """
+    run, at = scene.run, "XYZ".index(axis)
+    there = abs(run.start[step, at]) >= abs(run.end[step, at])
+    return step - 1 if step and there and run.moving[step - 1] else step
 
 
 def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -> Check | None:

@@ -197,9 +197,12 @@ def _roughly(radius: Array, more: Array) -> Array:
 
 
 def corridor(paths: Paths, job: Job, off: Array) -> float:
-    """How far the control may be off the path, mm, where tools come to the walls of the finished part.
+    """How far the finished walls may be off the path, mm, where the control leaves it.
 
-    ``off`` (n,) is of each step, mm. What leaves stock for another pass does not count.
+    ``off`` (n,) is of each step, mm. What comes to a wall makes it, off by as much as its step. What leaves
+    more than the limit of leftover there leaves it to another pass, and cuts the wall only by what its step is
+    off beyond that.
     """
-    near = reaching(paths, job, off + TOLERANCES.leftover, TOLERANCES.gouge)
-    return float(off[near].max(initial=0.0))
+    left = np.full_like(off, TOLERANCES.leftover)
+    makes, cuts = (reaching(paths, job, reach, TOLERANCES.gouge) for reach in (left, np.maximum(off, left)))
+    return float(np.maximum(np.where(makes, off, 0.0), np.where(cuts, off - left, 0.0)).max(initial=0.0))

@@ -5,9 +5,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.offsets import place_of
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import TableWrite
+from mechwright_cam.proof.off_path import reaching
+from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
@@ -91,7 +94,30 @@ def diameter_offset(scene: Scene) -> Check:
             f"diameter_offset = {found} in the tool library"
         )
         return scene.bad(step, message, found, wanted)
-    return Check(True, "compensation takes the D of the tool in the spindle")
+    return _worn(scene) or Check(True, "compensation takes the D of the tool in the spindle")
+
+
+def _worn(scene: Scene) -> Check | None:
+    """The first cut at a wall by a tool that is known to be worn beyond the limits, and has no D for it."""
+    run, paths = scene.run, scene.paths
+    without = run.cutting & (run.of_states(lambda state: state.side) == 0)
+    for tool in scene.tools.values():
+        off = tool.wear_diameter / 2
+        limit = TOLERANCES.gouge if off > 0 else TOLERANCES.leftover
+        if abs(off) <= limit + NEAR:
+            continue
+        mine = Paths(run.only(np.flatnonzero(without & (run.tool == tool.number))), [tool])
+        more = np.full(len(mine.run), TOLERANCES.leftover)
+        if not reaching(mine, scene.job, more, TOLERANCES.gouge, any_one=True).any():
+            continue
+        does = "keep" if off < 0 else "lose"
+        message = (
+            f"T{tool.number} ({tool.name}) is worn by {off:+g} mm as a radius and comes to walls without cutter "
+            f"compensation: they {does} as much, {limit:g} mm at most; put in a new cutter, or give the wear to "
+            "its D"
+        )
+        return scene.bad(int(first(without & (run.tool == tool.number)) or 0), message, abs(off), limit, "mm")
+    return None
 
 
 def offset_tables(scene: Scene) -> Check:

@@ -16,6 +16,9 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 RUN_UP = 2.0
 """So many pitches above the plate a tap starts at least: in less, no spindle and feed come together."""
 
+SAME_HOLE = 0.01
+"""Places that differ by less are one hole, mm."""
+
 GIVES = 0.05
 """A floating holder may be fed by this share less than the pitch: the tap draws it out, as makers advise."""
 
@@ -49,7 +52,7 @@ def tapping(scene: Scene) -> Check:
             found = _lead(scene, tool, step) or _held(scene, tool, step) or _run_up(scene, tool, step)
             if found is not None:
                 return found
-    return Check(True, "taps go a pitch in every turn")
+    return _again(scene) or Check(True, "taps go a pitch in every turn")
 
 
 def _lead(scene: Scene, tool: Tool, step: int) -> Check | None:
@@ -89,6 +92,23 @@ def _run_up(scene: Scene, tool: Tool, step: int) -> Check | None:
         "spindle and feed have to run together before it cuts; raise R"
     )
     return scene.bad(step, message, high, least, "mm")
+
+
+def _again(scene: Scene) -> Check | None:
+    """A thread is tapped once, unless the control begins at one mark of the spindle each time."""
+    run, tapped = scene.run, set[tuple[int, int]]()
+    down = of_taps(scene) & run.cutting & (run.end[:, 2] < np.minimum(run.start[:, 2], -NEAR))
+    marked = run.of_states(lambda state: state.synchronous) & scene.control.taps_again
+    for step in np.flatnonzero(down & ~marked).tolist():
+        x, y = np.rint(run.end[step, :2] / SAME_HOLE).astype(int).tolist()
+        if (x, y) in tapped:
+            message = (
+                f"T{run.tool[step]} taps a thread that has been tapped before, and whether it finds its turns a "
+                "setting of the machine says; tap it once"
+            )
+            return scene.bad(step, message)
+        tapped.add((x, y))
+    return None
 
 
 def _taps(scene: Scene) -> list[Tool]:

@@ -28,6 +28,8 @@ class Machine(Moving):
         self.upper_end = upper_end
         self.diameters = diameters
         self.sticky = {}
+        self.idle = 0
+        """Blocks without X and Y since the last move beside compensation."""
         self.usual: set[tuple[int, ...]] = set()
         """Codes of blocks, G, 0 and M, that are known to go together on this control."""
 
@@ -77,7 +79,7 @@ class Machine(Moving):
             self._check_codes(block)
             if not self.dialect.inert_g & set(block.g):  # their letters are taken out each time
                 self.usual.add(codes)
-        words, before = block.words, self.state
+        words, before, contour = block.words, self.state, self.contour
         self._units(block)  # first, so that every length of this line is read in the units it states
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect, inches=self.scale != 1.0)
@@ -98,6 +100,7 @@ class Machine(Moving):
                     f"machine's builder has set; write {word} in a line before",
                 )
         if 40 in block.g:
+            self._check_dwell(block)
             bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
             seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")
             if seconds < 0:
@@ -112,9 +115,36 @@ class Machine(Moving):
         if 280 in block.g or 300 in block.g:
             self._home(block, words)
         self._move(block, words)
+        self._check_idle(block.line, contour)
         if words:
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
+
+    def _check_idle(self, line: int, contour: tuple[float, float]) -> None:
+        """Refuse a move beside compensation that the control has not seen when it made the one before."""
+        if not self.side or self.fresh or self.contour == contour:
+            self.idle = self.idle + 1 if self.side and not self.fresh else 0
+            return
+        if self.idle > self.dialect.idle_most:
+            raise fail(
+                line,
+                f"{self.idle} blocks without X and Y before this one while compensation is on: "
+                f"{self.dialect.name} looks no further ahead, and may cut into the corner; write one at most",
+            )
+        self.idle = 0
+
+    def _check_dwell(self, block: Block) -> None:
+        """Refuse a dwell beside a move where both take P, or where nothing says which comes first."""
+        letters = set("XYZIJKR")
+        if self.dialect.bare_dwell_unit is not None and "P" not in block.words:
+            letters.discard("X")  # the time
+        if block.words.keys().isdisjoint(letters):
+            return
+        motion = next((code for code in block.g if code in MOTIONS - {800}), self.motion)
+        if self.dialect.dwells_first and not (self.dialect.arc_turns and motion in {20, 30}):
+            return
+        why = "both take P" if self.dialect.dwells_first else "which of them comes first, nothing says"
+        raise fail(block.line, f"G4 beside {spell(motion or 0)}: {why}; write each in a line of its own")
 
     def _feeds(self, block: Block) -> bool:
         """Whether a block moves at a feed."""

@@ -203,7 +203,9 @@ class Modal(Compensation):
             if self.dialect.change_stops_coolant:
                 self._set(coolant="off")
             self.keep_state()
-            self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
+            # Whoever set up the machine has said where tools are changed, in X and Y too.
+            self.lose(block.line, "M6", "XY")
+            self._row(Kind.TOOL, block.line, math.nan, math.nan, self.z)
 
     def _spindle_and_coolant(self, block: Block) -> None:
         for code in block.m:
@@ -303,11 +305,29 @@ class Modal(Compensation):
         else:
             return
         if (offset, length) != (self.state.length_offset, self.state.length):
+            word = next(spell(code) for code in block.g if code in GROUPS["length offset"])
+            if self.dialect.length_moves and (offset or self.state.length_offset):
+                self._check_length_move(block, word)
             self._set(length_offset=offset, length=length)
             if math.isfinite(self.z) and not self.offsets_are_zero:
-                word = next(code for code in block.g if code in GROUPS["length offset"])
-                self.lose(block.line, spell(word), "Z")
+                self.lose(block.line, word, "Z")
                 self.z = math.nan
+
+    def _check_length_move(self, block: Block, word: str) -> None:
+        """A length that comes or goes without a place of Z may be a move by that length."""
+        named = "Z" in block.words and {280, 300}.isdisjoint(block.g)
+        if named and (self.absolute or 530 in block.g):
+            return
+        remedy = (
+            "write Z beside it, with G90"
+            if word == "G43"
+            else "leave it out where G28 of Z follows, or write it beside G53 Z0."
+        )
+        raise fail(
+            block.line,
+            f"{word} without a height to go to may move Z by the tool's length at once on "
+            f"{self.dialect.name} (parameter 5006, bit 6); {remedy}",
+        )
 
     def _work_offset(self, block: Block, words: dict[str, float]) -> None:
         for code in block.g:

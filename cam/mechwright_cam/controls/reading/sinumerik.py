@@ -63,7 +63,7 @@ REFUSED = {
 }
 """Words that the control knows and that are not read, each with what to do instead."""
 _HEADER = re.compile(r"%_N_\w+_MPF\s*")
-_MESSAGE = re.compile(r'\s*(?:N[0-9]+\s*)?MSG\s*\(\s*(?:"([^"()]*)")?\s*\)\s*', re.IGNORECASE)
+_MESSAGE = re.compile(r'\s*(?:N[0-9]+\s*)?MSG\s*\(\s*(?:"([^"()]*)")?\s*\)\s*(?:;.*)?', re.IGNORECASE)
 _FRAME_SET = re.compile(
     rf"\s*(?:N[0-9]+\s*)?\$P_UIFR\[([1-4])\]\s*=\s*CTRANS\(X,({NUMBER}),Y,({NUMBER}),Z,({NUMBER})\)\s*",
     re.IGNORECASE,
