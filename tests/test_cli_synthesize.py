@@ -96,6 +96,41 @@ def test_a_requirement_that_is_taken_for_a_design_is_told(command_line: Run, tmp
         assert len(wrong.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('family = "disc"\n[study.ranges]\n', "sweep it by mechwright sweep wanted.toml -o FOLDER"),
+        ('format = 1\ncontrol = "grbl"\n[[tool]]\n', 'in the head of one: shop = "wanted.toml"'),
+    ],
+)
+def test_a_file_of_another_kind_is_told_what_it_is_for(
+    command_line: Run, tmp_path: Path, text: str, told: str
+) -> None:
+    """A study had an unknown key, and a shop one that "belongs to [cam]"."""
+    path = tmp_path / "wanted.toml"
+    path.write_text(text, encoding="utf-8")
+    code, _, wrong = command_line("check", path)
+    assert code == 2
+    assert told in wrong
+    assert len(wrong.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("family", "kind", "keys"),
+    [
+        ("cam-follower", "size", ("lifts", "swings", "roller_radius")),
+        ("geneva", "indexing", ("wheel_diameter", "centre_distance", "overall_length")),
+    ],
+)
+def test_a_new_requirement_has_what_one_asks_for_first(
+    command_line: Run, family: str, kind: str, keys: tuple[str, ...]
+) -> None:
+    """That of a cam did not say how far the follower goes, since it may be left out."""
+    code, text, _ = command_line("new", family, "--requirement", kind)
+    assert code == 0
+    assert [key for key in keys if f"\n# {key} = ..." not in text] == []
+
+
 def test_many_designs_sort_as_they_are_numbered(command_line: Run, tmp_path: Path) -> None:
     path = requirement(tmp_path, 'family = "disc"\n[requirement]\nkind = "rim"\ncount = 12\n')
     assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0

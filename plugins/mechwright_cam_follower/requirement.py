@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from mechwright import Parameters
+from mechwright import FIRST, Parameters
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_cam_follower.params import MOST_SEGMENTS, Angle, CamParams, LawName, Lift, Swing
 
@@ -37,31 +37,39 @@ class SizeRequirement(Parameters):
     """The motion and limits of a cam; what is wanted is the smallest cam that keeps them."""
 
     follower: Literal["translating", "oscillating"] = Field(
-        "translating", description="A follower that slides, or a lever."
+        "translating", description="A follower that slides, or a lever.", json_schema_extra=FIRST
     )
-    contact: Literal["roller", "flat"] = Field("roller", description="A roller or a flat face.")
+    contact: Literal["roller", "flat"] = Field(
+        "roller", description="A roller or a flat face.", json_schema_extra=FIRST
+    )
     conjugate: bool = Field(False, description="Two cams and two rollers.")
     angles: Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
-        (120.0, 60.0, 120.0, 60.0), description="Segments of the turn, 360 together."
+        (120.0, 60.0, 120.0, 60.0), description="Segments of the turn, 360 together.", json_schema_extra=FIRST
     )
     lifts: Annotated[tuple[Lift, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
-        None, description="Lift at the end of each segment; left out, 15, 15, 0, 0."
+        None, description="Lift at the end of each segment; left out, 15, 15, 0, 0.", json_schema_extra=FIRST
     )
     swings: Annotated[tuple[Swing, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
-        None, description="The same of a lever; left out, 20, 20, 0, 0."
+        None, description="The same of a lever; left out, 20, 20, 0, 0.", json_schema_extra=FIRST
     )
     laws: Annotated[tuple[LawName, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
-        ("cycloidal",), description="Law of each rise and return, or one for all; table and polynomial aside."
+        ("cycloidal",),
+        description="Law of each rise and return, or one for all; table and polynomial aside.",
+        json_schema_extra=FIRST,
     )
     turning: Literal["ccw", "cw"] = Field("ccw", description="How the cam turns, seen from above.")
     greatest_pressure_angle: Annotated[float, Field(ge=5, le=80), Unit("deg")] = Field(
-        30.0, description="Pressure angle that no place of the turn may pass."
+        30.0, description="Pressure angle that no place of the turn may pass.", json_schema_extra=FIRST
     )
     least_curvature_radius: Millimetres = Field(
-        5.0, ge=0.1, le=500, description="Radius below which no convex place of the cam may be."
+        5.0,
+        ge=0.1,
+        le=500,
+        description="Radius below which no convex place of the cam may be.",
+        json_schema_extra=FIRST,
     )
     roller_radius: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Radius of the rollers; left out, 8."
+        None, description="Radius of the rollers; left out, 8.", json_schema_extra=FIRST
     )
     offset: Annotated[float, Field(ge=-500, le=500), Unit("mm")] | None = Field(
         None, description="Offset of a slide; left out, the best."
@@ -72,8 +80,12 @@ class SizeRequirement(Parameters):
     centre_distance: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
         None, description="Between the axes of cam and lever; left out, the best."
     )
-    bore: Millimetres = Field(15.0, ge=0, le=300, description="Shaft bore of the cam; 0 for none.")
-    speed: RevPerMin = Field(120.0, ge=0.01, le=20000, description="Constant speed of the cam.")
+    bore: Millimetres = Field(
+        15.0, ge=0, le=300, description="Shaft bore of the cam; 0 for none.", json_schema_extra=FIRST
+    )
+    speed: RevPerMin = Field(
+        120.0, ge=0.01, le=20000, description="Constant speed of the cam.", json_schema_extra=FIRST
+    )
 
     @model_validator(mode="after")
     def _together(self) -> Self:

@@ -327,4 +327,5 @@ def _candidate(problem: Problem, params: EllipticGearParams) -> Candidate[Ellipt
         "speed": Scalar(tops["speed"].value, "mm/s"),
     }
     told = KINDS.get(problem.kind, "window")
-    return Candidate(params, Scalar(missing, "rad"), {told: shown[told], **shown})
+    measure = "residual" if problem.kind in KINDS else "rest_of_the_turn"
+    return Candidate(params, Scalar(missing, "rad"), {told: shown[told], **shown}, measure)

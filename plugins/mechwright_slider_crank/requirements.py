@@ -24,7 +24,7 @@ class StrokeRequirement(Parameters):
         1.5,
         ge=0.1,
         le=10,
-        description="Time of the slow stroke over that of the quick one, K, between 1 and 3.",
+        description="Time of the slow stroke over that of the quick one, K, from 1 (no offset) to below 3.",
     )
     quick: Literal["inward", "outward"] = Field(
         "inward",

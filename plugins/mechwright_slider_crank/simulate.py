@@ -32,6 +32,7 @@ def simulated(linkage: SliderCrank) -> tuple[float, float]:
     velocity = linkage.rates(grid)[1]
     if not np.isfinite(velocity).all():
         raise KinematicsError("the crank does not get round: the linkage cannot be assembled everywhere")
+    velocity[-1] = velocity[0]  # one place: without an offset the slider reverses just there
     rising = velocity > 0
     turns = np.flatnonzero(rising[:-1] != rising[1:])
     if turns.size != 2:

@@ -9,6 +9,8 @@ the two limits gives
 
 The crank turns fully for 0 < e <= H cot θ, (H/2) tan(θ/2) <= a < H/2, H/2 < c <= (H/2) cot(θ/2). With none
 given e is where the least transmission angle, acos((a + e)/c), is the greatest.
+
+K = 1 is the central slider-crank: e = 0, a = H/2 and any longer rod, of which none is the best.
 """
 
 import math
@@ -21,8 +23,11 @@ from mechwright import Finding
 from mechwright_slider_crank.requirements import StrokeRequirement
 
 RATIOS = (1.0, 3.0)
-"""K between which an offset slider-crank exists: 1 needs no offset, and at 3 the crank no longer turns."""
+"""K between which an offset slider-crank exists: 1 has no offset, and at 3 the crank no longer turns."""
 
+CENTRAL_ROD = 4.0
+"""Rod of a central slider-crank over its crank, where none is given: as usual in engines, with a transmission
+angle above 75 degrees."""
 
 _NEARLY = 0.99
 """Part of the range of offsets that is searched for the best: the last hundredth is never it."""
@@ -118,18 +123,23 @@ def best(stroke: float, time_ratio: float) -> Lengths:
 def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
     """What cannot be met, with the nearest value that can."""
     low, high = RATIOS
-    if not low < wanted.time_ratio < high:
-        near = "just above 1" if wanted.time_ratio <= low else "just below 3"
+    if wanted.time_ratio < low or wanted.time_ratio >= high:
+        slow = wanted.time_ratio < low
         yield Finding.error(
             "slider-crank.time-ratio",
             "time_ratio",
-            f"no crank that turns fully has a time ratio of {wanted.time_ratio:g} with an offset slide: it "
-            "lies between 1 and 3",
+            f"no crank that turns fully has a time ratio of {wanted.time_ratio:g}: that of the slow stroke "
+            "over the quick one is at least 1, and below 3",
             wanted.time_ratio,
-            low if wanted.time_ratio <= low else high,
-            remedy=f"ask for a time ratio {near}"
-            + ("; a ratio of 1 has no offset" if near == "just above 1" else ""),
+            low if slow else high,
+            remedy=f"ask for time_ratio = {1 / wanted.time_ratio:.6g}; quick says which stroke is the quick "
+            "one"
+            if slow and 1 / wanted.time_ratio < high
+            else "ask for a time ratio just below 3",
         )
+        return
+    if wanted.time_ratio == low:
+        yield from _central(wanted)
         return
     allowed = ranges(wanted.stroke, wanted.time_ratio)
     for name, (least, most) in (("crank", allowed.crank), ("rod", allowed.rod), ("offset", allowed.offset)):
@@ -150,9 +160,40 @@ def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
         )
 
 
+def _central(wanted: StrokeRequirement) -> Iterator[Finding]:
+    """What of the lengths does not go with a time ratio of 1."""
+    half = wanted.stroke / 2
+    if wanted.offset is not None:
+        said, limit, cure = "has no offset", 0.0, "leave offset out, or ask for a time ratio above 1"
+        name, value = "offset", wanted.offset
+    elif wanted.crank is not None and not math.isclose(wanted.crank, half, rel_tol=1e-9):
+        said, limit, cure = f"has a crank of half the stroke, {half:.6g} mm", half, "leave crank out"
+        name, value = "crank", wanted.crank
+    elif wanted.rod is not None and wanted.rod <= half:
+        said, limit, cure = (
+            f"needs a rod longer than {half:.6g} mm",
+            half,
+            "take a longer rod, or leave it out",
+        )
+        name, value = "rod", wanted.rod
+    else:
+        return
+    yield Finding.error(
+        f"slider-crank.{name}-range",
+        name,
+        f"{name} = {value:g} mm: a slider-crank with a time ratio of 1 {said}",
+        value,
+        limit,
+        "mm",
+        cure,
+    )
+
+
 def lengths_of(wanted: StrokeRequirement) -> Lengths:
     """The lengths that a requirement within its bounds leads to, offset positive."""
     stroke, ratio = wanted.stroke, wanted.time_ratio
+    if ratio == RATIOS[0]:
+        return Lengths(stroke / 2, CENTRAL_ROD * stroke / 2 if wanted.rod is None else wanted.rod, 0.0)
     if wanted.offset is not None:
         return from_offset(stroke, ratio, wanted.offset)
     if wanted.crank is not None:

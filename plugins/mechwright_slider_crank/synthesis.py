@@ -19,12 +19,15 @@ from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, completed, 
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.sizes import sizes_of
-from mechwright_slider_crank.stroke import bounds, lengths_of
+from mechwright_slider_crank.stroke import Lengths, bounds, lengths_of
 
 Design = SliderCrankParams
 
 _PIN_SHARES = (1.0, 0.75, 0.5)
 """Pins that are tried, over the usual ones: where the parts are in each other's way, slender ones may do."""
+
+DIGITS = 10
+"""Decimals of a length, mm: far below what anybody makes, and enough for the stroke to hold."""
 
 LEAST_PIN = 1.5
 """mm, the thinnest pin that a synthesis chooses by itself."""
@@ -56,9 +59,10 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
     refused = tuple(bounds(wanted))
     if refused:
         return Synthesis((), refused)
-    lengths = lengths_of(wanted)
+    exact = lengths_of(wanted)
+    lengths = Lengths(*(round(one, DIGITS) for one in (exact.crank, exact.rod, exact.offset)))
     # With a slide to the left, e > 0, a crank that turns counter-clockwise takes longer for the way back.
-    offset = lengths.offset if wanted.quick == "outward" else -lengths.offset
+    offset = lengths.offset if wanted.quick == "outward" or not lengths.offset else -lengths.offset
     params, why = buildable(
         {
             "crank": lengths.crank,
@@ -85,12 +89,15 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         "time_ratio_simulated": Scalar(ratio, ""),
         **_lengths(params),
     }
+    candidate = Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures)
+    if not offset:
+        return Synthesis((candidate,))
     said = (
         f"the mirror image, offset = {-offset:.6g} and clockwise = true, does the same; with one of the two "
         "alone the other stroke is the quick one"
     )
     note = Finding.note("slider-crank.mirror", said, -offset, "mm")
-    return Synthesis((Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures),), (note,))
+    return Synthesis((candidate,), (note,))
 
 
 def _lengths(params: Design) -> dict[str, Scalar]:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from mechwright import Candidate, Scalar
 from mechwright_noncircular_gears.checks import findings
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.fit.goals import goal_of
@@ -155,3 +156,12 @@ def test_slopes_of_what_is_asked_are_those_of_differences(wanted: FitRequirement
         for k, column in enumerate(np.eye(z.size)):
             slope = (asked.values(z + 1e-6 * column) - asked.values(z - 1e-6 * column)) / 2e-6
             assert asked.slopes(z)[:, k] == pytest.approx(slope, abs=2e-7)
+
+
+def test_what_was_made_least_is_no_miss_of_what_was_asked() -> None:
+    """A quick return that is met exactly was told with a "residual 12.86 deg": the slope of its gears."""
+    goals = [goal_of(kind()) for kind in REQUIREMENTS.values()]
+    assert [one.measure for one in goals] == ["greatest_ca", "deviation", "greatest_slope", "greatest_ratio"]
+    one = Candidate(NoncircularParams(), Scalar(0.2, "rad"), {}, goals[2].measure)
+    assert list(one.shown) == ["greatest_slope"]
+    assert one.as_dict()["residual"]["value"] == pytest.approx(math.degrees(0.2))

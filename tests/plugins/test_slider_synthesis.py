@@ -121,10 +121,30 @@ def test_the_design_is_simulated_and_has_the_wanted_quick_stroke(given_, quick):
     assert ("slower away from the crank" in told.message) == (quick == "inward")
 
 
+@pytest.mark.parametrize(("given_", "rod"), [({}, 100), ({"rod": 80}, 80), ({"crank": 25}, 100)])
+def test_both_strokes_take_as_long_without_an_offset(given_, rod):
+    result = from_stroke(StrokeRequirement(stroke=50, time_ratio=1, **given_))
+    (candidate,) = result.candidates
+    assert result.findings == ()
+    params = candidate.params
+    assert (params.crank, params.rod, params.offset) == (25, rod, 0)
+    assert not math.copysign(1, params.offset) < 0
+    ends = limits(SliderCrank(params.crank, params.rod, params.offset))
+    assert (ends.stroke, ends.time_ratio) == pytest.approx((50, 1), rel=1e-12)
+
+
+def test_a_ratio_the_wrong_way_round_is_told_the_right_one():
+    (finding,) = from_stroke(StrokeRequirement(time_ratio=0.8)).findings
+    assert "time_ratio = 1.25" in finding.remedy
+    assert from_stroke(StrokeRequirement(time_ratio=1.25)).candidates
+
+
 @pytest.mark.parametrize(
     ("table", "code", "parameter", "limit"),
     [
-        ({"time_ratio": 1.0}, "slider-crank.time-ratio", "time_ratio", 1),
+        ({"time_ratio": 1.0, "offset": 10}, "slider-crank.offset-range", "offset", 0),
+        ({"time_ratio": 1.0, "crank": 50}, "slider-crank.crank-range", "crank", 60),
+        ({"time_ratio": 1.0, "rod": 60}, "slider-crank.rod-range", "rod", 60),
         ({"time_ratio": 0.7}, "slider-crank.time-ratio", "time_ratio", 1),
         ({"time_ratio": 3.0}, "slider-crank.time-ratio", "time_ratio", 3),
         ({"crank": 60.5}, "slider-crank.crank-range", "crank", 60),

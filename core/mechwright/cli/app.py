@@ -28,7 +28,7 @@ COMPLETING = "_MECHWRIGHT_COMPLETE"
 
 FIRST = """\
 mechwright demo                                builds an example and opens it
-mechwright new elliptic-gears -o pair.toml     a design of your own, every key with a comment
+mechwright new elliptic-gears -o pair.toml     a design of your own, its first keys explained
 mechwright build pair.toml -o out              its motion, solids, drawings and proven programs
 
 mechwright --help lists all commands."""

@@ -9,7 +9,7 @@ import typer
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction, standing
 from mechwright.contracts.finding import Severity, errors
-from mechwright.contracts.synthesis import Candidate, Reason
+from mechwright.contracts.synthesis import BEYOND, Candidate, Reason
 from mechwright.designs.requirement import load_requirement
 from mechwright.output.folder import check_folder
 from mechwright.scripting.synthesis import sought
@@ -52,7 +52,7 @@ def synthesize(path: Path, folder: Path, as_json: bool, minutes: bool) -> None:
 def _tell_reasons(reasons: Sequence[Reason], *, err: bool = False) -> None:
     """What speaks against the designs that are not given, in the words of the first of each kind."""
     for reason in reasons:
-        first = "" if reason.count == 1 else ", the first"
+        first = "" if reason.count == 1 or reason.code == BEYOND else ", the first"
         typer.echo(f"  {reason}{first}: {reason.message}", err=err)
 
 

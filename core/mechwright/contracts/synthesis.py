@@ -31,22 +31,26 @@ class Candidate(Generic[P]):
         By how much it misses the requirement, in its own unit; 0 for a closed form.
     figures
         What to compare candidates by, name to value and unit, most telling first.
+    measure
+        What people are told that the residual is: of a requirement that is met by all of its designs, what
+        was made least.
     """
 
     params: P
     residual: Scalar
     figures: Mapping[str, Scalar] = field(default_factory=dict)
+    measure: str = "residual"
 
     @property
     def shown(self) -> dict[str, Scalar]:
         """Residual and figures as they are told to people: angles in degrees."""
-        told = {"residual": self.residual, **self.figures}
+        told = {self.measure: self.residual, **self.figures}
         return {name: _in_degrees(one) for name, one in told.items()}
 
     def as_dict(self) -> dict[str, Any]:
         """Residual and figures as plain data for JSON; angles in degrees."""
         told = {name: {"value": one.value, "unit": one.unit} for name, one in self.shown.items()}
-        return {"residual": told.pop("residual"), "figures": told}
+        return {"residual": told.pop(self.measure), "figures": told}
 
 
 def _in_degrees(figure: Scalar) -> Scalar:

@@ -217,12 +217,8 @@ def telling_places(path: Path, content: Mapping[str, Any], host: Host, own: str)
 def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -> Design:
     """The design that a file ``path`` with this content holds; raises as :func:`load` does."""
     tables = host.of(Table)
-    if "requirement" in content and "parameters" not in content:
-        raise DesignError(
-            f"{path}: requirement: this file says what is asked of a design, and is none; find designs by "
-            f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
-        )
     keys = (*HEAD, "parameters", STAGE, *tables)
+    _check_kind(content, path, set(keys))
     family: Family[Any]
     if STAGE in content:
         name = read_name(content, path, keys)
@@ -237,6 +233,25 @@ def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -
         params = own_params(family, content, path)
         values = table_values(readers, content, path)
     return settled(Design(name, family, params, path, digest, values, readers, content, units))
+
+
+def _check_kind(content: Mapping[str, Any], path: Path, known: Set[str]) -> None:
+    """Raises DesignError for a file of another kind, with what it is for; ``known`` are a design's keys."""
+    if "requirement" in content and "parameters" not in content:
+        raise DesignError(
+            f"{path}: requirement: this file says what is asked of a design, and is none; find designs by "
+            f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
+        )
+    if "study" in content:
+        raise DesignError(
+            f"{path}: study: this file is a study of many designs; sweep it by mechwright sweep {path.name} "
+            "-o FOLDER, which writes the designs of its front"
+        )
+    if not {"family", STAGE, "parameters"} & content.keys() and content.keys() - known:
+        raise DesignError(
+            f"{path}: family: missing, so that this file is no design; what a shop has is named in the head "
+            f'of one: shop = "{path.name}"'
+        )
 
 
 def own_params(family: Family[Any], content: Mapping[str, Any], path: Path) -> Parameters:

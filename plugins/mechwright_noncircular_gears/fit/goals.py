@@ -37,6 +37,9 @@ class Goal(ABC):
     start: tuple[float, ...] = (1.0,)
     """First guess of the unknowns y, the bound first."""
 
+    measure: str
+    """What the bound is, as people are told it."""
+
     told: tuple[str, ...] = ()
     """Names of the unknowns beside the bound, rad, as figures of a design."""
 
@@ -67,6 +70,7 @@ class Equalised(Goal):
     """
 
     wanted: GenevaRequirement
+    measure = "greatest_ca"
 
     @property
     def window(self) -> float:  # type: ignore[override]
@@ -113,6 +117,7 @@ class Constant(Goal):
     """Least deviation of a slider's speed from its mean over a window of the input."""
 
     wanted: SliderRequirement
+    measure = "deviation"
     even = False
     told = ("crank_at_zero",)
 
@@ -172,6 +177,7 @@ class QuickReturn(Goal):
     """Flattest pitch curves, the least greatest slope, for a ratio of the times of both parts of a turn."""
 
     wanted: QuickReturnRequirement
+    measure = "greatest_slope"
 
     def bounded(self) -> Sequence[Pointwise]:
         """The slope on both sides."""
@@ -201,6 +207,7 @@ class Approach(Goal):
     """The least greatest ratio over a window."""
 
     wanted: ApproachRequirement
+    measure = "greatest_ratio"
 
     @property
     def window(self) -> float:  # type: ignore[override]

@@ -42,7 +42,8 @@ def from_wish(wanted: FitRequirement, progress: Progress) -> Synthesis[Noncircul
         params = _with_room(_params(wanted, law))
         if rejected.by(findings(params)):
             continue
-        candidate = Candidate(params, goal.residual(reached(goal, params, law)), _figures(goal, params, law))
+        least = goal.residual(reached(goal, params, law))
+        candidate = Candidate(params, least, _figures(goal, params, law), goal.measure)
         if not any(_alike(candidate, one) for one in found):
             found.append(candidate)
     progress(1.0, "done")
