@@ -162,6 +162,6 @@ def test_what_was_made_least_is_no_miss_of_what_was_asked() -> None:
     """A quick return that is met exactly was told with a "residual 12.86 deg": the slope of its gears."""
     goals = [goal_of(kind()) for kind in REQUIREMENTS.values()]
     assert [one.measure for one in goals] == ["greatest_ca", "deviation", "greatest_slope", "greatest_ratio"]
-    one = Candidate(NoncircularParams(), Scalar(0.2, "rad"), {}, goals[2].measure)
+    one = Candidate(SizedParams(), Scalar(0.2, "rad"), {}, goals[2].measure)
     assert list(one.shown) == ["greatest_slope"]
     assert one.as_dict()["residual"]["value"] == pytest.approx(math.degrees(0.2))
