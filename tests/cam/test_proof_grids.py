@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 import shapely
 from shop import TAB, plate_job
+from test_proof_parts import paths_of
 
 from mechwright_cam.proof import closer, footprint, grips
-from mechwright_cam.proof.footprint import BEFORE, NEVER, SKIN, Footprint
+from mechwright_cam.proof.footprint import BEFORE, NEVER, SKIN, Footprint, Grid
 from mechwright_cam.setup.job import Air
 
 CELL = 0.5
@@ -90,3 +91,57 @@ def test_the_edge_holds_what_has_its_share_of_it() -> None:
     assert not edge.holds(piece, 0)
     piece[rows[least - 1], columns[least - 1]] = True
     assert edge.holds(piece, 0)
+
+
+def test_places_are_in_cells_counted_from_the_lower_left_corner_of_a_grid_or_of_its_border() -> None:
+    """Four rows and six columns of 0.5 mm from (1, 2) on; two more all around as a border."""
+    grid = Grid(1.0, 2.0, 0.5, np.zeros((4, 6), dtype=np.int32))
+    at = [
+        (1.0, 2.0),
+        (1.2, 2.6),
+        (3.99, 3.99),
+        (0.99, 2.1),
+        (4.0, 2.1),
+        (1.1, 1.99),
+        (1.1, 4.0),
+        (-0.01, 2.1),
+        (5.0, 2.1),
+        (1.1, 5.0),
+    ]
+    row, column, inside = grid.cells(np.array(at))
+    assert list(zip(row.tolist(), column.tolist(), inside.tolist(), strict=True))[:3] == [
+        (0, 0, True), (1, 0, True), (3, 5, True),
+    ]  # fmt: skip
+    assert not inside[3:].any()
+    row, column, inside = grid.cells(np.array(at), border=2)
+    assert (row[0], column[0]) == (2, 2)
+    assert inside.tolist() == [True] * 7 + [False] * 3
+    assert (row[5], column[3], row[6], column[4]) == (1, 1, 6, 8)
+
+
+def test_the_place_of_some_cells_is_the_middle_of_that_in_their_middle() -> None:
+    cells = np.zeros((9, 12), dtype=np.int32)
+    found = Footprint(1.0, 2.0, 0.5, cells, cells, shapely.Polygon())
+    for rows, columns in (
+        (slice(2, 7), slice(3, 10)),
+        (slice(4, 5), slice(0, 9)),
+        (slice(1, 8), slice(11, 12)),
+    ):
+        mask = np.zeros(cells.shape, dtype=bool)
+        mask[rows, columns] = True
+        row, column = (rows.start + rows.stop - 1) / 2, (columns.start + columns.stop - 1) / 2
+        assert found.place(mask) == pytest.approx((1.0 + (column + 0.5) * 0.5, 2.0 + (row + 0.5) * 0.5))
+
+
+@pytest.mark.parametrize("turn", ["G2", "G3"])
+@pytest.mark.parametrize("first", [0.3, 2.0, 4.0, 5.5])
+@pytest.mark.parametrize("angle", [0.4, 2.5, 4.4, 6.0])
+def test_an_arc_reaches_as_far_as_its_points(turn: str, first: float, angle: float) -> None:
+    angles = first + np.linspace(0.0, angle if turn == "G3" else -angle, 4001)
+    way = np.column_stack((np.cos(angles), np.sin(angles))) * 5.0 + (20.0, 10.0)
+    (x, y), (u, v), (i, j) = way[0], way[-1], np.array([20.0, 10.0]) - way[0]
+    arc = f"{turn} X{u:.6f} Y{v:.6f} I{i:.6f} J{j:.6f}"
+    paths = paths_of(f"G0 X{x:.6f} Y{y:.6f} Z5\nG1 Z-1 F100\n{arc}")
+    least, most = paths.extent(paths.cuts[-1:])
+    np.testing.assert_allclose(least[0], way.min(axis=0), atol=1e-4)
+    np.testing.assert_allclose(most[0], way.max(axis=0), atol=1e-4)

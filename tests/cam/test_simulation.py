@@ -19,6 +19,7 @@ from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
 from mechwright_cam.proof.simulation import Simulation, deviation
+from mechwright_cam.shop.power import available
 
 
 def simulation(*moves: object, feed: float = 600.0) -> tuple[Simulation, object]:
@@ -87,6 +88,23 @@ def test_windows_of_a_row_beside_a_slot_have_the_loads_of_its_width(
     assert plunge.power == pytest.approx(drilled * plunge.removal / 60 / 1000, rel=1e-6)
     for loads in (plunge, level):
         np.testing.assert_allclose(loads.torque * 8000 * math.tau / 60, 1000 * loads.power)
+
+
+def test_operations_of_one_tool_have_their_own_greatest_loads() -> None:
+    made = plate_job()
+    ways = {
+        "slot": row(-24, 24, 0, -4.0),
+        "beside": row(-20, 20, 1.5, -4.0),
+        "fast": row(-24, 24, 12, -2.0, 1200.0),
+    }
+    operations = tuple(Operation(name, tuple(way)) for name, way in ways.items())
+    text = LinuxCnc().write(Program("plate", "G54", 5.0, (ToolSection(MILL, 8000, "flood", operations),)))
+    works = simulated(text, made).works
+    assert [work.operation for work in works] == list(ways)
+    assert [work.removal for work in works] == pytest.approx([14.4, 3.6, 14.4], rel=0.03)
+    for work in works:
+        assert work.share == pytest.approx(work.power / available(made.settings.machine, 8000))
+    assert [work.feed_per_tooth * 24000 for work in works] == pytest.approx([600, 600, 1200])
 
 
 @pytest.mark.parametrize("over", [0.6, 1.5, 3.0])
