@@ -251,7 +251,7 @@ def test_a_lookahead_is_still_the_plugins(gives: Any, words: str) -> None:
         (Check(np.bool_(True), "q"), "; True or False of Python is wanted"),  # type: ignore[arg-type]
         (Check(True, 3), "message of what it gives is 3; a text"),  # type: ignore[arg-type]
         (Check(True, "a\nb"), "one line is wanted"),
-        (Check(True, "a", value=math.nan), "value of what it gives is nan"),
+        (Check(True, "a", value="q"), "value of what it gives is 'q'; a number or None"),  # type: ignore[arg-type]
         (Check(True, "a", at=(0.0, 1.0)), "a tuple of 3"),  # type: ignore[arg-type]
     ],
 )
