@@ -25,7 +25,7 @@ def program_end(scene: Scene) -> Check:
         )
         return Check(False, message, run.beyond)
     if not run.ended:
-        ends = set(run.file[run.kind == Kind.END].tolist())
+        ends = set(run.file[run.kind == Kind.END].tolist()) if run.files else set[int]()
         where = next(
             (f"{name}: " for n, name in enumerate(run.files) if n not in ends), f"line {run.lines}: "
         )
