@@ -179,7 +179,9 @@ def test_the_golden_programs_are_of_the_ways_they_are_named_after() -> None:
 
 
 IDLE = ("G4 P500", "M8", "S2000", "F90.", "G91", "Z-2.5")
-BESIDE = "G21 G90 G17 G40 G80 G94\nG54 S1000 M3\nG0 X0. Y0. Z-2.\nG1 F100. G41 D3 X10. Y0.\nX20.\n{}\nG90 Y20.\n"
+BESIDE = (
+    "G21 G90 G17 G40 G80 G94\nG54 S1000 M3\nG0 X0. Y0. Z-2.\nG1 F100. G41 D3 X10. Y0.\nX20.\n{}\nG90 Y20.\n"
+)
 
 
 @pytest.mark.parametrize("one", IDLE)

@@ -258,7 +258,7 @@ def test_wear_goes_to_d_within_its_limit(wear, way, severities):
 @pytest.mark.parametrize(
     ("number", "wear", "says"),
     [
-        (3, -0.03, "T3 (mill-6) is worn by -0.015 mm as a radius and comes to walls without cutter comp"),
+        (3, -0.03, "T3 (mill-6) is worn by -0.015 mm as a radius and comes to walls without"),
         (3, 0.012, "they lose as much, 0.005 mm at most"),
         (3, -0.02, ""),
         (3, 0.01, ""),

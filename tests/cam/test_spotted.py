@@ -21,7 +21,10 @@ def test_a_drill_follows_its_spot(control: str, x: float, taken: bool) -> None:
     found = asked("edges", moved(control, x), job_of(control), BY_NAME[control])
     assert found.passed == taken
     if not taken:
-        assert f"T2 (drill-8) goes down {abs(x):.3f} mm beside the middle of what T1 (spot-6) has" in found.message
+        assert (
+            f"T2 (drill-8) goes down {abs(x):.3f} mm beside the middle of what T1 (spot-6) has"
+            in found.message
+        )
         assert (found.value, found.limit) == (pytest.approx(abs(x), abs=1e-9), 0.02)
 
 

@@ -103,7 +103,7 @@ class Fanuc(GcodeControl):
         return f"G91 G28 Z{self.length(0.0)}", "G90"
 
     def restate(self, out: Writer) -> None:
-        """Without G49, which may move Z by the tool's length where it stands: the next G43 takes its place."""
+        """Without G49, which may move Z by the tool's length where it stands; the next G43 replaces it."""
         if not self.dialect.length_moves:
             super().restate(out)
             return

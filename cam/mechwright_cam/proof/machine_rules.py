@@ -25,8 +25,10 @@ def program_end(scene: Scene) -> Check:
         )
         return Check(False, message, run.beyond)
     if not run.ended:
-        ends = set(run.file[run.kind == Kind.END].tolist())
-        where = next((f"{name}: " for n, name in enumerate(run.files) if n not in ends), f"line {run.lines}: ")
+        ends = set(run.file[run.kind == Kind.END].tolist()) if run.files else set[int]()
+        where = next(
+            (f"{name}: " for n, name in enumerate(run.files) if n not in ends), f"line {run.lines}: "
+        )
         end = f"{scene.control.m(30)} or {scene.control.m(2)}"
         return Check(False, f"{where}the program has no end; write {end}", run.lines)
     moved = np.flatnonzero(run.moving | (run.kind == Kind.HOME))
@@ -40,7 +42,7 @@ def program_end(scene: Scene) -> Check:
 
 
 def modes(scene: Scene) -> Check:
-    """Units, distances, plane and compensation are set before the first move in work coordinates of each file.
+    """Units, distances, plane and compensation are set before each file's first move in work coordinates.
 
     So are G94, G98 and G91.1, where a move hangs on them and the control keeps them from program to program;
     where it begins with them their lack is told.

@@ -200,8 +200,8 @@ def corridor(paths: Paths, job: Job, off: Array) -> float:
     """How far the finished walls may be off the path, mm, where the control leaves it.
 
     ``off`` (n,) is of each step, mm. What comes to a wall makes it, off by as much as its step. What leaves
-    more than the limit of leftover there leaves it to another pass, and cuts the wall only by what its step is
-    off beyond that.
+    more than the limit of leftover there leaves it to another pass, and cuts the wall only by what its step
+    is off beyond that.
     """
     left = np.full_like(off, TOLERANCES.leftover)
     makes, cuts = (reaching(paths, job, reach, TOLERANCES.gouge) for reach in (left, np.maximum(off, left)))

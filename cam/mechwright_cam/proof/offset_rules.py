@@ -99,7 +99,7 @@ def diameter_offset(scene: Scene) -> Check:
 
 def _worn(scene: Scene) -> Check | None:
     """The first cut at a wall by a tool that is known to be worn beyond the limits, and has no D for it."""
-    run, paths = scene.run, scene.paths
+    run = scene.run
     without = run.cutting & (run.of_states(lambda state: state.side) == 0)
     for tool in scene.tools.values():
         off = tool.wear_diameter / 2
@@ -112,9 +112,9 @@ def _worn(scene: Scene) -> Check | None:
             continue
         does = "keep" if off < 0 else "lose"
         message = (
-            f"T{tool.number} ({tool.name}) is worn by {off:+g} mm as a radius and comes to walls without cutter "
-            f"compensation: they {does} as much, {limit:g} mm at most; put in a new cutter, or give the wear to "
-            "its D"
+            f"T{tool.number} ({tool.name}) is worn by {off:+g} mm as a radius and comes to walls without "
+            f"cutter compensation: they {does} as much, {limit:g} mm at most; put in a new cutter, or give "
+            "the wear to its D"
         )
         return scene.bad(int(first(without & (run.tool == tool.number)) or 0), message, abs(off), limit, "mm")
     return None

@@ -1,4 +1,4 @@
-"""Whether drills go down where a hole has been begun: beside its spot or its pilot a drill follows that one."""
+"""Whether drills go down where a hole has been begun: beside its spot or pilot a drill follows that."""
 
 import numpy as np
 import shapely

@@ -103,8 +103,8 @@ def _again(scene: Scene) -> Check | None:
         x, y = np.rint(run.end[step, :2] / SAME_HOLE).astype(int).tolist()
         if (x, y) in tapped:
             message = (
-                f"T{run.tool[step]} taps a thread that has been tapped before, and whether it finds its turns a "
-                "setting of the machine says; tap it once"
+                f"T{run.tool[step]} taps a thread that has been tapped before, and whether it finds its "
+                "turns a setting of the machine says; tap it once"
             )
             return scene.bad(step, message)
         tapped.add((x, y))

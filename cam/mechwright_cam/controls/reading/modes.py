@@ -203,9 +203,11 @@ class Modal(Compensation):
             if self.dialect.change_stops_coolant:
                 self._set(coolant="off")
             self.keep_state()
-            # Whoever set up the machine has said where tools are changed, in X and Y too.
-            self.lose(block.line, "M6", "XY")
-            self._row(Kind.TOOL, block.line, math.nan, math.nan, self.z)
+            x, y = self.x, self.y
+            if not self.offsets_are_zero:  # whoever set up the machine has said where tools are changed
+                self.lose(block.line, "M6", "XY")
+                x = y = math.nan
+            self._row(Kind.TOOL, block.line, x, y, self.z)
 
     def _spindle_and_coolant(self, block: Block) -> None:
         for code in block.m:

@@ -35,8 +35,8 @@ def interpret(
 ) -> Run:
     r"""Run a program; see :meth:`mechwright_cam.controls.contract.Control.read`.
 
-    With ``start``, where the tool stands at first, mm, all work offsets and lengths are taken for 0, as
-    another simulator may do.
+    With ``start``, where the tool stands at first, mm, all work offsets and lengths are taken for 0, and
+    tools for changed where they stand, as another simulator may do.
 
     Examples
     --------
