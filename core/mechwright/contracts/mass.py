@@ -68,7 +68,7 @@ def _volume_moments(part: Part, solid: "Callable[[Part], cq.Solid]") -> Array:
 
 
 def _plain(shape: Shape) -> bool:
-    """Whether a shape is one full turn of a profile, also less a hole that lies wholly in it, or one prism."""
+    """Whether a shape is a full turn of a profile, also less a hole that lies wholly in it, or one prism."""
     if len(shape.pieces) > 1 or len(shape.less) > 1:
         return False
     piece = shape.pieces[0]
