@@ -21,6 +21,12 @@ SHAPES = {
     "mirrored": Shape((Prism(((0.0, 0.0), (0.0, 3.0), (4.0, 1.0)), 1.0, 5.0),)),
     "hexagon": Shape((hexagon(7, 1, 4),)),
     "two": Shape((ring(0, 12, 7), ring(0, 6, 20))),
+    "socket": Shape(
+        (Revolve(((0, -5), (4, -5), (4, 0), (2, 0), (2, 16), (0, 16))),), (hexagon(4, -5, -2.5),)
+    ),
+    "hollowed": Shape((ring(0, 12, 7),), (ring(0, 4, 3, 2.0),)),
+    "beside": Shape((ring(0, 12, 7),), (Revolve(((0, 1), (1, 1), (1, 3), (0, 3)), (4.0, 1.0)),)),
+    "through": Shape((ring(4, 12, 7),), (hexagon(6, 0, 7),)),
     "cut": Shape((ring(0, 12, 7),), (box((3, 9), (-2, 2), (0, 7)),)),
 }
 
@@ -57,6 +63,8 @@ def test_a_shaft_with_a_groove_is_plain_and_one_with_a_seat_asks_the_kernel():
 
     mass_moments(Part("shaft", None, 0.0, "steel", turned=plain), refuse)
     mass_moments(dowel_part("dowel", 4, 16, ()), refuse)
+    for name in ("socket", "hollowed", "beside"):
+        mass_moments(Part(name, None, 0.0, "steel", bought=Bought(name, shape=SHAPES[name])), refuse)
 
 
 def test_bodies_are_their_parts_at_their_heights():

@@ -1,5 +1,6 @@
 """Mass of parts and of bodies: plates and plain forms by their own numbers, others by their solid."""
 
+import math
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -61,16 +62,35 @@ def _volume_moments(part: Part, solid: "Callable[[Part], cq.Solid]") -> Array:
     form = part.turned or part.bought
     shape = None if form is None else form.shape
     if shape is not None and _plain(shape):
-        return _whole(shape.pieces[0])
+        found = _whole(shape.pieces[0])
+        return found - _whole(shape.less[0]) if shape.less else found
     return _solid_moments(solid(part))
 
 
 def _plain(shape: Shape) -> bool:
-    """Whether a shape is one full turn of a profile, or one prism."""
-    if len(shape.pieces) > 1 or shape.less:
+    """Whether a shape is a full turn of a profile, also less a hole that lies wholly in it, or one prism."""
+    if len(shape.pieces) > 1 or len(shape.less) > 1:
         return False
     piece = shape.pieces[0]
-    return isinstance(piece, Prism) or piece.sweep == 360.0
+    if not shape.less:
+        return isinstance(piece, Prism) or piece.sweep == 360.0
+    return isinstance(piece, Revolve) and piece.sweep == 360.0 and _lies_in(shape.less[0], piece)
+
+
+def _lies_in(hole: Revolve | Prism, turned: Revolve) -> bool:
+    """Whether a cylinder about the axis of a turned piece, which lies in it, has all of a hole in it."""
+    import shapely
+
+    x, y = turned.axis
+    if isinstance(hole, Prism):
+        reach = max(math.dist((x, y), corner) for corner in hole.corners)
+        low, high = hole.low, hole.high
+    elif hole.sweep == 360.0:
+        reach = math.dist((x, y), hole.axis) + max(r for r, _ in hole.profile)
+        low, high = (end(z for _, z in hole.profile) for end in (min, max))
+    else:
+        return False
+    return bool(shapely.Polygon(turned.profile).covers(shapely.box(0.0, low, reach, high)))
 
 
 def _whole(piece: Revolve | Prism) -> Array:
