@@ -144,6 +144,18 @@ def test_a_train_needs_its_play_on_each_flank():
     assert (keyed.x, keyed.y) == pytest.approx((0, 0), abs=1e-3)
 
 
+@by_night
+@pytest.mark.parametrize("module", [1.0, 1.3, 1.5])
+def test_fine_gears_run_with_the_usual_backlash(module, tmp_path):
+    """Their gaps are roughed near the walls, rounded by 0.02 mm: that cuts no wall."""
+    path = tmp_path / "fine.toml"
+    path.write_text(table("elliptic-gears", module=module))
+    parts, said, params = built(path)
+    assert params.backlash is None
+    assert all(part.corridor < 0.005 for part in parts)
+    assert not said.findings
+
+
 def test_copies_of_a_nest_are_told_apart():
     parts, _, params = example("elliptic-pair")
     (gear,) = parts
