@@ -114,11 +114,11 @@ def test_gouges_agree_with_brute_force(
 
 def test_a_drill_is_as_wide_as_its_point_at_the_top_of_the_band() -> None:
     keep = shapely.box(-20, -20, 20, 20).difference(shapely.Point(0, 0).buffer(2.0, quad_segs=200))
-    paths = paths_of("T2 M6\nG1 Z-1 F100", DRILL)
+    paths = paths_of("T2 M6\nG0 X0 Y0\nG1 Z-1 F100", DRILL)
     grown = math.tan(math.radians(DRILL.point_angle / 2))
     found = deepest_cut(paths, keep, 0.0)
     assert found is None  # 1.66 mm of radius in a hole of 2 mm
-    deeper = deepest_cut(paths_of("T2 M6\nG1 Z-1.5 F100", DRILL), keep, 0.0)
+    deeper = deepest_cut(paths_of("T2 M6\nG0 X0 Y0\nG1 Z-1.5 F100", DRILL), keep, 0.0)
     assert deeper is not None
     assert deeper.depth == pytest.approx(1.5 * grown - 2.0, abs=1e-3)
 
@@ -285,7 +285,8 @@ def test_nothing_faster_than_the_machine() -> None:
 
 
 def test_all_kinds_of_tool_have_a_point_or_none() -> None:
-    paths = paths_of("T1 M6\nG1 Z-1 F9\nT2 M6\nG1 Z-2\nT3 M6\nG1 Z-3", *TOOLS)
+    there = "M6\nG0 X0 Y0\nG1"
+    paths = paths_of(f"T1 {there} Z-1 F9\nT2 {there} Z-2\nT3 {there} Z-3", *TOOLS)
     pieces = paths.below(0.0)
     kinds = {paths.run.tool[s]: r for s, r in zip(pieces.step, paths.radius_at(pieces, -0.5), strict=True)}
     assert kinds[1] == pytest.approx(0.5)  # 90°

@@ -44,7 +44,7 @@ def turned(*_: object) -> Any:
 
 
 def test_one_of_its_own_is_told_as_the_plugins() -> None:
-    assert told("check", interrupts).startswith(f"{OWN}test_stops.py, line ")
+    assert told("check", interrupts).startswith(f"{OWN}test_signals_told.py, line ")
 
 
 def test_one_of_its_own_in_another_thread_is_too() -> None:
