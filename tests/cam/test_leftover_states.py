@@ -94,7 +94,7 @@ def test_the_length_of_a_tool_that_is_none_of_the_job_is_refused_though_nothing_
     """LinuxCNC stops there, as its table has no such tool."""
     text, line = at_the_end(text_of(control), "G43 H99")
     if control == "fanuc":  # which may move by such a block
-        with pytest.raises(ProgramError, match=rf"line {line + 1}: G43 without a height to go to"):
+        with pytest.raises(ProgramError, match=rf"line {line}: G43 without a height to go to"):
             asked("length-offset", text, job_of(control), BY_NAME[control])
         return
     found = asked("length-offset", text, job_of(control), BY_NAME[control])
