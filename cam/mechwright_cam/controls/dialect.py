@@ -130,6 +130,8 @@ class Dialect:
     """Whether G94 takes the feed back, though it was in force, so that F has to be stated anew."""
     both_coolants: bool = True
     """Whether M7 and M8 may stand in one line."""
+    stored_homes: frozenset[str] = frozenset({"G30"})
+    """Which of G28 and G30 go to a place that operators or makers set, not to the reference point."""
     one_use_of_axes: bool = False
     """Whether the control refuses G10, G28, G30 and G43.1 beside a motion, as both take the axes."""
     tables: frozenset[int] = frozenset({2, 10, 11, 12, 13, 20})

@@ -35,6 +35,7 @@ class Grbl(Measuring, GcodeControl):
     name = "grbl"
     title = "Grbl 1.1"
     dialect = Dialect(
+        stored_homes=frozenset({"G28", "G30"}),
         g_codes=frozenset(
             {0, 10, 20, 30, 40, 100, 280, RETURN, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900}
             | {910, 911, 540, 550, 560, 570, 580, 590, 610, 921, 940}

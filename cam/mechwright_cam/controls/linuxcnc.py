@@ -35,6 +35,7 @@ class LinuxCnc(Measuring, GcodeControl):
     name = "linuxcnc"
     title = "LinuxCNC"
     dialect = Dialect(
+        stored_homes=frozenset({"G28", "G30"}),
         macros=Macros,
         # Without P, or without any word, it keeps up its speed however far it leaves the path.
         corners=Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True),

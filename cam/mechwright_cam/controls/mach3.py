@@ -18,6 +18,7 @@ class Mach3(GcodeControl):
     name = "mach3"
     title = "Mach3"
     dialect = Dialect(
+        stored_homes=frozenset({"G28", "G30"}),
         calls="98",
         g_codes=MILLING | {901, 911, 921},
         unsupported=NOT_SIMULATED,

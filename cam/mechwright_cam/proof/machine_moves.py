@@ -73,4 +73,12 @@ def machine_moves(scene: Scene) -> Check:
             f"{retract(scene)}, or set cam.machine.retract_z to a lower height that is above everything"
         )
         return scene.bad(step, message)
-    return Check(True, "in machine coordinates X and Y move at the upper end of Z, and Z goes up")
+    said = "in machine coordinates X and Y move at the upper end of Z, and Z goes up"
+    if run.stored is None:
+        return Check(True, said)
+    line, word = run.stored
+    message = (
+        f"line {line}: {word} takes Z to a place that is stored in the control, which no program tells: see "
+        "that it is above everything on the table"
+    )
+    return Check(True, message, line, told=True)

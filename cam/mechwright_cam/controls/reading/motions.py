@@ -101,6 +101,8 @@ class Moving(Tapping):
                 self._mark("X" in axes or "Y" in axes)
                 self._row(Kind.RAPID, block.line, *via)
         self._home_axes(block.line, name, axes, math.inf)
+        if "Z" in axes and name in self.dialect.stored_homes:
+            self.stored.append((block.line, name))
         if "Z" in axes and self.dialect.home_cancels_length:
             self._set(length_offset=None, length=None)
 

@@ -55,6 +55,7 @@ class Recorder:
         self.unsaid: list[tuple[int, str]] = []
         """Lines that go as an earlier program may have said, and the word that says it anew."""
         self.hoped: list[tuple[int, str]] = []
+        self.stored: list[tuple[int, str]] = []
         """The same where the control begins with the word, unless an earlier program has left another."""
         self.before = 0
         """Number of steps in all tables."""
@@ -207,6 +208,7 @@ class Recorder:
             ended=self.ended,
             lines=lines,
             unsaid=min(self.unsaid, default=None),
+            stored=min(self.stored, default=None),
             hoped=min(self.hoped, default=None),
             piece=np.isin(np.arange(len(table)), self.pieces),
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),

@@ -178,6 +178,8 @@ class Run:
     """Number of the first line of a program that stands behind its end, and is not run; 0 if none does."""
     unsaid: tuple[int, str] | None = None
     """Line of the first move that goes as an earlier program may have said, and the word to say it anew."""
+    stored: tuple[int, str] | None = None
+    """Line and word of the first G28 or G30 of Z to a place that somebody has stored in the control."""
     hoped: tuple[int, str] | None = None
     """The same of a move that goes as programs begin, unless an earlier one has left something else."""
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
@@ -279,6 +281,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),
         unsaid=next((run.unsaid for run in runs if run.unsaid), None),
+        stored=next((run.stored for run in runs if run.stored), None),
         hoped=next((run.hoped for run in runs if run.hoped), None),
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
