@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,14 @@ from mechwright.plugins.host import Registered
 
 OWN = "raises KeyboardInterrupt, which is the keyboard's; raise an error ("
 needs_kill = pytest.mark.skipif(sys.platform == "win32", reason="no signals from here")
+
+
+@pytest.fixture(autouse=True)
+def _heard() -> Iterator[None]:
+    """A process in the background of a shell ignores the keyboard, and so do its children."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def interrupts(*_: object) -> Any:
