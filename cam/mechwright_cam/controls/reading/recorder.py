@@ -55,8 +55,9 @@ class Recorder:
         self.unsaid: list[tuple[int, str]] = []
         """Lines that go as an earlier program may have said, and the word that says it anew."""
         self.hoped: list[tuple[int, str]] = []
-        self.stored: list[tuple[int, str]] = []
         """The same where the control begins with the word, unless an earlier program has left another."""
+        self.stored: list[tuple[int, str]] = []
+        """Lines that take Z to a place that is stored in the control, and their words."""
         self.before = 0
         """Number of steps in all tables."""
         self.pieces: list[int] = []
