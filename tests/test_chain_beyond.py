@@ -30,6 +30,23 @@ def test_a_torque_that_no_wheel_may_be_asked_for_is_told_of_its_stage():
     assert found.value > found.limit
 
 
+def test_a_speed_that_is_too_low_goes_up_with_the_first_stage():
+    design = _chain(
+        ("elliptic-gears", {"speed": 0.001, "eccentricity": 0.4}), ("geneva", {}), ("four-bar", {})
+    )
+    slow = design_of(
+        changed(design.content, {"stage.2.parameters.slots": 12}), Path("chain.toml"), "", host()
+    )
+    found = [one for one in _beyond(slow) if one.unit == "rpm"]
+    for one in found:
+        assert one.value is not None
+        assert one.value < 0.001
+        assert "0.001 at least" in one.message
+        (change,) = one.proposed
+        assert change["stage.1.parameters.speed"] > 0.001
+    assert found
+
+
 @pytest.mark.parametrize("family", ["slider-crank", "geneva", "cam-follower"])
 def test_a_speed_that_no_design_may_have_comes_down_with_the_first_stage(family):
     design = _chain(("elliptic-gears", {"speed": 15000, "eccentricity": 0.4}), (family, {}))

@@ -72,14 +72,14 @@ def _beyond(links: Sequence[Link], own: Parameters, link: Link) -> Iterator[Find
         except ValidationError as error:
             (limit,) = error.errors()[0]["ctx"].values()
             unit = next((one.symbol for one in field.metadata if isinstance(one, Unit)), "")
-            key, remedy, changes = _turned_slower(links[0], limit / value)
+            key, remedy, changes = _at_another_speed(links[0], limit / value)
             if name == link.transmission.load_field:
                 key, remedy, changes = f"stage.{link.number}", "let the stages behind it take less", ()
             yield Finding.error(
                 "chain.beyond",
                 key,
                 f"stage {link.number}, {link.family.name}: in this chain its {name} comes to {value:.4g} "
-                f"{unit}, and its family knows {limit:g} at most",
+                f"{unit}, and its family knows {limit:g} at {'most' if value > limit else 'least'}",
                 value,
                 limit,
                 unit,
@@ -89,10 +89,11 @@ def _beyond(links: Sequence[Link], own: Parameters, link: Link) -> Iterator[Find
             )
 
 
-def _turned_slower(first: Link, share: float) -> tuple[str, str, tuple[Change, ...]]:
-    """The key, remedy and change with which a chain turns slower, by a share."""
+def _at_another_speed(first: Link, share: float) -> tuple[str, str, tuple[Change, ...]]:
+    """The key, remedy and change with which a chain turns by a share slower or faster."""
     key = f"stage.{first.number}.parameters.{first.transmission.own_drive[0]}"
-    speed = float(f"{0.99 * share * getattr(first.params, first.transmission.own_drive[0]):.3g}")
+    share *= 0.99 if share < 1 else 1.01
+    speed = float(f"{share * getattr(first.params, first.transmission.own_drive[0]):.3g}")
     return key, f"make {key} {speed:g}", ({key: speed},)
 
 
