@@ -369,5 +369,11 @@ def test_a_name_for_a_kind_is_the_kind() -> None:
     for kind in (several, several[float]):
         assert Declared().fault((1.0, 2.0), kind) is None
         assert Declared().fault([1.0], kind) == ("", "is [1.0]; a tuple is wanted")
+    assert Declared().fault((1.0, "x"), several[float]) == ("[1]", "is 'x'; a number is wanted")
+    number = TypeVar("number", bound=np.generic)
+    array = TypeAliasType(np.ndarray[Any, np.dtype[number]])
+    assert Declared().fault(np.zeros(2, dtype=bool), array[np.bool_]) is None
+    said = "is of the type float64; True and False are wanted"
+    assert Declared().fault(np.zeros(2), array[np.bool_]) == ("", said)
     assert Declared().fault({"a": np.zeros(2)}, named) is None
     assert Declared().fault({"a": (0.0,)}, named) == ("['a']", "is (0.0,); an array of numpy is wanted")

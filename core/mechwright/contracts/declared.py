@@ -138,7 +138,7 @@ class _Walk:
     def faults(self, value: Any, kind: Any) -> Iterator[Fault]:
         origin, arguments = get_origin(kind), get_args(kind)
         if type(whole := origin or kind).__name__ == "TypeAliasType":  # from Python 3.12 on, as NDArray is
-            yield from self.faults(value, whole.__value__)
+            yield from self.faults(value, whole.__value__[arguments] if arguments else whole.__value__)
         elif origin in {Union, types.UnionType}:
             yield from self._any(value, arguments)
         elif origin is Literal:
