@@ -280,7 +280,8 @@ def hook_points(
             # Other people's broken packages are none of our business.
             if f"[{group}]" not in (distribution.read_text("entry_points.txt") or ""):
                 continue
-            name = distribution.metadata["Name"] or name
+            if "Name" in distribution.metadata:
+                name = distribution.metadata["Name"] or name
             for point in distribution.entry_points:
                 if point.group == group:
                     # An editable install can be listed twice; the first on the path counts.
