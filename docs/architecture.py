@@ -146,21 +146,27 @@ def frame(x: float, y: float, width: float, height: float, title: str) -> str:
     )
 
 
+def _near(value: float) -> str:
+    """A length in tenths, the same whichever way its sums were rounded."""
+    return f"{round(value, 6):.1f}"
+
+
 def room(box: Box) -> str:
     """A room with its name."""
+    x, width, middle = map(_near, (box.x, box.width, box.middle))
     return (
-        f'<rect class="box" x="{box.x:.1f}" y="{box.y:g}" width="{box.width:.1f}" height="{BOX:g}" rx="3"/>'
-        f'<text class="room" x="{box.middle:.1f}" y="{box.y + 16:g}" text-anchor="middle">{box.name}</text>'
+        f'<rect class="box" x="{x}" y="{box.y:g}" width="{width}" height="{BOX:g}" rx="3"/>'
+        f'<text class="room" x="{middle}" y="{box.y + 16:g}" text-anchor="middle">{box.name}</text>'
     )
 
 
 def arrow(boxes: list[Box]) -> str:
     """From the lower edge of the first box, by those between, to the upper edge of the last."""
     x, y = boxes[0].middle, boxes[0].y + BOX
-    path = f"M{x:.1f} {y:g}"
+    path = f"M{_near(x)} {y:g}"
     for box in boxes[1:]:
         half = (y + box.y) / 2
-        path += f"C{x:.1f} {half:g} {box.middle:.1f} {half:g} {box.middle:.1f} {box.y:g}"
+        path += f"C{_near(x)} {half:g} {_near(box.middle)} {half:g} {_near(box.middle)} {box.y:g}"
         x, y = box.middle, box.y
         if box.width == 0:
             y += BOX
