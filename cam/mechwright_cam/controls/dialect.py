@@ -196,8 +196,9 @@ class Dialect:
     start with ``/`` are skipped. None if the control has these words itself."""
     home_cancels_length: bool = False
     """Whether G28 of Z may end G43, so that it has to be stated anew."""
-    length_moves: bool = False
-    """Whether G43 and G49 may move Z by the length themselves: the height has to stand beside them."""
+    length_moves: str = ""
+    """What in the control lets G43 and G49 move Z by the length themselves, so that the height has to stand
+    beside them; empty where they move nothing."""
     numbers_needed: str = ""
     """Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written."""
     length_write: tuple[int, str] | None = (1, "Z")

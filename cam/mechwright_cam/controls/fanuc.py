@@ -6,7 +6,6 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
-from mechwright_cam.controls.reading.modes import RIGID
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
@@ -57,7 +56,7 @@ class Fanuc(GcodeControl):
         percent_ends=False,
         program_numbers=True,
         home_cancels_length=True,
-        length_moves=True,
+        length_moves="parameter 5006, bit 6",
         numbers_needed="DH",
         length_write=(10, "R"),
         bare_home=False,
@@ -133,7 +132,7 @@ class Fanuc(GcodeControl):
 
     def tap(self, out: Writer, hole: Tap) -> None:
         """M29 before the cycle keeps feed and spindle together; a floating holder does without."""
-        rigid = () if out.tapping.floating else (f"M{RIGID}", out.speed)
+        rigid = () if out.tapping.floating else (self.dialect.tapping, out.speed)
         self.tap_cycle(out, hole, before=rigid)
 
     def end(self, out: Writer) -> None:

@@ -37,7 +37,7 @@ class Haas(Fanuc):
         inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,
-        length_moves=False,
+        length_moves="",
         idle_most=math.inf,  # it looks many blocks ahead
         whole_dwells=False,
         feeds_with_point="always",  # setting 77, as it comes

@@ -11,7 +11,6 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.part import Feature, Profile, is_outside
 from mechwright.errors import DesignError
-from mechwright_cam.controls.writing.text import NOISE
 from mechwright_cam.operations.channel import channel_of, fills_a_slot, outside_mills, roughing_mills
 from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, usable_mills
 from mechwright_cam.operations.compensation import entering
@@ -22,7 +21,7 @@ from mechwright_cam.operations.layer import Layer, cut_layers
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.path import DECIMALS
+from mechwright_cam.plane.path import DECIMALS, NOISE
 from mechwright_cam.plane.reach import closing
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job

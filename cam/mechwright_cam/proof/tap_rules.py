@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
@@ -96,19 +97,21 @@ def _run_up(scene: Scene, tool: Tool, step: int) -> Check | None:
 
 def _again(scene: Scene) -> Check | None:
     """A thread is tapped once, unless the control begins at one mark of the spindle each time."""
-    run, tapped = scene.run, set[tuple[int, int]]()
+    run = scene.run
     down = of_taps(scene) & run.cutting & (run.end[:, 2] < np.minimum(run.start[:, 2], -NEAR))
     marked = run.of_states(lambda state: state.synchronous) & scene.control.taps_again
-    for step in np.flatnonzero(down & ~marked).tolist():
-        x, y = np.rint(run.end[step, :2] / SAME_HOLE).astype(int).tolist()
-        if (x, y) in tapped:
-            message = (
-                f"T{run.tool[step]} taps a thread that has been tapped before, and whether it finds its "
-                "turns a setting of the machine says; tap it once"
-            )
-            return scene.bad(step, message)
-        tapped.add((x, y))
-    return None
+    steps = np.flatnonzero(down & ~marked)
+    places = shapely.points(run.end[steps, :2])
+    one, other = shapely.STRtree(places).query(places, predicate="dwithin", distance=SAME_HOLE)
+    later = one[one > other]
+    if not later.size:
+        return None
+    step = int(steps[later.min()])
+    message = (
+        f"T{run.tool[step]} taps a thread that has been tapped before, and whether it finds its turns a "
+        "setting of the machine says; tap it once"
+    )
+    return scene.bad(step, message)
 
 
 def _taps(scene: Scene) -> list[Tool]:

@@ -34,8 +34,6 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
 }
 _SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0, 29: 0}
 """What M codes make of the spindle; M19 stops it and turns it to its mark, M29 stops it to tap."""
-RIGID = 29
-"""The M code after which Fanuc taps rigidly."""
 _SPINDLE_CODES = {1: 3, -1: 4, 0: 5}
 _COOLANT_CODES: dict[Coolant, tuple[int, ...]] = {"off": (9,), "mist": (7,), "flood": (8,), "both": (7, 8)}
 """M codes that leave spindle and coolant as they are."""
@@ -211,7 +209,7 @@ class Modal(Compensation):
 
     def _spindle_and_coolant(self, block: Block) -> None:
         for code in block.m:
-            if code == RIGID:
+            if f"M{code}" == self.dialect.tapping:
                 self.rigid = True
             if code in M_GROUPS["spindle"]:
                 self._set(spindle=_SPINDLE[code])
@@ -328,7 +326,7 @@ class Modal(Compensation):
         raise fail(
             block.line,
             f"{word} without a height to go to may move Z by the tool's length at once on "
-            f"{self.dialect.name} (parameter 5006, bit 6); {remedy}",
+            f"{self.dialect.name} ({self.dialect.length_moves}); {remedy}",
         )
 
     def _work_offset(self, block: Block, words: dict[str, float]) -> None:

@@ -5,14 +5,10 @@ import textwrap
 import unicodedata
 from functools import lru_cache
 
-DECIMALS = 4
-"""Decimals of coordinates, mm: a tenth of a micrometre keeps arcs consistent far below 2 µm."""
+from mechwright_cam.plane.path import DECIMALS, NOISE
 
 COMMENT_WIDTH = 70
 """Longest comment text: Grbl's line buffer of 80 characters is the shortest of the common controls."""
-
-NOISE = 1e-6
-"""Share of a last decimal that is the noise of floating point."""
 
 _SPELLED = str.maketrans(
     {"(": "[", ")": "]", "×": "x", "·": ".", "°": " deg", "ø": "D", "Ø": "D", "⌀": "D", "µ": "u", "μ": "u"}

@@ -3,7 +3,8 @@
 import math
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.writing.text import NOISE, floored, number
+from mechwright_cam.controls.writing.text import floored, number
+from mechwright_cam.plane.path import NOISE
 from mechwright_cam.program.moves import Feed, FeedArc, Program, ToolSection
 from mechwright_cam.shop.tool import Tool
 
