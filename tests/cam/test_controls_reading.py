@@ -39,7 +39,7 @@ HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": 
         ("grbl", "G41 D1", "G40 only"),
         ("grbl", "(wait!)", "obeys '!'"),
         ("grbl", "%", "% stands in a line"),
-        ("grbl", "G0 X1 Y2 " + "Z3." + "0" * 80, "reads at most 80"),
+        ("grbl", "G0 X1 Y2 " + "Z3." + "0" * 80, "reads at most 79"),
         ("grbl", "G2 X10.02 Y0 I5 J0 F9", "Grbl 1.1 refuses it"),
     ],
 )

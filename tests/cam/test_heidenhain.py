@@ -278,6 +278,7 @@ def verdict(text: str, one: Machined) -> str:
         *(("M8\n", "M7\n"), ("FMAX\n", "F9000\n"), ("DR-", "DR+"), ("DR+", "DR-"), ("CC X+14", "CC X-14")),
         *(("M0\n", "M1\n"), ("M30", "M0"), ("T0.02", "T0.2"), ("S8754", "S875"), ("S8754", "S99999")),
         *(("TOOL CALL 23", "TOOL CALL 24"), ("Z-", "Z+"), ("L Z+0 R0 FMAX M91", "L Z-50 R0 FMAX M91")),
+        *(("L Z+0 R0 FMAX M91", wrong) for wrong in ("L Z+300 R0 FMAX M91", "L X+5000 Z+0 R0 FMAX M91")),
     ],
 )
 def test_a_fault_is_refused_in_a_line(old: str, new: str) -> None:

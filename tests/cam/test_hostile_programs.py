@@ -42,7 +42,7 @@ def test_linuxcnc_takes_the_same_comments(lines: list[str], taken: bool, tmp_pat
 
 
 @needs_rs274
-@pytest.mark.parametrize("words", ["G0 X#0", "G0 X##2", "G0 X[#-1]", "#2=99999\nG0 X EXISTS[###2]"])
+@pytest.mark.parametrize("words", ["G0 X#0", "#2=0\nG0 X##2", "G0 X[#-1]", "#2=99999\nG0 X EXISTS[###2]"])
 def test_there_is_no_parameter_0(words: str, tmp_path: Path) -> None:
     with pytest.raises(ProgramError, match=r"there is no parameter #|kept by the machine"):
         interpret(HEAD + words + "\nM2\n")

@@ -1,6 +1,7 @@
 """Moves in machine coordinates and to reference points: X and Y at the upper end of Z only, Z up only."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from by_control import BY_NAME, CONTROLS, interpret
@@ -22,6 +23,7 @@ from machine_programs import (
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.machine_moves import machine_moves, positions
+from mechwright_cam.proof.motion_rules import travel
 
 ASIDE = (
     *("G53 G0 X0. Y0.", "G0 G53 X10.", "G53 G0 Y-5.", "G53 G1 X0. F500.", "G53 G0 X0. Y0. Z-2."),
@@ -131,3 +133,41 @@ def test_wherever_it_stands_the_height_decides(at: int, axes: dict[str, float]) 
     goes_up = axes.get("Z", RETRACT) >= RETRACT
     assert found.passed == (goes_up and (not axes.keys() & {"X", "Y"} or z == math.inf))
     assert found.passed or found.line == at + 1
+
+
+# -- both ends of every axis -----------------------------------------------------------------------------
+
+OUTSIDE = (
+    ("G53 G0 Z300.", "Z 300", "Z travels from -400 to 0"),
+    ("G53 G0 Z5.", "Z 5", "Z travels from -400 to 0"),
+    ("G53 G0 X5000.", "X 5000", "X travels from -500 to 500"),
+    ("G53 G0 X0. Y-401.", "Y -401", "Y travels from -400 to 400"),
+    ("G20\nG53 G0 Z1.\nG21", "Z 25.4", "Z travels from -400 to 0"),
+)
+"""Places in machine coordinates that no machine of the default travel has: line, place and ends."""
+
+
+@pytest.mark.parametrize(("words", "place", "ends"), OUTSIDE)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_machine_coordinates_lie_within_both_ends(control: str, words: str, place: str, ends: str) -> None:
+    if "G20" in words and BY_NAME[control].dialect.one_unit:
+        pytest.skip("this control keeps to one unit")
+    text, line = at_the_end(text_of(control), words)
+    found = refused(travel, control, text, line + ("G20" in words))
+    assert f"goes to machine {place}, and {ends}; " in found.message
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_where_the_lower_end_is_known_the_upper_one_is(control: str) -> None:
+    job = job_of(control)
+    machine = job.settings.machine.model_copy(update={"low_z": -100.0, "low_x": 0.0})
+    job = replace(job, settings=job.settings.model_copy(update={"machine": machine}))
+    for words, good in (
+        ("Z300.", True),
+        ("Z301.", False),
+        ("X500.", True),
+        ("X501.", False),
+        ("X-1.", False),
+    ):
+        text = at_the_end(text_of(control), f"G53 G0 {words}")[0]
+        assert judged(travel, control, text, job).passed == good, words

@@ -71,7 +71,7 @@ PROGRAMS = {
     "named sub": "O<hole> sub\nG0 X#1\nO5 if [#1 GT 3]\nO<hole> return\nO5 endif\nG1 Z-1 F9\nG0 Z5\nO<hole> endsub\n"
     "O<hole> call [2]\nO<hole> call [9]\n",
     "recursion": "O9 sub\nO8 if [#1 GT 0]\nG1 X#1 F9\nO9 call [#1 - 1]\nG1 Y#1\nO8 endif\nO9 endsub\nO9 call [4]\n",
-    "late": "#3 = 6 G1 X#3 F9\nG1 Y#3\n",
+    "late": "#3 = 1\n#3 = 6 G1 X#3 F9\nG1 Y#3\n",
     "indirect": "#5 = 6\n#6 = 2.5\nG1 X##5 F9\n",
     "polar": "G0 X5 Y0\nG1 @10 ^30 F99\n^120\n@4\nG91 ^15\n@-1 ^10\nG90 G1 X0\n",
     "place": "G1 X3 Y4 F9\nG1 X[#5420 + 1] Y[#<_y> * 2]\n",

@@ -60,8 +60,20 @@ def test_each_of_its_values_is_the_measured_one(control: str, offset: str) -> No
 @pytest.mark.parametrize("control", CONTROLS)
 def test_any_other_table_is_left_alone(control: str, words: str) -> None:
     text, line = at_the_end(text_of(control), f"G10 {words}")
-    if int(words[1:3]) not in BY_NAME[control].dialect.tables:
-        with pytest.raises(ProgramError, match=rf"^line {line}: G10 L\d+: .* is known to read G10 with L"):
+    number, place, *values = words.split()
+    table = next((t for t in BY_NAME[control].dialect.tables if t.number == int(number[1:])), None)
+    letters = {value[0] for value in values}
+    why = ""
+    if table is None:
+        why = r"G10 L\d+: .* is known to read G10 with L"
+    elif not table.first <= int(place[1:]) <= table.last:
+        why = r"G10 L\d+ P\d+: .* has P\d+ "
+    elif letters.isdisjoint(table.letters):
+        why = r"G10 L\d+ without a value; write one of [A-Z]"
+    elif not letters <= set(table.letters):
+        why = r"[A-Z] means nothing in this line"
+    if why:
+        with pytest.raises(ProgramError, match=rf"^line {line}: {why}"):
             prove(text, job_of(control), BY_NAME[control])
         return
     found = refused(offset_tables, control, text, line, job_of(control, measured=True))

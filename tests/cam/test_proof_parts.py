@@ -15,7 +15,7 @@ from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.bands import bands
-from mechwright_cam.proof.gouge import deepest_cut
+from mechwright_cam.proof.gouge import COARSE, deepest_cut
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.plane import Boundary, grow, swept
 from mechwright_cam.proof.stock import Stock
@@ -104,12 +104,9 @@ def test_gouges_agree_with_brute_force(
     found = deepest_cut(paths, keep, top)
     exact = sampled_cut(paths, keep, top)
     ours = found.depth if found else 0.0
-    # 4,000 samples of a move of up to 60 mm are at most 8 µm from the deepest place; a cut that goes through
-    # the shape is measured at corners only, so there the two agree on its being far beyond any limit.
-    if exact <= MILL.radius:
-        assert ours == pytest.approx(max(exact, 0.0), abs=0.012)
-    else:
-        assert ours >= min(MILL.radius, top + 8) - 0.012
+    # 4,000 samples of a move of up to 60 mm are at most 8 µm from the deepest place. Of several moves whose
+    # axes go inside of the shape another one than the deepest may be named, within half of COARSE.
+    assert ours == pytest.approx(max(exact, 0.0), abs=0.012 if exact <= MILL.radius else COARSE / 2 + 0.012)
 
 
 def test_a_drill_is_as_wide_as_its_point_at_the_top_of_the_band() -> None:
@@ -129,6 +126,19 @@ def test_a_cut_is_seen_in_each_piece_of_a_part() -> None:
         found = deepest_cut(paths_of(f"G0 X-30 Y{y}\nG1 Z-1 F100\nX30"), keep, 0.0)
         assert found is not None
         assert found.depth == pytest.approx(0.05, abs=1e-6)
+
+
+@pytest.mark.parametrize("far", [0.4, 3.0, 6.0, 9.0, 23.0])
+def test_a_cut_is_as_deep_as_it_goes_into_the_wall(far: float) -> None:
+    """Across a wall, a line whose ends lie outside of the part: it was told with the cutter's radius."""
+    keep = shapely.box(-100, 0, 100, 100)
+    text = f"G0 X-150 Y{far - MILL.radius}\nG1 Z-7 F100\nX150"
+    through = deepest_cut(paths_of(text), keep, 0.0, -6.0)
+    assert through is not None
+    assert through.depth == pytest.approx(far, abs=1e-3)
+    floor = deepest_cut(paths_of(text), keep, 0.0)
+    assert floor is not None
+    assert floor.depth == pytest.approx(min(far, 7.0), abs=1e-3)
 
 
 def test_a_move_straight_down_is_seen() -> None:

@@ -18,6 +18,7 @@ from mechwright_cam.controls.siemens_840d import Siemens840D
 from mechwright_cam.machining import Machined
 from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.proof.machine_moves import machine_moves
+from mechwright_cam.proof.motion_rules import travel
 from mechwright_cam.proof.offset_rules import offset_tables
 from mechwright_cam.shop.settings import CamSettings
 
@@ -187,6 +188,15 @@ def test_machine_coordinates_lie_anywhere_in_the_work() -> None:
     assert judged(machine_moves, NAME, at_the_end(text_of(NAME), "G0 SUPA X0 Y0")[0]).passed
     low, line = at_the_end(text_of(NAME), "G0 SUPA Z-100")
     refused(machine_moves, NAME, low, line)
+
+
+@pytest.mark.parametrize("place", ["Z300 D0", "X5000", "Y-401"])
+def test_machine_coordinates_lie_within_both_ends(place: str) -> None:
+    text, line = at_the_end(text_of(NAME), f"G0 SUPA {place}")
+    found = refused(travel, NAME, text, line)
+    assert (
+        f"goes to machine {place[0]} {place[1:].removesuffix(' D0')}, and {place[0]} travels" in found.message
+    )
 
 
 def verdict(text: str, one: Machined) -> str:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -57,6 +57,15 @@ PECK_CLEARANCE = 0.254
 """How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
 USUAL_M = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
 """M codes that mean the same on nearly every mill."""
+
+
+class OffsetTable(NamedTuple):
+    """One use of G10: its L, the letters of the values that it writes, and the least and greatest P."""
+
+    number: int
+    letters: str
+    first: int = 1
+    last: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +131,8 @@ class Dialect:
     """Whether words have to be written in capitals."""
     largest_n: int = 99_999
     """Largest line number."""
+    entry_along_z: bool = True
+    """Whether a move of Z alone may stand between G41 or G42 and the move to the contour."""
     parts_of_n: bool = False
     """Whether a line number may have decimals."""
     one_m: bool = False
@@ -132,10 +143,23 @@ class Dialect:
     """Whether M7 and M8 may stand in one line."""
     stored_homes: frozenset[str] = frozenset({"G30"})
     """Which of G28 and G30 go to a place that operators or makers set, not to the reference point."""
-    one_use_of_axes: bool = False
-    """Whether the control refuses G10, G28, G30 and G43.1 beside a motion, as both take the axes."""
-    tables: frozenset[int] = frozenset({2, 10, 11, 12, 13, 20})
-    """L of the G10 that the control knows."""
+    axis_commands: frozenset[int] = frozenset()
+    """G codes in tenths, other than motions, that take the axis words of their block: the control refuses a
+    block with two of them, or with one beside a motion code."""
+    drops_axes: frozenset[int] = frozenset()
+    """Those of them that take the axis words and do nothing with them."""
+    motion_for_axes: bool = False
+    """Whether the control refuses every axis word while G80 is in force, also beside G10, G28 and G43.1."""
+    arc_needs_end: bool = False
+    """Whether an arc has to name an axis of its plane, so that I and J alone are no full circle."""
+    highest_tool: float = math.inf
+    """The highest T that the control takes."""
+    tables: tuple[OffsetTable, ...] = (
+        OffsetTable(2, "XYZ", 0, 6),
+        *(OffsetTable(number, "R") for number in (10, 11, 12, 13)),
+        OffsetTable(20, "XYZ", 1, 300),
+    )
+    """What the control writes by G10."""
     tapping: Literal["", "G33.1", "M29", "always"] = ""
     """What keeps feed and spindle together: a code of its own, an M code before the cycle, every cycle, or
     nothing."""

@@ -6,7 +6,7 @@ from itertools import groupby
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
+from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect, OffsetTable
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.controls.writing.measuring import Measuring
@@ -25,7 +25,7 @@ _REALTIME = "?!~"
 
 
 class Grbl(Measuring, GcodeControl):
-    """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
+    """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 79 characters.
 
     Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
     to go on, so it can neither jog nor probe, and a new tool cannot be touched off. A tool whose length is
@@ -52,12 +52,16 @@ class Grbl(Measuring, GcodeControl):
         arc_absolute=0.005,
         arc_most=0.5,
         arc_chord=0.0,
-        line_length=80,
+        line_length=79,  # the buffer has 80 bytes, and the last of them ends the line
         counts_code=True,
         ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed and speed
         largest_n=10_000_000,
-        one_use_of_axes=True,
-        tables=frozenset({2, 20}),
+        axis_commands=frozenset({100, 280, RETURN, 431, 490}),
+        drops_axes=frozenset({490}),
+        motion_for_axes=True,
+        arc_needs_end=True,
+        both_coolants=False,
+        tables=tuple(OffsetTable(number, "XYZ", 0, 6) for number in (2, 20)),
         arc_idle=True,
         percent=False,
         decimals=3,

@@ -52,7 +52,7 @@ class HeidenhainTnc(GcodeControl):
         arc_relative=0.0,
         arc_chord=0.0,
         line_length=4 * LONGEST,
-        tables=frozenset(),
+        tables=(),
         length_write=None,
         decimals=3,
         decimals_inch=4,

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, ROUGH, Corners, Dialect
+from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, ROUGH, Corners, Dialect, OffsetTable
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
@@ -52,9 +52,14 @@ class LinuxCnc(Measuring, GcodeControl):
         mode_ends_feed=True,
         feed_mode_stays=True,  # M2 brings G94 back, a program that was broken off does not
         usual=frozenset({"G94", "G91.1"}),
-        one_use_of_axes=True,
+        axis_commands=frozenset({100, 280, RETURN, 431}),
         inert=((970, ""),),
-        tables=frozenset({1, 2, 10, 11, 20}),
+        tables=(
+            *(OffsetTable(number, "XYZRIJQ") for number in (1, 10, 11)),
+            OffsetTable(2, "XYZR", 0, 9),
+            OffsetTable(20, "XYZ", 0, 9),
+        ),
+        entry_along_z=False,
         tapping="G33.1",
         taps_out=True,
         g_codes=MILLING - {RETURN} | {331, 740, 411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},

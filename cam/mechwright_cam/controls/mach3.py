@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from mechwright.output.csv_text import csv_text
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect, OffsetTable
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, Tap
@@ -27,7 +27,7 @@ class Mach3(GcodeControl):
         inert_m=frozenset({48, 49}),
         semicolon_comments=False,
         numbers_needed="H",
-        tables=frozenset({1, 2}),
+        tables=(OffsetTable(1, "XZ"), OffsetTable(2, "XYZ")),
         corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
     )
     subprograms = "behind"

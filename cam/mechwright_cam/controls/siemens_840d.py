@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from mechwright.output.csv_text import csv_text
-from mechwright_cam.controls.dialect import EXACT, Dialect
+from mechwright_cam.controls.dialect import EXACT, Dialect, OffsetTable
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import sinumerik
@@ -39,7 +39,7 @@ class Siemens840D(GcodeControl):
         arc_chord=0.0,
         line_length=sinumerik.LONGEST,
         largest_n=99_999_999,
-        tables=frozenset({2}),
+        tables=(OffsetTable(2, "XYZ"),),
         length_write=None,
         decimals=3,
         decimals_inch=4,

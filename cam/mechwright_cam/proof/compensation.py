@@ -98,6 +98,6 @@ def _gouge(paths: Paths, job: Job) -> Gouge | None:
     on[1:] |= on[:-1]  # and the move that turns it off
     some = copy(paths)
     some.steps = paths.steps[on[paths.steps]]
-    cuts = [deepest_cut(some, band.keep, band.top) for band in bands(job, heights(job))]
+    cuts = [deepest_cut(some, band.keep, band.top, -job.thickness) for band in bands(job, heights(job))]
     cuts += [deepest_cut(some, tab.shape, tab.top) for tab in job.tabs]
     return worst_of(cuts)

@@ -53,13 +53,13 @@ def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
     others, special = _by_tool(paths, job)
     found = []
     for band in bands:
-        found.append(deepest_cut(others, band.keep, band.top))
+        found.append(deepest_cut(others, band.keep, band.top, -job.thickness))
         for kind, own, details in special:
             given = [
                 _given(detail, kind) for detail in details if band.top > -_depth(detail, kind, job) + NEAR
             ]
             keep = shapely.difference(band.keep, shapely.union_all(given)) if given else band.keep
-            found.append(deepest_cut(own, keep, band.top))
+            found.append(deepest_cut(own, keep, band.top, -job.thickness))
     return found
 
 

@@ -25,6 +25,12 @@ DEAR = 12
 """To grow a shape by one corner takes about a twelfth of the time of one question about nearness."""
 FIRST_ASKED = 500
 """So many pieces are asked first, and all others if these have not settled it."""
+THROUGH = 1e6
+"""A cut through the plate counts as so deep, mm: only its width says how far it goes into the part."""
+COARSE, FINEST = 0.5, 0.001
+"""Distance of the places along an axis inside of the part, mm: of all moves, and of the deepest one."""
+MOST_PLACES = 50_000
+"""So many such places of one line at most."""
 MOST_CORNERS = 1_000_000
 """Corners of lines that are looked at together."""
 
@@ -43,16 +49,18 @@ def worst_of(cuts: Iterable[Gouge | None]) -> Gouge | None:
     return max((cut for cut in cuts if cut is not None), key=lambda cut: cut.depth, default=None)
 
 
-def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
+def deepest_cut(paths: Paths, keep: Shape, top: float, underside: float = -np.inf) -> Gouge | None:
     """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it.
 
-    No cut is deeper than the tip goes below ``top``. So the lowest moves are asked first, and others only as
-    long as they may be deeper: a program that gouges all over takes no longer than any.
+    A cut down to ``underside`` goes through: its depth is how far it goes into the wall. No other cut is
+    deeper than the tip goes below ``top``. So the lowest moves are asked first, and others only as long as
+    they may be deeper: a program that gouges all over takes no longer than any.
     """
     if keep.is_empty:
         return None
     pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
-    edge, most = Boundary(keep), np.round((top - pieces.low) / NEAR)
+    edge, floor = Boundary(keep), underside + NEAR
+    most = np.round(np.where(pieces.low <= floor, THROUGH, top - pieces.low) / NEAR)
     order: Ints = np.lexsort((pieces.step, -most))
     worst, deepest = -1, 0.0
     for lot in lots(paths, pieces.only(order)):
@@ -62,7 +70,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
             now = now[deeper | alike & (pieces.step[now] < pieces.step[worst])]
         if not now.size:
             continue
-        depth = _depths(paths, pieces.only(now), edge, top)
+        depth = _depths(paths, pieces.only(now), edge, top, floor)
         alike = now[depth >= max(depth.max(), deepest) - NEAR]
         if depth.max() > 0 and alike.size:
             first = int(alike[np.argmin(pieces.step[alike])])  # of those that cut equally deep
@@ -73,7 +81,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
         return None
     one = pieces.only(np.array([worst]))
     x, y = edge.nearest(paths.lines(one)[0])
-    depth = _depths(paths, one, edge, top)
+    depth = _depths(paths, one, edge, top, floor, FINEST)
     return Gouge(float(depth[0]), int(one.step[0]), (x, y, float(one.low[0])))
 
 
@@ -86,9 +94,14 @@ def lots(paths: Paths, pieces: Pieces) -> Iterator[Ints]:
     yield from np.split(np.arange(len(pieces)), np.flatnonzero(np.diff(lot)) + 1)
 
 
-def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:
-    """How deep each piece cuts into a shape below a height, mm; 0 or less where it does not."""
-    radius, deep = paths.radius_at(pieces, top), top - pieces.low
+def _depths(
+    paths: Paths, pieces: Pieces, edge: Boundary, top: float, floor: float, spacing: float = COARSE
+) -> Array:
+    """How deep each piece cuts into a shape below a height, mm; 0 or less where it does not.
+
+    Places of an axis that goes inside of the shape are ``spacing`` mm apart.
+    """
+    radius, deep = paths.radius_at(pieces, top), np.where(pieces.low <= floor, THROUGH, top - pieces.low)
     lines = paths.lines(pieces)
     gap = np.full(len(pieces), np.inf)
     inside = edge.inside(lines)
@@ -96,7 +109,7 @@ def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:
     # Where a cutter is wider than it goes deep it does not matter how far inside its axis is.
     inner = inside[radius[inside] < deep[inside]]
     if inner.size:
-        gap[inner] = -_depth_inside(paths, pieces.only(inner), edge)
+        gap[inner] = -_depth_inside(paths, pieces.only(inner), edge, spacing)
     beside = np.setdiff1d(near_ones(edge.shape, lines, radius), inside, assume_unique=True)
     if beside.size:
         gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
@@ -152,9 +165,18 @@ def kinds(paths: Paths, pieces: Pieces) -> tuple[Ints, Ints]:
     return first_of_each(np.round(table / NEAR).astype(np.int64))
 
 
-def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
-    """How far each piece goes inside the shape, measured at its corners."""
+def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary, spacing: float) -> Array:
+    """How far each piece goes inside the shape, mm: too little by at most half of ``spacing``, mm.
+
+    Of a long piece so many places are looked at that it may be a hundredth of its length.
+    """
     points, owner = paths.points(pieces)
+    length = np.hypot(*np.diff(points, axis=0).T) * (owner[1:] == owner[:-1])
+    count = np.append(np.clip(np.ceil(length / spacing), 1, MOST_PLACES), 1).astype(np.int64)
+    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
+    line = np.repeat(np.arange(len(points)), count)
+    way = np.vstack((np.diff(points, axis=0), np.zeros((1, 2))))
+    points, owner = points[line] + way[line] * share[:, None], owner[line]
     spots = shapely.points(points)
     within = shapely.intersects(edge.shape, spots)
     deep = np.where(within, edge.distance(spots), 0.0)

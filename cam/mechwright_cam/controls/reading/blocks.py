@@ -229,7 +229,7 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     elif letter == "N":
         if not first or (dialect.macros and block.late_number):
             raise fail(block.line, "a line number stands at the start of its line")
-        whole = number.isdigit() or (dialect.parts_of_n and number[0] not in "+-")
+        whole = number.isdigit() or (dialect.parts_of_n and number[0].isdigit() and number[-1] != ".")
         if not whole or value > dialect.largest_n:
             raise fail(block.line, f"N{number[:12]}: line numbers are whole, from 0 to {dialect.largest_n}")
     elif letter == "O":

@@ -101,6 +101,10 @@ class Compensation(Recorder):
         """Make one programmed move."""
         start, end = self.contour, (x, y)
         if centre is None and math.dist(start, end) <= ONE_PLACE:
+            if self.fresh and self.offset > ONE_PLACE and not self.dialect.entry_along_z:
+                raise fail(
+                    line, "the first move after G41 or G42 goes nowhere in X and Y; write Z in a line before"
+                )
             self._write(line, kind, Cut((self.x, self.y), (self.x, self.y)), z)
             return
         if self.fresh:

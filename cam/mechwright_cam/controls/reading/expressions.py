@@ -12,6 +12,8 @@ DEEPEST = 40
 """Brackets inside of each other beyond which an expression is refused."""
 EQUAL = 1e-6
 """Two values nearer than this are equal to EQ and NE: LinuxCNC's own tolerance."""
+HIGHEST = 5601
+"""The highest number of a parameter in LinuxCNC."""
 HELD = "\0"
 """Stands in a text for a number that is kept beside it."""
 _NUMBER = re.compile(rf"{NUMBER}|[+-]?{HELD}")
@@ -59,6 +61,10 @@ Known = Callable[[float | str], float]
 """Gives the value of a parameter, by number or name; raises ValueError if it has none."""
 Worked = Callable[[Known, Sequence[float]], float]
 """Works out a value, of parameters and of the numbers that :data:`HELD` stands for."""
+
+
+class MissingError(ValueError):
+    """A name has no value, and no earlier program can have given it one."""
 
 
 class Formulas:
@@ -149,10 +155,11 @@ class Formulas:
         self._skip("]")
 
         def exists(known: Known, held: Sequence[float]) -> float:
-            name = parameter if isinstance(parameter, str) else parameter(known, held)
+            if not isinstance(parameter, str):
+                return TRUE if 1 <= parameter(known, held) <= HIGHEST else FALSE
             try:
-                known(name)
-            except ValueError:
+                known(parameter)
+            except MissingError:
                 return FALSE
             return TRUE
 

@@ -7,15 +7,17 @@ The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's document
 import math
 from collections.abc import Mapping
 
-from mechwright_cam.controls.dialect import RETURN, Dialect
-from mechwright_cam.controls.reading.blocks import Block, check_points, fail, no_code
-from mechwright_cam.controls.reading.groups import GROUPS, STOPPING, spell
-from mechwright_cam.controls.reading.motions import Moving
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.blocks import POLAR, Block, check_points, fail, no_code
+from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, STOPPING, TAPPING, spell
+from mechwright_cam.controls.reading.motions import PLACES, Moving
 from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
 
-AXES_TAKEN = frozenset({100, 280, RETURN, 431})
-"""G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
 MOTIONS = GROUPS["motion"]
+TAKERS = {"P": frozenset({40, 100, 640}) | EXTENDED, "Q": frozenset({640})}
+"""Codes, other than motions, that take a letter which motions take as well."""
+MOTION_TAKERS = {"P": frozenset({20, 30, 820, 890}) | TAPPING, "Q": frozenset({730, 830})}
+"""The motions that take it; of arcs those of controls on which P is the number of turns."""
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
@@ -34,7 +36,10 @@ class Machine(Moving):
         """Codes of blocks, G, 0 and M, that are known to go together on this control."""
 
     def system_value(self, name: float | str) -> float:
-        """A parameter that the machine keeps; numbered ones that nothing has set are 0."""
+        """A parameter that the machine keeps.
+
+        Raises ValueError for one that an earlier program, or the operator, may have set.
+        """
         place = {"_x": self.x, "_y": self.y, "_z": self.z, 5420: self.x, 5421: self.y, 5422: self.z}
         known = {
             **place,
@@ -49,18 +54,39 @@ class Machine(Moving):
         }
         if name in known:
             value = known[name]
+            if word := self._left_over(name):
+                raise ValueError(f"#<{name}> is what an earlier program has left; write {word} before it")
             if name in place:
                 if not math.isfinite(value):
                     raise ValueError(f"#{name} is asked for, and the text does not say where the tool is")
                 value /= self.scale
             return value
         if isinstance(name, str):
-            raise ValueError(f"#<{name}> has no value")
+            raise ValueError(
+                f"#<{name}> has no value in this program, and {self.dialect.name} keeps that of an earlier "
+                "one; set it before it is read"
+            )
         if name < 1:
             raise ValueError(f"there is no parameter #{name:g}; a program reads from #1 on")
         if name > HIGHEST_PARAMETER:
             raise ValueError(f"#{name:g} is kept by the machine, and not known here")
-        return 0.0
+        raise ValueError(
+            f"#{name:g} is read before the program sets it, and {self.dialect.name} keeps the value of an "
+            f"earlier program; write #{name:g}=0 before it, or its value"
+        )
+
+    def _left_over(self, name: float | str) -> str:
+        """What a program has to say before it reads one of its states; empty if it has said so."""
+        if name in {"_metric", "_imperial"}:
+            return "" if "units" in self.state.stated else "G21 or G20"
+        if name in {"_absolute", "_incremental"}:
+            return "" if "distance" in self.state.stated else "G90 or G91"
+        if name in {"_feed", "_rpm"}:
+            value = self.feed if name == "_feed" else self.state.rpm
+            return "" if value > 0 else ("F" if name == "_feed" else "S")
+        if name == "_current_tool":
+            return "" if self.state.tool else "T and M6"
+        return "T" if name == "_selected_tool" and self.selected is None else ""
 
     def run(self, block: Block) -> None:
         """Run one block."""
@@ -80,6 +106,8 @@ class Machine(Moving):
             if not self.dialect.inert_g & set(block.g):  # their letters are taken out each time
                 self.usual.add(codes)
         words, before, contour = block.words, self.state, self.contour
+        if not words.keys().isdisjoint(PLACES):
+            self._check_axes(block)
         self._units(block)  # first, so that every length of this line is read in the units it states
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect, inches=self.scale != 1.0)
@@ -99,6 +127,8 @@ class Machine(Moving):
                     f"{word} beside a feed: whether {self.dialect.name} starts the spindle before it, the "
                     f"machine's builder has set; write {word} in a line before",
                 )
+        if not words.keys().isdisjoint("PQ") and block.g:
+            self._check_shared(block)
         if 40 in block.g:
             self._check_dwell(block)
             bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
@@ -120,6 +150,25 @@ class Machine(Moving):
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
 
+    def _check_axes(self, block: Block) -> None:
+        """Refuse axis words that the control drops, or takes for an error, in the state it is in."""
+        polar = next((letter for letter in block.words if letter in POLAR), "")
+        if polar and not self.dialect.axis_commands.isdisjoint(block.g):
+            raise fail(block.line, f"{polar} means nothing in this line")
+        named = [code for code in block.g if code in MOTIONS]
+        dropping = next((code for code in block.g if code in self.dialect.drops_axes), None)
+        if dropping is not None:
+            raise fail(
+                block.line,
+                f"{self.dialect.name} drops X, Y and Z beside {spell(dropping)}; write "
+                f"{spell(dropping)} in a line of its own",
+            )
+        if self.dialect.motion_for_axes and (800 in named or (self.cancelled and not named)):
+            raise fail(
+                block.line,
+                f"{self.dialect.name} takes no X, Y or Z while G80 is in force; write G0 in a line before",
+            )
+
     def _check_idle(self, line: int, contour: tuple[float, float]) -> None:
         """Refuse a move beside compensation that the control has not seen when it made the one before."""
         if not self.side or self.fresh or self.contour == contour:
@@ -133,18 +182,39 @@ class Machine(Moving):
             )
         self.idle = 0
 
-    def _check_dwell(self, block: Block) -> None:
-        """Refuse a dwell beside a move where both take P, or where nothing says which comes first."""
-        letters = set("XYZIJKR")
-        if self.dialect.bare_dwell_unit is not None and "P" not in block.words:
+    def _moving(self, block: Block) -> int | None:
+        """The motion that a block makes, named in it or in force; None if nothing moves."""
+        if not self.dialect.axis_commands.isdisjoint(block.g):
+            return None
+        letters = set("XYZIJKR") | POLAR
+        if 40 in block.g and self.dialect.bare_dwell_unit is not None and "P" not in block.words:
             letters.discard("X")  # the time
-        if block.words.keys().isdisjoint(letters):
-            return
-        motion = next((code for code in block.g if code in MOTIONS - {800}), self.motion)
-        if self.dialect.dwells_first and not (self.dialect.arc_turns and motion in {20, 30}):
-            return
-        why = "both take P" if self.dialect.dwells_first else "which of them comes first, nothing says"
-        raise fail(block.line, f"G4 beside {spell(motion or 0)}: {why}; write each in a line of its own")
+        named = next((code for code in block.g if code in MOTIONS - {800}), None)
+        return self.motion if named is None and not block.words.keys().isdisjoint(letters) else named
+
+    def _check_dwell(self, block: Block) -> None:
+        """Refuse a dwell beside a move where nothing says which comes first."""
+        motion = self._moving(block)
+        if motion is not None and not self.dialect.dwells_first:
+            why = "which of them comes first, nothing says"
+            raise fail(block.line, f"G4 beside {spell(motion)}: {why}; write each in a line of its own")
+
+    def _check_shared(self, block: Block) -> None:
+        """Refuse a P or a Q that two codes of a block would take."""
+        takers = {letter: set(block.g) & codes for letter, codes in TAKERS.items()}
+        if not self.dialect.corners.tolerance:
+            takers = {letter: codes - {640} for letter, codes in takers.items()}
+        motion = self._moving(block)
+        for letter, motions in MOTION_TAKERS.items():
+            if motion in motions and (motion not in {20, 30} or self.dialect.arc_turns):
+                takers[letter].add(motion)
+        for letter, codes in takers.items():
+            if letter in block.words and len(codes) > 1:
+                first, second = map(spell, sorted(codes, key=lambda code: (code in MOTIONS, code))[:2])
+                raise fail(
+                    block.line,
+                    f"{first} beside {second}: both take {letter}; write each in a line of its own",
+                )
 
     def _feeds(self, block: Block) -> bool:
         """Whether a block moves at a feed."""
@@ -177,9 +247,9 @@ class Machine(Moving):
         if not self.dialect.both_coolants and {7, 8} <= set(block.m):
             raise fail(block.line, f"M7 and M8 in one line; {self.dialect.name} wants a line for each")
         motion = [code for code in block.g if code in GROUPS["motion"] - {800}]
-        other = [code for code in block.g if code in AXES_TAKEN]
-        if self.dialect.one_use_of_axes and motion and other:
-            names = f"{spell(motion[0])} and {spell(other[0])}"
+        takers = motion + [code for code in block.g if code in self.dialect.axis_commands]
+        if len(takers) > 1:
+            names = f"{spell(takers[0])} and {spell(takers[1])}"
             raise fail(block.line, f"{names} both take the axes; write a line for each")
 
     def _check_looser(self, block: Block, code: int) -> None:

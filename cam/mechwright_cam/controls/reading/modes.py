@@ -24,6 +24,9 @@ MOST_CHANGES = 10_000
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
 """G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
 AXES = "XYZ"
+COMPENSATING = GROUPS["cutter compensation"] - {400}
+NOT_BESIDE_COMPENSATION = GROUPS["path"] | GROUPS["return"] | {921, 922}
+"""Codes that need cutter compensation off: in a line with G41 or G42 it is on by then, in either order."""
 CENTRES = {"X": "I", "Y": "J", "Z": "K"}
 """The word for the centre along each axis."""
 _COOLANT: dict[tuple[bool, bool], Coolant] = {
@@ -184,6 +187,10 @@ class Modal(Compensation):
     def _tool(self, block: Block, words: dict[str, float]) -> None:
         if "T" in words:
             number = self._whole(block, "T", words.pop("T"))
+            if number > self.dialect.highest_tool:
+                raise fail(
+                    block.line, f"T{number}: {self.dialect.name} takes up to T{self.dialect.highest_tool}"
+                )
             if number != self.selected:
                 self.selections.append(Selection(block.line, number))
             self.selected = number
@@ -222,6 +229,10 @@ class Modal(Compensation):
 
     def _modes(self, block: Block, words: dict[str, float]) -> None:
         before = self.side
+        if not COMPENSATING.isdisjoint(block.g):
+            late = next((code for code in block.g if code in NOT_BESIDE_COMPENSATION), None)
+            if late is not None:
+                raise fail(block.line, f"{spell(late)} while compensation is on; write it in a line before")
         for code in block.g:
             if code in {900, 910}:
                 self.absolute = code == 900
@@ -299,6 +310,8 @@ class Modal(Compensation):
             offset = self._number(block, "H", 430)
         elif 431 in block.g:
             length = self._take(block, "Z", "G43.1 needs the length, Z") * self.scale
+            if beside := sorted(block.words.keys() & {"X", "Y"}):
+                raise fail(block.line, f"G43.1 takes Z alone; write {beside[0]} in a line of its own")
             offset = -1
         elif 490 in block.g:
             offset = 0
@@ -356,12 +369,18 @@ class Modal(Compensation):
         if 100 not in block.g:
             return
         self._without_compensation(block, "G10")
-        table = self._take(block, "L", "G10 needs L")
-        if table not in self.dialect.tables:
-            known = ", ".join(f"L{number}" for number in sorted(self.dialect.tables))
-            raise fail(block.line, f"G10 L{table:g}: {self.dialect.name} is known to read G10 with {known}")
+        said = self._take(block, "L", "G10 needs L")
+        table = next((table for table in self.dialect.tables if table.number == said), None)
+        if table is None:
+            known = ", ".join(f"L{table.number}" for table in self.dialect.tables)
+            raise fail(block.line, f"G10 L{said:g}: {self.dialect.name} is known to read G10 with {known}")
         number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
-        values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
-        self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))
+        if not table.first <= number <= table.last:
+            places = f"P{table.first} on" if math.isinf(table.last) else f"P{table.first} to P{table.last}"
+            raise fail(block.line, f"G10 L{said:g} P{number}: {self.dialect.name} has {places}")
+        values = {letter: words.pop(letter) * self.scale for letter in table.letters if letter in words}
+        if not values:
+            raise fail(block.line, f"G10 L{said:g} without a value; write one of {' '.join(table.letters)}")
+        self.writes.append(TableWrite(self.steps, table.number, number, values, not self.absolute))
         self._row(Kind.TABLE, block.line, self.x, self.y, self.z)
         self._lose_place(block.line, "G10")

@@ -8,7 +8,7 @@ from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
 from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, TAPPING, spell
 from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES
-from mechwright_cam.controls.reading.run import Kind
+from mechwright_cam.controls.reading.run import Kind, MachinePlace
 from mechwright_cam.controls.reading.tapping import Tapping
 
 MOST_TURNS = 1000
@@ -29,9 +29,13 @@ class Moving(Tapping):
     """Height at which a cycle began, mm."""
     before_cycle: int | None = None
     """The motion that was in force there."""
+    cancelled = False
+    """Whether G80 is in force."""
 
     def _move(self, block: Block, words: dict[str, float]) -> None:
         codes = [code for code in block.g if code in GROUPS["motion"]]
+        if codes:
+            self.cancelled = 800 in codes
         if 800 in codes:  # where cycles are no motions, another one may stand beside it
             self.end_rigid()
             self.motion = self._without_cycle()
@@ -50,8 +54,9 @@ class Moving(Tapping):
                 self.motion = named
         if named == 10 and not self.feed > 0 and 530 not in block.g:
             raise fail(block.line, "G1 without a feed; write F above 0")
-        axes = not words.keys().isdisjoint(PLACES)
-        centre = self.motion in {20, 30} and not words.keys().isdisjoint("IJKR")
+        goes = self.dialect.axis_commands.isdisjoint(block.g)  # else they take what would name a place
+        axes = goes and not words.keys().isdisjoint(PLACES)
+        centre = goes and self.motion in {20, 30} and not words.keys().isdisjoint("IJKR")
         if 530 in block.g:
             self._machine_move(block, words)
         elif axes or centre:
@@ -76,6 +81,8 @@ class Moving(Tapping):
                     self._feed_to(block.line, x, y, z)
         elif named in CYCLES | {20, 30, 331}:
             raise fail(block.line, f"{spell(named or 0)} without an axis")
+        elif named in {0, 10} and self.side:
+            self.compensated(block.line, Kind.RAPID, *self.contour, self.z, None, False)
 
     def _without_cycle(self) -> int | None:
         """The motion that G80 leaves in force."""
@@ -134,6 +141,8 @@ class Moving(Tapping):
         if self.motion == 10 and not self.feed > 0:
             raise fail(block.line, "a feed move without a feed; write F above 0")
         high = axes.get("Z", math.nan) * self.scale >= self.upper_end
+        places = {axis: value * self.scale for axis, value in axes.items()}
+        self.machine_places.append(MachinePlace(self.steps, places))
         self._home_axes(block.line, "G53", axes, math.inf if high else math.nan)
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
@@ -161,6 +170,8 @@ class Moving(Tapping):
         """The place that @ (distance from X0 Y0) and ^ (angle) name; what is not named stays as it is."""
         if words.keys() & {"X", "Y"}:
             raise fail(block.line, "polar coordinates beside X or Y")
+        if self.plane != 170:
+            raise fail(block.line, "polar coordinates are read in the XY plane only (G17)")
         if not math.isfinite(x + y) or (math.hypot(x, y) == 0 and not {"@", "^"} <= words.keys()):
             raise fail(block.line, "polar coordinates from a place without a direction")
         radius, angle = math.hypot(x, y), math.atan2(y, x)
@@ -180,8 +191,14 @@ class Moving(Tapping):
             here["X"], here["Y"] = self.contour
         elif self.left is not None:
             raise fail(block.line, "the move after compensation has ended (G40) is an arc; leave on a line")
+        named = words.keys() & set(AXES)
         target = dict(zip(AXES, self._target(block, words), strict=True))
         start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
+        if self.dialect.arc_needs_end and not named & {axes[0], axes[1]}:
+            raise fail(
+                block.line,
+                f"{self.dialect.name} takes no arc without {axes[0]} or {axes[1]}; write where it ends",
+            )
         turns = self._whole(block, "P", words.pop("P", 1.0)) if self.dialect.arc_turns else 1
         if not 1 <= turns <= MOST_TURNS:
             raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
@@ -268,9 +285,10 @@ class Moving(Tapping):
             raise fail(
                 line, f"{name} is run as often as {often_word} says, which is not read; write each hole"
             )
+        polar = None if words.keys().isdisjoint(POLAR) else self._polar(block, words, self.x, self.y)
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
-        if not words.keys().isdisjoint(POLAR):
-            here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
+        if polar is not None:
+            here["X"], here["Y"] = polar
         x, y = here.get("X", self.x), here.get("Y", self.y)
         for letter in asked:
             if letter not in self.sticky:

@@ -15,6 +15,7 @@ from mechwright_cam.controls.reading.run import (
     COLUMNS,
     WIDTH,
     Kind,
+    MachinePlace,
     Remark,
     Run,
     Selection,
@@ -63,6 +64,7 @@ class Recorder:
         self.pieces: list[int] = []
         self.machine_xy: list[int] = []
         self.writes: list[TableWrite] = []
+        self.machine_places: list[MachinePlace] = []
         self.selections: list[Selection] = []
         self.spindle_changes: list[SpindleChange] = []
         self.remarks: list[Remark] = []
@@ -214,6 +216,7 @@ class Recorder:
             piece=np.isin(np.arange(len(table)), self.pieces),
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),
+            machine_places=tuple(self.machine_places),
             selected=tuple(self.selections),
             spindle_changes=tuple(self.spindle_changes),
         )

@@ -117,6 +117,14 @@ class TableWrite:
 
 
 @dataclass(frozen=True, slots=True)
+class MachinePlace:
+    """Where a move in machine coordinates goes: its step, and the axes that it names, mm."""
+
+    step: int
+    axes: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
 class SpindleChange:
     """Where the spindle starts, stops or turns back.
 
@@ -189,6 +197,8 @@ class Run:
     a reference point (G28, G30): the way there by a point in the work, and the way from it."""
     writes: tuple[TableWrite, ...] = ()
     """What the program writes into tables of the control (G10), in order."""
+    machine_places: tuple[MachinePlace, ...] = ()
+    """Where moves in machine coordinates (G53) go, in order."""
     selected: tuple[Selection, ...] = ()
     """The T words in order, with or without a change to the tool; one that repeats itself is left out."""
     spindle_changes: tuple[SpindleChange, ...] = ()
@@ -231,6 +241,7 @@ class Run:
             **{name: getattr(self, name)[steps] for name in names},
             remarks=(),
             writes=(),
+            machine_places=(),
             spindle_changes=(),
         )
 
@@ -253,6 +264,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     states: list[State] = []
     remarks: list[Remark] = []
     writes: list[TableWrite] = []
+    places: list[MachinePlace] = []
     selected: list[Selection] = []
     changes: list[SpindleChange] = []
     first: list[int] = []
@@ -262,6 +274,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         states += run.states
         remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
         writes += [replace(write, step=write.step + step) for write in run.writes]
+        places += [replace(place, step=place.step + step) for place in run.machine_places]
         selected += [replace(selection, file=file) for selection in run.selected]
         changes += [replace(change, step=change.step + step, file=file) for change in run.spindle_changes]
         step += len(run)
@@ -275,6 +288,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         states=tuple(states),
         remarks=tuple(remarks),
         writes=tuple(writes),
+        machine_places=tuple(places),
         selected=tuple(selected),
         spindle_changes=tuple(changes),
         ended=all(run.ended for run in runs),

@@ -8,7 +8,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.arcs import centres_of
 from mechwright_cam.controls.reading.modes import Modal
-from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, R, Rows, S, X, Z
+from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, R, Rows, S, X, Y, Z
 from mechwright_cam.controls.reading.run import WIDTH, Ints, Kind, Remark
 
 FEWEST_LINES = 8
@@ -58,6 +58,8 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     wrong = lost | ((g > 0) & ~(feed > 0))
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
+        if machine.dialect.arc_needs_end:
+            wrong |= arc & ~lines.said[X : Y + 1, index].any(axis=0)
     faults = np.flatnonzero(wrong)
     count = int(faults[0]) if faults.size else index.size
     after = int(index[count]) if faults.size else end

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from mechwright_cam.controls.reading.blocks import check_comments
-from mechwright_cam.controls.reading.expressions import HELD, Formulas, Known, Reader, Worked
+from mechwright_cam.controls.reading.expressions import HELD, Formulas, Known, MissingError, Reader, Worked
 from mechwright_cam.controls.reading.parameters import FIRST, LAST, check_writable
 from mechwright_cam.controls.reading.plain import DECIMALS, LETTERS, N, PlainLines, Row, spelt
 
@@ -58,6 +58,11 @@ class Frame:
     names: dict[str, float] = field(default_factory=dict)
     repeats: dict[int, int] = field(default_factory=dict)
 
+    @property
+    def fresh(self) -> bool:
+        """Whether it has begun without any names."""
+        return self.start >= 0 and not self.by_m98
+
 
 class BehindError(Exception):
     """A value hangs on where the machine is, and it is not there yet: rows of numbers are still to be run."""
@@ -93,6 +98,8 @@ class Formula:
             formulas.at += 1
             self.words.append((first, formulas.real() if _LETTER.match(first) else None))
         letters = [letter for letter, value in self.words]
+        if "n" in letters:
+            raise ValueError("a line number stands at the start of its line, and is a plain number")
         plain = len(set(letters)) == len(letters) and _COLUMNS.keys() >= set(letters)
         self.columns = tuple(_COLUMNS[letter] for letter in letters) if plain else None
 
@@ -119,12 +126,14 @@ class Values(Lines):
         self._understood: dict[int, tuple[Formula, list[float], str]] = {}
         self.system = system
         self.numbers: dict[int, float] = {}
-        self.names: dict[str, float] = {"_value": 0.0, "_value_returned": 0.0}
+        self.names: dict[str, float] = {}
         self.frames = [Frame(-1, -1)]
 
     def _value(self, name: float | str) -> float:
         if isinstance(name, str):
             names = self.names if name.startswith("_") else self.frames[-1].names
+            if name not in names and not name.startswith("_") and self.frames[-1].fresh:
+                raise MissingError(f"#<{name}> has no value; set it before it is read")
             return names[name] if name in names else self._kept(name)
         number = whole(name)
         numbers = self.frames[-1].own if 1 <= number <= OWN else self.numbers
