@@ -213,14 +213,17 @@ def ours(text: str, control: str) -> Run | None:
         return None
 
 
-_SHIFTED = re.compile(r"^(?=.*(?:G53|G10|G43\.1|G28|G30|G52)).*[XYZ][-+.0]*[1-9]", re.MULTILINE)
+_SHIFTED = re.compile(r"^(?=.*(?:G53|G10|G43\.1|G28|G30|G52)).*[XYZ][-+.0]*[1-9\[#]", re.MULTILINE)
 """Places in machine coordinates and offsets other than 0: what they make of later moves our reader leaves open."""
 
 
 def difference(text: str, run: Run, ends: np.ndarray) -> str:
     """How the ends (n, 3) of the control's moves differ from those of a run; empty if they do not."""
-    still = run.kind != Kind.HOME
-    if _SHIFTED.search(text) or not np.isfinite(run.end[still & np.isin(run.kind, MOVES)]).all():
+    moves = np.isin(run.kind, MOVES)
+    still = moves & (run.kind != Kind.HOME)
+    if _SHIFTED.search(text) or not (
+        np.isfinite(run.end[still]).all() and np.isfinite(run.start[moves]).all()
+    ):
         return ""
     mine = run.end[np.isin(run.kind, MOVES) & ~run.piece]
     mine = np.concatenate((np.zeros((1, 3)), np.where(np.isfinite(mine), mine, 0.0)))

@@ -29,6 +29,8 @@ GRBL_REFUSES = (
     ("G18\nG2 Y2 I1", "takes no arc without Z or X"),
     ("G2 X3 Y0 I1 J0\nG28 I1", "means nothing in this line"),
     ("T256", "takes up to T255"),
+    ("G2 X1.0001 Y0 I0 J-300", "goes all the way round below 1e-06"),
+    ("G18\nG2 X1.0001 Z5 I0 K300", "goes all the way round below 1e-06"),
     ("M7 M8", "wants a line for each"),
     ("G10 L2 P7 X0", "has P0 to P6"),
     ("G10 L2 P1", "G10 L2 without a value"),

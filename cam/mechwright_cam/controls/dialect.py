@@ -113,6 +113,8 @@ class Dialect:
     """Whether that part is of the larger radius, and not of that at the start."""
     arc_least: float = 0.0
     """The control refuses an arc of no larger radius, mm."""
+    arc_least_turn: float = 0.0
+    """The control takes an arc that turns by less for a full circle, rad."""
     arc_chord: float | None = None
     """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``."""
     arc_turns: bool = False

@@ -52,6 +52,7 @@ class Grbl(Measuring, GcodeControl):
         arc_absolute=0.005,
         arc_most=0.5,
         arc_chord=0.0,
+        arc_least_turn=1e-6,  # ARC_ANGULAR_TRAVEL_EPSILON is 5e-7, in single precision
         line_length=79,  # the buffer has 80 bytes, and the last of them ends the line
         counts_code=True,
         ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed and speed

@@ -55,7 +55,7 @@ class LinuxCnc(Measuring, GcodeControl):
         axis_commands=frozenset({100, 280, RETURN, 431}),
         inert=((970, ""),),
         tables=(
-            *(OffsetTable(number, "XYZRIJQ") for number in (1, 10, 11)),
+            *(OffsetTable(number, "XYZR") for number in (1, 10, 11)),
             OffsetTable(2, "XYZR", 0, 9),
             OffsetTable(20, "XYZ", 0, 9),
         ),

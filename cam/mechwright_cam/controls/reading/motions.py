@@ -4,7 +4,7 @@ import math
 from collections.abc import Collection
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
+from mechwright_cam.controls.reading.arcs import centre_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
 from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, TAPPING, spell
 from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES
@@ -251,7 +251,7 @@ class Moving(Tapping):
             raise ProgramError(
                 f"{error}; it lies in the plane of {a} and {b} ({spell(self.plane)})"
             ) from None
-        sweep = sweep_of(start, end, centre, ccw)
+        sweep = self._turn(line, start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
         self.check_steps(line, count)

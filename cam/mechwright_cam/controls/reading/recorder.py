@@ -146,9 +146,30 @@ class Recorder:
             raise self.astray(line, "an arc")
         here = (self.x, self.y)
         _, error = self._check_arc(line, here, (x, y), centre)
-        sweep = sweep_of(here, (x, y), centre, ccw)
+        sweep = self._turn(line, here, (x, y), centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(*centre, sweep, error))
+
+    def _turn(
+        self,
+        line: int,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        centre: tuple[float, float],
+        ccw: bool,
+    ) -> float:
+        """Signed angle of an arc, rad, as :func:`sweep_of` gives it.
+
+        Raises ProgramError if the control takes it for a full circle.
+        """
+        sweep = sweep_of(start, end, centre, ccw)
+        if abs(sweep) < self.dialect.arc_least_turn:
+            raise fail(
+                line,
+                f"the arc turns by {abs(sweep):.1g} rad, and {self.dialect.name} goes all the way round "
+                f"below {self.dialect.arc_least_turn:g}; write a line (G1)",
+            )
+        return sweep
 
     def _check_arc(
         self, line: int, start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]

@@ -178,5 +178,6 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
         known &= ~missing.any(axis=1)
     for line in table[arc, 1][~np.isnan(given).all(axis=1)][:1].tolist():
         machine.by_centre(int(line))
+    known &= np.abs(turn) >= machine.dialect.arc_least_turn
     refused: Bools = ~known | machine.dialect.refuses(first, last, machine.scale != 1.0)
     return refused
