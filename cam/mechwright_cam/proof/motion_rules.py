@@ -51,42 +51,21 @@ def travel(scene: Scene) -> Check:
 def _outside(scene: Scene) -> Check | None:
     """The first move in machine coordinates that goes beyond an end of its axis."""
     machine = scene.job.settings.machine
-    ends = {
-        axis: axis_ends(getattr(machine, f"low_{axis.lower()}"), getattr(machine, f"travel_{axis.lower()}"))
-        for axis in "XY"
-    }
-    top = scene.control.upper_end(machine)
-    ends["Z"] = axis_ends(machine.low_z, machine.travel_z, max(top, 0.0))
+    ends = {axis: machine.ends(axis.lower()) for axis in "XYZ"}
     for place in scene.run.machine_places:
         for axis, value in place.axes.items():
             low, high = ends[axis]
             if not low - NEAR <= value <= high + NEAR:
                 limit = high if value > high else low
                 known = getattr(machine, f"low_{axis.lower()}") is not None
-                remedy = retract(scene) if axis == "Z" else f"{axis} is a place within them"
+                remedy = retract(scene) if axis == "Z" else "write a place between them"
                 if not known:
-                    remedy += (
-                        f"; or set cam.machine.low_{axis.lower()} to the lower end, if the machine goes there"
-                    )
+                    remedy += f", or set cam.machine.low_{axis.lower()} to the lower end of its travel"
                 message = (
                     f"goes to machine {axis} {value:g}, and {axis} travels from {low:g} to {high:g}; {remedy}"
                 )
                 return scene.bad(place.step, message, value, limit, "mm")
     return None
-
-
-def axis_ends(low: float | None, travel: float, high: float | None = None) -> tuple[float, float]:
-    """The least and the greatest machine coordinate of an axis, mm.
-
-    Where its lower end is not known, its greatest coordinate may be; where neither is, its zero is somewhere
-    in its travel.
-
-    >>> axis_ends(-100.0, 400.0), axis_ends(None, 400.0, 0.0), axis_ends(None, 400.0)
-    ((-100.0, 300.0), (-400.0, 0.0), (-400.0, 400.0))
-    """
-    if low is not None:
-        return low, low + travel
-    return (high - travel, high) if high is not None else (-travel, travel)
 
 
 def _going_there(scene: Scene, step: int, axis: str) -> int:

@@ -100,14 +100,32 @@ class Machine(Parameters):
             ("y", ("change_y", "home_y")),
             ("z", ("retract_z",)),
         ):
-            low, travel = getattr(self, f"low_{axis}"), getattr(self, f"travel_{axis}")
+            low, high = self.ends(axis)
             for key in keys:
                 place = getattr(self, key)
-                if low is not None and place is not None and not low <= place <= low + travel:
+                if place is not None and not low <= place <= high:
                     raise ValueError(
-                        f"{key} is {place:g}, and {axis.upper()} travels from {low:g} to {low + travel:g}"
+                        f"{key} is {place:g}, and {axis.upper()} travels from {low:g} to {high:g}"
                     )
         return self
+
+    def ends(self, axis: str) -> tuple[float, float]:
+        """The least and the greatest machine coordinate of an axis, mm.
+
+        Where the lower end is not known, Z travels up to machine Z0, or to ``retract_z`` if that is higher;
+        the zero of X and Y is somewhere in their travel.
+
+        >>> Machine(low_z=-100.0).ends("z"), Machine().ends("z"), Machine().ends("x")
+        ((-100.0, 300.0), (-400.0, 0.0), (-500.0, 500.0))
+        """
+        low: float | None = getattr(self, f"low_{axis}")
+        travel: float = getattr(self, f"travel_{axis}")
+        if low is not None:
+            return low, low + travel
+        if axis == "z":
+            high = max(self.retract_z, 0.0)
+            return high - travel, high
+        return -travel, travel
 
 
 def machine_figures(model: str, path: Path) -> dict[str, Any]:
