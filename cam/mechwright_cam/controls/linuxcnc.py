@@ -56,7 +56,7 @@ class LinuxCnc(Measuring, GcodeControl):
         inert=((970, ""),),
         tables=(
             *(OffsetTable(number, "XYZR") for number in (1, 10, 11)),
-            OffsetTable(2, "XYZR", 0, 9),
+            OffsetTable(2, "XYZ", 0, 9),  # R would turn the axes, which is not simulated
             OffsetTable(20, "XYZ", 0, 9),
         ),
         entry_along_z=False,
