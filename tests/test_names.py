@@ -1,5 +1,6 @@
 """Names that meet: of a design, its parts and bodies, its nests, and the files of all of them."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,9 @@ from mechwright.contracts.file_names import DEVICES, file_key, name_fault
 from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Instance, Part, check_name, name_from
+from mechwright.contracts.table import Table
 from mechwright.designs.design import load
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import DesignError, GeometryError, OutputError
 from mechwright.geometry import Loop, Outline
 from mechwright.output.folder import Output, distinct_files
 from mechwright.plugins.host import host
@@ -110,6 +112,36 @@ def test_a_plate_may_be_called_like_the_assembly_or_a_device(tmp_path):
     assert len(set(map(file_key, names))) == len(names)
 
 
+class Twin(Table[None]):
+    name = "twin-of-a-test"
+
+    def read(self, content, path):
+        return None
+
+    def text(self, value=None):
+        return []
+
+    def parts(self, value, parts, path):
+        return [*parts, parts[0]]
+
+
+def test_a_part_beside_the_mechanism_has_a_name_of_its_own(tmp_path):
+    design = load(written(tmp_path, 'format = 1\nfamily = "geneva"\n'), host())
+    both = replace(design, readers=(*design.readers, Twin()), tables={**design.tables, Twin.name: None})
+    with pytest.raises(GeometryError, match="part 'wheel' stands in the mechanism and around it"):
+        both.parts()
+
+
+@pytest.mark.parametrize("name", ["Wheel", "WHEEL", "wheel.", "wh eel", "we\u0301"])
+def test_a_name_that_no_file_has_everywhere_is_refused_with_one_that_has(tmp_path, name):
+    file = written(tmp_path, f'format = 1\nfamily = "geneva"\nname = "{name}"\n')
+    with pytest.raises(DesignError, match="cannot be a file name") as told:
+        load(file, host())
+    other = str(told.value).rpartition('such as "')[2].rstrip('"')
+    assert "\n" not in str(told.value)
+    assert load(written(tmp_path, file.read_text().replace(name, other)), host()).name == other
+
+
 class Listing(Page):
     name = "listing-of-a-test"
     commands = frozenset({"model"})
@@ -191,9 +223,11 @@ def test_files_of_programs_are_named_before_they_are_planned(tmp_path, name):
             assert set(page.files(build)) <= named, page.name
 
 
-BY_DAY = ("geneva-straight", "four-bar-machine", "noncircular-lobes", "nema-17-plate")
+BY_DAY = ("geneva-straight", "geneva-behind-gears", "noncircular-lobes", "nema-17-plate")
 DESIGNS = sorted(
-    path for path in EXAMPLES.glob("*.toml") if not path.stem.endswith(("-requirement", "-study"))
+    path
+    for path in [*EXAMPLES.glob("*.toml"), *(EXAMPLES / "chains").glob("*.toml")]
+    if not path.stem.endswith(("-requirement", "-study"))
 )
 
 

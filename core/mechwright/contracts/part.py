@@ -46,7 +46,7 @@ def check_name(name: str, what: str = "name") -> str:
     if not _NAME.fullmatch(name):
         raise DesignError(
             f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
-            "a letter or digit at both ends"
+            f'a letter or digit at both ends, such as "{name_from(name, "design")}"'
         )
     if name in DEVICES:
         raise DesignError(f"{what} {name!r} is that of a device on Windows; use another, such as {name}-1")
