@@ -17,6 +17,7 @@ from mechwright.contracts.file_names import DEVICES, file_key, name_fault
 from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Instance, Part, check_name, name_from
+from mechwright.contracts.surroundings import Surroundings
 from mechwright.contracts.table import Table
 from mechwright.designs.design import load
 from mechwright.errors import DesignError, GeometryError, OutputError
@@ -121,8 +122,8 @@ class Twin(Table[None]):
     def text(self, value=None):
         return []
 
-    def parts(self, value, parts, path):
-        return [*parts, parts[0]]
+    def surroundings(self, value, family, params):
+        return Surroundings((Part("wheel", SQUARE, 3.0, "steel"),))
 
 
 def test_a_part_beside_the_mechanism_has_a_name_of_its_own(tmp_path):

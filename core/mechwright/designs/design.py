@@ -111,8 +111,6 @@ class Design:
         parts: Sequence[Part] = self.family.parts(self.params)
         for around in self.surroundings:
             parts = [*parts, *around.parts]
-        for reader in self.readers:
-            parts = reader.parts(self.tables[reader.name], parts, self.path)
         keys = [file_key(part.name) for part in parts]
         for part, key in zip(parts, keys, strict=True):
             if keys.count(key) > 1:  # the family's own are known to differ
@@ -120,6 +118,8 @@ class Design:
                     f"part {part.name!r} stands in the mechanism and around it, and both have its files; "
                     "leave out the table that adds the second"
                 )
+        for reader in self.readers:
+            parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts
 
     @cached_property
