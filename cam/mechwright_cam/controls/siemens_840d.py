@@ -31,7 +31,7 @@ def program_identifier(name: str) -> str:
     >>> program_identifier("crank-1"), program_identifier("1-gear"), program_identifier("a_b")
     ('crank_1', 'P_1_gear', 'P_a_Ub')
     >>> program_identifier("driver-locking-disc-underside")
-    'driver_locking_dis_2B99'
+    'driver_locking_disc_9D54'
     """
     found = name.replace("_", "_U").replace("-", "_")
     if not re.match(r"[A-Za-z]{2}", found):
