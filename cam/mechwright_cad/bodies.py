@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mechwright.contracts.file_names import free_name
 from mechwright.contracts.motion import Motion, Poses
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
@@ -40,7 +41,7 @@ def bodies_of(parts: Sequence[Part], motion: Motion, sample: int = 0) -> list[Bo
     if not 0 <= sample < motion.samples:
         raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
     names = [instance.body for part in parts for instance in part.instances]
-    taken: dict[str, int] = {}
+    taken = {name for name in names if names.count(name) == 1}
     found = []
     for part in parts:
         for instance in part.instances:
@@ -49,9 +50,18 @@ def bodies_of(parts: Sequence[Part], motion: Motion, sample: int = 0) -> list[Bo
                     f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
                     f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
                 )
-            name = instance.body if names.count(instance.body) == 1 else f"{instance.body}-{part.name}"
-            taken[name] = taken.get(name, 0) + 1
-            if taken[name] > 1:  # names of children of an assembly are unique
-                name = f"{name}-{taken[name]}"
+            name = instance.body
+            if names.count(name) > 1:  # names of children of an assembly are unique
+                name = free_name(f"{name}-{part.name}", taken)
+                taken.add(name)
             found.append(Body(name, part, instance, motion.poses[instance.body]))
     return found
+
+
+def assembly_name(name: str, bodies: Sequence[Body]) -> str:
+    """The name of the whole: that of the design, or NAME-assembly where a body has that one.
+
+    An assembly and what stands in it are asked for by name, so that all their names differ.
+    """
+    taken = [body.name for body in bodies]
+    return name if name not in taken else free_name(f"{name}-assembly", taken)

@@ -11,14 +11,16 @@ from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from mechwright.beside import Beside
-from mechwright.build import Build
+from mechwright.build import Build, FileName, Wanted
 from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.file_names import free_name
 from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.holes import joined
 from mechwright.cores import cores
 from mechwright.designs.design import Design
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
+from mechwright.plugins.host import Host
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
@@ -58,7 +60,7 @@ class Work:
         made = Output()
         for exporter in self.exporters:
             contents = [(part.name, exporter.part(part)) for part in self.parts]
-            contents.append(("assembly", self._assembly(exporter)))
+            contents.append((assembly_stem(self.parts), self._assembly(exporter)))
             written = [(name, content) for name, content in contents if content is not None]
             for name, content in written:
                 made.add(name + exporter.suffix, content)
@@ -78,6 +80,38 @@ class Work:
             raise GeometryError(
                 f"{exporter.name} cannot hold a mechanism of the family {family}: {error}"
             ) from error
+
+
+def assembly_stem(parts: "Sequence[Part]") -> str:
+    """Of the files of the whole: assembly, with a number behind it where a part has that name."""
+    return free_name("assembly", [part.name for part in parts])
+
+
+def exporters_of(host: Host, wanted: Wanted) -> list[Exporter]:
+    """The formats that are written; raises PluginError for one that is not installed."""
+    named = ["step", *(name for name in wanted.formats if name != "step")]
+    if wanted.command == "build":  # drawings are written with the programs
+        named = [name for name in named if name != "dxf"]
+    return [host.get(Exporter, name) for name in named]
+
+
+def solid_names(build: Build, wanted: Wanted) -> list[FileName]:
+    """The files of :class:`Solids` before they are made."""
+    parts = build.parts
+    whole = assembly_stem(parts) if any(part.instances for part in parts) else ""
+    found = []
+    for exporter in exporters_of(build.host, wanted):
+        own = [
+            FileName(part.name + exporter.suffix, f"part {part.name}")
+            for part in parts
+            if exporter.takes(part)
+        ]
+        found += (
+            [*own, FileName(whole + exporter.suffix, "the assembly")]
+            if whole and exporter.takes_assemblies
+            else own
+        )
+    return found
 
 
 def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list[Finding]:
@@ -124,10 +158,7 @@ class Solids:
 
     def __init__(self, build: Build) -> None:
         self._build = build
-        named = ["step", *(name for name in build.wanted.formats if name != "step")]
-        if build.wanted.command == "build":  # drawings are written with the programs
-            named = [name for name in named if name != "dxf"]
-        self._exporters = [build.host.get(Exporter, name) for name in named]
+        self._exporters = exporters_of(build.host, build.wanted)
         self._second: Beside | None = None
         self._made: Made | None = None
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, Inspection, Page
+from mechwright.build import Build, FileName, Inspection, Page, Wanted
 from mechwright.contracts.finding import Finding, Stage
 
 if TYPE_CHECKING:
@@ -36,6 +36,12 @@ class SolidFiles(Page):
         """Whether a second process makes them."""
         return _solids(build).beside
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:
+        """Part by part in each format."""
+        from mechwright_cad.making import solid_names
+
+        return solid_names(build, wanted)
+
     def files(self, build: Build) -> dict[str, bytes]:
         """File name to content."""
         return _solids(build).files()
@@ -52,6 +58,12 @@ class MotionPage(Page):
     def late(self, build: Build) -> bool:
         """Whether a second process makes it."""
         return _solids(build).beside
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The page."""
+        from mechwright_cad.animation import MOTION
+
+        return [FileName(MOTION, "the moving picture")] if build.design.family.moves else []
 
     def files(self, build: Build) -> dict[str, bytes]:
         """The page; none of what stands still."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from mechwright.arrays import Array
-    from mechwright.build import Blank, Build, Inspection, Page, RawStock, Wanted
+    from mechwright.build import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
@@ -76,7 +76,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.build": "Blank Build Inspection Page RawStock Wanted",
+    "mechwright.build": "Blank Build FileName Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",
@@ -129,7 +129,17 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
-__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Standing", "Table"]
+__all__ += [
+    "Command",
+    "Exporter",
+    "Family",
+    "FileName",
+    "Inspection",
+    "Page",
+    "RawStock",
+    "Standing",
+    "Table",
+]
 __all__ += ["FIRST", "FITTED", "GIVEN", "InputFile", "MaterialName", "Parameters", "material"]
 __all__ += [
     "GROUND",

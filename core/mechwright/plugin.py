@@ -1,5 +1,6 @@
 """What the core itself registers."""
 
+from mechwright.build.file_names import FileNames
 from mechwright.build.tables import MotionTables
 from mechwright.build.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.contracts.plugin import Plugin
@@ -11,8 +12,9 @@ from mechwright.plugins.hookspecs import hookimpl
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The pages that need no other room, and the tables ``[tolerances]`` and ``[machine]``."""
+    """The pages that need no other room, what checks file names, ``[tolerances]`` and ``[machine]``."""
     return [
+        FileNames,
         MotionTables,
         TolerancesTable,
         ToleranceKeys,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from mechwright import Bore, Finding, Instance, Part, Severity, Stage, kept
 from mechwright.contracts.details import Thread
+from mechwright.contracts.part import name_from
 from mechwright.drawings.plate import Cut, part_of
 from mechwright.drawings.reading import Drawn, read
 from mechwright_plate.params import PlateParams
@@ -35,7 +36,7 @@ def made(params: PlateParams) -> Made:
 def _name(file: str) -> str:
     """Name of the part: that of its drawing, as far as it can be one of a file anywhere."""
     stem = re.sub(r"\.dxf$", "", re.split(r"[/\\]", file)[-1], flags=re.IGNORECASE)
-    name = re.sub(r"[^a-z0-9]+", "-", stem.lower())[:40].strip("-")
+    name = name_from(re.sub(r"[^a-z0-9]+", "-", stem.lower())[:40], "")
     # A part and its body are not named alike: an assembly names both.
     return f"{name}-plate" if name == BODY else name or "plate"
 

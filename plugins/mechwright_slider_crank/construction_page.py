@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from mechwright.build import Build, Page
+from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.build.figures import Figure, Grid, figures_page
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
 from mechwright_slider_crank.params import SliderCrankParams
@@ -21,6 +21,12 @@ class ConstructionPage(Page):
     name = "slider-crank-construction"
     commands = frozenset({"solve", "build"})
     doing = "construction"
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The page."""
+        return (
+            [FileName(NAME, "the construction")] if isinstance(build.design.params, SliderCrankParams) else []
+        )
 
     def files(self, build: Build) -> Mapping[str, str]:
         """The page; none of other families, of levers, and without an offset, where there is no circle."""

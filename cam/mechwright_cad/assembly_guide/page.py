@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mechwright.build import Build, Page
+from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.output.templates import templates
 
 if TYPE_CHECKING:
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from mechwright_cad.assembly_guide.pictures import Pictures
     from mechwright_cad.assembly_order.plan import Plan
 
-STEM = "assembly-drawing"
-"""Of the sheet's files."""
+SHEETS = ("assembly-drawing.dxf", "assembly-drawing.pdf")
+"""The files of the drawing."""
 
 HTML = "assembly.html"
 
@@ -33,8 +33,17 @@ class AssemblyGuide(Page):
 
     def shown(self, build: Build) -> bool:
         """Whether a build has this page."""
+        return bool(self.names(build, build.wanted))
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:
+        """The page and the drawing, as :meth:`files` writes them."""
         bodies = sum(len(part.instances) for part in build.parts)
-        return build.wanted.command in self.commands and bodies > 1
+        if wanted.command not in self.commands or bodies < 2:
+            return []
+        return [
+            FileName(HTML, "the assembly guide"),
+            *(FileName(name, "the assembly drawing") for name in SHEETS),
+        ]
 
     def files(self, build: Build) -> dict[str, str | bytes]:
         """The page and the drawing; none for a mechanism of fewer than two bodies."""
@@ -54,8 +63,7 @@ class AssemblyGuide(Page):
         sheet = assembly_sheet(pictures, numbered, name)
         return {
             HTML: assembly_html(name, plan, numbered, pictures),
-            f"{STEM}.dxf": dxf(sheet),
-            f"{STEM}.pdf": pdf(sheet, f"{name}: assembly"),
+            **dict(zip(SHEETS, (dxf(sheet), pdf(sheet, f"{name}: assembly")), strict=True)),
         }
 
 
@@ -97,7 +105,7 @@ def assembly_html(
             parts=parts,
             exploded=pictures.exploded(),
             bill=BILL,
-            drawing=f"{STEM}.pdf",
+            drawing=SHEETS[1],
             turned=plan.turned,
             input=plan.motion.input_name,
         )

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, Page, RawStock
+from mechwright.build import Build, FileName, Page, RawStock, Wanted
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright_cad.turned_drawing.page import SUFFIXES
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 STEM = "bill-of-materials"
 """Of both files."""
 
-HTML = f"{STEM}.html"
+CSV, HTML = f"{STEM}.csv", f"{STEM}.html"
 
 
 class BillOfMaterials(Page):
@@ -29,6 +29,10 @@ class BillOfMaterials(Page):
         from mechwright_cad.making import Solids
 
         return build.made(Solids).beside
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Both files."""
+        return [FileName(name, "the bill of materials") for name in (CSV, HTML)] if build.parts else []
 
     def files(self, build: Build) -> dict[str, str]:
         """Both files; none for a mechanism without parts."""
@@ -46,7 +50,7 @@ class BillOfMaterials(Page):
         ]
         masses = build.made(Solids).masses()
         lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build))
-        return {f"{STEM}.csv": bill_csv(lines), HTML: bill_html(build.design.name, lines)}
+        return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 
 
 def order_of(build: Build) -> list[str]:
@@ -87,7 +91,7 @@ def bill_html(design: str, lines: "list[Line]") -> str:
         .get_template("page.html")
         .render(
             design=design,
-            csv=f"{STEM}.csv",
+            csv=CSV,
             kinds=kinds,
             count=sum(line.qty for line in bodies),
             mass=sum(line.mass_g for line in bodies),

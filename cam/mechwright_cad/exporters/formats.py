@@ -41,12 +41,13 @@ class DxfExporter(Exporter):
     def __init__(self, curves: Curves = "spline") -> None:
         self.curves = curves
 
-    def part(self, part: "Part") -> bytes | None:
-        """One drawing; None for what is turned, which has a drawing of its own, or bought.
+    def takes(self, part: "Part") -> bool:
+        """All but what is turned, which has a drawing of its own, or bought."""
+        return part.outline is not None or part.kind not in {"turned", "bought"}
 
-        Raises GeometryError for another part that has no outline.
-        """
-        if part.outline is None and part.kind in {"turned", "bought"}:
+    def part(self, part: "Part") -> bytes | None:
+        """One drawing; None where it takes none, and GeometryError for another part that has no outline."""
+        if not self.takes(part):
             return None
         from mechwright_cad.exporters import dxf
 
@@ -107,6 +108,10 @@ class MjcfExporter(Exporter):
     name = "mjcf"
     suffix = ".mjcf.xml"
     modules = ("mechwright_cad.exporters.mjcf.assembly",)
+
+    def takes(self, part: "Part") -> bool:  # noqa: ARG002
+        """None by itself."""
+        return False
 
     def part(self, part: "Part") -> None:
         """Nothing: a part by itself does not move."""

@@ -20,7 +20,7 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.sections import blind
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
-from mechwright_cad.bodies import bodies_of
+from mechwright_cad.bodies import assembly_name, bodies_of
 from mechwright_cad.solids.detailed import detailed
 from mechwright_cad.solids.recess_tools import cut_out, taken
 from mechwright_cad.solids.solid_check import check_plate, check_recessed, check_solid
@@ -93,10 +93,11 @@ def marks(part: Part) -> list[tuple[str, cq.Shape]]:
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
     """All instances of the parts in their poses at one sample of the motion, see :func:`bodies_of`.
 
-    Raises GeometryError as that does.
+    The whole has its name by :func:`assembly_name`. Raises GeometryError as :func:`bodies_of` does.
     """
-    whole = cq.Assembly(name=name)
-    for body in bodies_of(parts, motion, sample):
+    bodies = bodies_of(parts, motion, sample)
+    whole = cq.Assembly(name=assembly_name(name, bodies))
+    for body in bodies:
         place = _location(body.poses, sample, body.instance.z)
         colour = cq.Color(*body.part.colour_of(body.instance))
         whole.add(part_shape(body.part), name=body.name, loc=place, color=colour)

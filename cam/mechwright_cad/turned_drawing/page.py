@@ -1,6 +1,6 @@
 """The drawings of turned parts as files of a build."""
 
-from mechwright.build import Build, Page
+from mechwright.build import Build, FileName, Page, Wanted
 
 SUFFIXES = (".dxf", ".pdf")
 """Of the files of one drawing."""
@@ -12,6 +12,13 @@ class TurnedDrawings(Page):
     name = "turned-drawings"
     commands = frozenset({"model", "build"})
     doing = "drawings of turned parts"
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Those of every turned part."""
+        turned = [part.name for part in build.parts if part.kind == "turned"]
+        return [
+            FileName(name + suffix, f"the drawing of part {name}") for name in turned for suffix in SUFFIXES
+        ]
 
     def files(self, build: Build) -> dict[str, bytes]:
         """File name to content; none where nothing is turned."""

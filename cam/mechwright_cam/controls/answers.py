@@ -1,11 +1,11 @@
 """What a control's methods may give: texts that can be written, and runs whose steps are all there."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 
 from mechwright.contracts.declared import LOOSE, refuse
+from mechwright.contracts.file_names import name_fault
 from mechwright.contracts.guard import UnsoundError, later
 from mechwright_cam.controls.lookahead import Lookahead, Motion
 from mechwright_cam.controls.reading.run import Kind, Run
@@ -21,8 +21,8 @@ _MAYBE = ("piece", "machine_xy", "file")
 def hold_files(files: Mapping[str, str]) -> None:
     """Raise UnsoundError where names are no plain ones, or texts cannot be written."""
     for name, text in files.items():
-        if name != Path(name).name or name in {"", ".", ".."} or not name.isprintable():
-            raise UnsoundError(f"{name!r} is no plain file name")
+        if fault := name_fault(name):
+            raise UnsoundError(f"{name!r} {fault}")
         try:
             text.encode()
         except UnicodeEncodeError as error:

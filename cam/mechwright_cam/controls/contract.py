@@ -121,6 +121,13 @@ class Control(Plugin):
         """The program as files, stem to text, in the order in which they are run; most controls take one."""
         return {program.name: self.write(program)}
 
+    def stems(self, name: str, tools: "Sequence[Tool]") -> "Sequence[str]":  # noqa: ARG002 - for one file a tool
+        """Stems that files of a program may have, by its name and its possible tools; before any planning.
+
+        :meth:`files`, :meth:`measure` and :meth:`probe` give no others.
+        """
+        return (name,)
+
     @abstractmethod
     def read(
         self,

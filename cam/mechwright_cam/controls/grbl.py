@@ -20,6 +20,8 @@ from mechwright_cam.shop.tool import Tool
 _NO_D = "there is G40 only; post the path of the tool's centre"
 BELOW_SWITCH = -2.0
 """Machine Z of a retract, mm: the pull-off of homing ($27) is 1 mm as it comes."""
+MOST_TURNS = 4
+"""Turns of a tool, on average, for which names of files are compared before anything is planned."""
 _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
@@ -93,6 +95,13 @@ class Grbl(Measuring, GcodeControl):
             )
             files[name] = self.write(one)
         return files
+
+    def stems(self, name: str, tools: Sequence[Tool]) -> Sequence[str]:
+        """One for each tool wherever it comes in turn, and the program's own where it stops for a change."""
+        numbers = sorted({tool.number for tool in tools})
+        turns = range(1, MOST_TURNS * len(numbers) + 1)
+        one_tool = [f"{name}-t{number}" for number in numbers]
+        return [name, *one_tool, *(f"{name}-{turn}-t{number}" for turn in turns for number in numbers)]
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """Also: the retract must stay off the homing switch, and mist is an option of the build."""

@@ -1,5 +1,6 @@
 """Siemens SINUMERIK 840D sl and its kin (828D, ONE), in their own language: see docs/controls.md."""
 
+import hashlib
 import re
 from collections.abc import Mapping, Sequence
 
@@ -15,6 +16,30 @@ from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
 G54_TO_G57 = WorkOffsets("G54 to G57", r"G(5[4-7])", "$P_UIFR[{}]", 53)
+
+LONGEST_NAME = 24
+"""Characters of a program's name (Programming Manual NC programming, "Name of an NC program")."""
+DIGEST = 4
+"""Characters that tell names apart whose ends are cut off: of 65,536 pairs one is alike, and refused."""
+
+
+def program_identifier(name: str) -> str:
+    """The name of a program as the control takes it: 24 letters, digits and _ at most, two letters first.
+
+    The end of a longer name gives way to a digest of the whole.
+
+    >>> program_identifier("crank-1"), program_identifier("1-gear"), program_identifier("a_b")
+    ('crank_1', 'P_1_gear', 'P_a_Ub')
+    >>> program_identifier("driver-locking-disc-underside")
+    'driver_locking_disc_9D54'
+    """
+    found = name.replace("_", "_U").replace("-", "_")
+    if not re.match(r"[A-Za-z]{2}", found):
+        found = f"P_{found}"
+    if len(found) <= LONGEST_NAME:
+        return found
+    digest = hashlib.sha256(name.encode()).hexdigest()[:DIGEST].upper()
+    return f"{found[: LONGEST_NAME - DIGEST - 1].rstrip('_')}_{digest}"
 
 
 class Siemens840D(GcodeControl):
@@ -69,9 +94,11 @@ class Siemens840D(GcodeControl):
 
     def files(self, program: Program) -> dict[str, str]:
         """One file, whose name the control takes: letters, digits and _, and two letters first."""
-        # Names have no capitals: two that differ stay different.
-        name = program.name.replace("_", "_U").replace("-", "_")
-        return {name if re.match(r"[A-Za-z]{2}", name) else f"P_{name}": self.write(program)}
+        return {program_identifier(program.name): self.write(program)}
+
+    def stems(self, name: str, tools: Sequence[Tool]) -> Sequence[str]:  # noqa: ARG002
+        """The name that the control takes."""
+        return (program_identifier(name),)
 
     def retract_lines(self, z: float) -> Sequence[str]:
         """Machine coordinates for one block, without the tool's length."""

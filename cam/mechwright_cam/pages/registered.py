@@ -6,8 +6,9 @@ Nothing heavy is imported before one of them is made.
 import json
 from typing import TYPE_CHECKING, cast, get_args
 
-from mechwright.build import Build, Page
+from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.errors import DesignError
+from mechwright.output.folder import distinct_files
 from mechwright_cad.assembly_guide.page import HTML as GUIDE
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import HTML as BILL
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 SUMMARY = "setup.html"
 """The page of the whole job."""
+
+PROOFS = "proof.json"
+"""What the proofs say."""
 
 COMMANDS = frozenset({"cam", "build"})
 DOING = "drawings and programs"
@@ -39,13 +43,20 @@ class DrawingFiles(Page):
     doing = DOING
     share = SHARE
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Those of plates and nests."""
+        from mechwright_cam.pages.file_names import drawing_names, machined
+
+        machining = machined(build)
+        return [] if machining is None else [*drawing_names(machining, DxfExporter.suffix)]
+
     def files(self, build: Build) -> dict[str, bytes]:
         """DXF by part; none where nothing is milled."""
         machining = _machining(build)
         drawing = DxfExporter(curve_kind(build.wanted.curves))
         parts = [*machining.plates, *machining.nests] if machining.made else []
         made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
-        return {name: content for name, content in made if content is not None}
+        return distinct_files((name, content) for name, content in made if content is not None)
 
 
 class ProgramFiles(Page):
@@ -55,19 +66,24 @@ class ProgramFiles(Page):
     commands = COMMANDS
     doing = DOING
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Those of all programs that there may be."""
+        from mechwright_cam.pages.file_names import machined, program_names
+
+        machining = machined(build)
+        return [] if machining is None else [*program_names(machining)]
+
     def files(self, build: Build) -> dict[str, str]:
         """Program text by file."""
         machining = _machining(build)
         if not machining.made:
             return {}
         suffix = machining.control.suffix
-        files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
-        files |= {stem + suffix: text for stem, text in machining.probing.values()}
-        files |= {
-            stem + suffix: text for texts in machining.measuring.values() for stem, text in texts.items()
-        }
-        table, text = machining.table
-        return files | ({table: text} if table else {})
+        texts = [pair for item in machining.made for pair in item.files.items()]
+        texts += machining.probing.values()
+        texts += [pair for texts in machining.measuring.values() for pair in texts.items()]
+        files = [(stem + suffix, text) for stem, text in texts]
+        return distinct_files([*files, machining.table] if machining.table[0] else files)
 
 
 class ProofFile(Page):
@@ -77,12 +93,16 @@ class ProofFile(Page):
     commands = COMMANDS
     doing = DOING
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The one file."""
+        return [FileName(PROOFS, "the proofs")]
+
     def files(self, build: Build) -> dict[str, str]:
         """Every check of every program by name."""
         from mechwright_cam.pages.seen import Seen
 
         proofs = build.made(Seen).proofs
-        return {"proof.json": json.dumps(proofs, indent=2) + "\n"} if proofs else {}
+        return {PROOFS: json.dumps(proofs, indent=2) + "\n"} if proofs else {}
 
 
 class SetupSheets(Page):
@@ -91,6 +111,19 @@ class SetupSheets(Page):
     name = "setup-sheets"
     commands = COMMANDS
     doing = DOING
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """One for each job, and the page of all."""
+        from mechwright_cam.pages.file_names import machined, named
+        from mechwright_cam.pages.setup_sheet import SHEET
+
+        machining = machined(build)
+        if machining is None:
+            return []
+        sheets = [
+            named(machining, job, job.part.name, SHEET, "the setup sheet of ") for job in machining.jobs
+        ]
+        return [*sheets, FileName(SUMMARY, "the page of the whole job")]
 
     def files(self, build: Build) -> dict[str, str]:
         """HTML by file."""

@@ -8,10 +8,13 @@ that takes least stock is kept.
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import shapely
 
+from mechwright.contracts.file_names import free_name
+from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.part import Part, check_name
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, MechwrightError
@@ -28,6 +31,9 @@ from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
 from mechwright_cam.shop.tool import MILLS, widest_mill
 
+NEST_NAME = "cam.nest.name"
+"""The key of the design file that names a nest, and with it its files."""
+
 WEB = 3.0
 """Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
 
@@ -39,6 +45,16 @@ MOST = 200
 
 SNAP = 1e-6
 """Boxes overlap if by more than this, mm."""
+
+
+class NestNameError(DesignError):
+    """A nest has the name of a part, and both have files of it; ``finding`` proposes another one."""
+
+    def __init__(self, path: Path, name: str, other: str) -> None:
+        message, remedy = f"{name!r} is a part", f'set {NEST_NAME} = "{other}"'
+        super().__init__(f"{path}: {NEST_NAME}: {message}; {remedy}")
+        proposed: tuple[Change, ...] = ({NEST_NAME: other},)
+        self.finding = Finding.error("files.names", NEST_NAME, message, remedy=remedy, proposed=proposed)
 
 
 @dataclass(frozen=True)
@@ -82,9 +98,10 @@ def arranged(
         try:
             check_name(name)
         except DesignError as error:
-            raise DesignError(f"{design.path}: cam.nest.name: {error}") from error
-        if name in {part.name for part in parts}:
-            raise DesignError(f"{design.path}: cam.nest.name: {name!r} is a part; take another name")
+            raise DesignError(f"{design.path}: {NEST_NAME}: {error}") from error
+        if name in (others := {part.name for part in parts}):
+            other = free_name(f"{wanted.name}-nest", others)
+            raise NestNameError(design.path, name, other)
         nest = _nested(design, wanted, name, group, library, assignments)
         made |= {part.name: nest for part in group}
     return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())

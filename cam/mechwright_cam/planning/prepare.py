@@ -13,7 +13,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.in_hand import from_hand
-from mechwright_cam.planning.nesting import arranged
+from mechwright_cam.planning.nesting import NestNameError, arranged
 from mechwright_cam.planning.remarks import judged_together
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.planning.to_buy import to_buy
@@ -80,7 +80,10 @@ def prepare(
     """
     assignments = assignments or Assignments()
     library = library_of(design)
-    cut = cut_plates(design, parts, library, assignments)
+    try:
+        cut = cut_plates(design, parts, library, assignments)
+    except NestNameError as error:
+        return at_stage(Stage.MACHINING, [error.finding]), []
     findings, jobs = _laid(design, cut, library, assignments, None)
     for finest in FINER:
         left = _left_in_corners(findings)

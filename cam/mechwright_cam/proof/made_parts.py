@@ -8,6 +8,7 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
+from mechwright.contracts.part import Part
 from mechwright_cam.proof.as_made import made_sections, wall_sweeps
 from mechwright_cam.proof.off_path import corridor
 from mechwright_cam.proof.scene import Scene
@@ -48,7 +49,11 @@ def parts_as_made(scene: Scene) -> list[MadePart]:
 
 def placed_in(scene: Scene) -> tuple[Placed, ...]:
     """The copies on the plate of a job from above."""
-    part = scene.job.part
+    return placed_on(scene.job.part)
+
+
+def placed_on(part: Part) -> tuple[Placed, ...]:
+    """The copies on the plate that a program cuts: those of a nest, or the part."""
     return part.placed if isinstance(part, Nest) else (Placed(part, part.name, 0.0, 0.0),)
 
 

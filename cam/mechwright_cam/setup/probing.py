@@ -15,6 +15,8 @@ from typing import Literal
 from mechwright_cam.program.touches import Touch, Touches
 from mechwright_cam.setup.job import Job
 
+PROBE = "-probe"
+"""What the name of a program that probes a zero ends in."""
 BEYOND = 1.0
 """A touch goes on so far behind the last place where the stock can be, mm; then the program ends."""
 ROOM = 3.0
@@ -68,7 +70,7 @@ def touches_of(job: Job) -> Touches:
     front = _edge("Y", y0, "X", (x0 + x1) / 2, high, low, radius, doubt)
     top = (Touch("Z", -doubt - BEYOND, "touch"), Touch("Z", high))
     return Touches(
-        name=f"{job.part.name}-probe",
+        name=job.part.name + PROBE,
         offset=job.settings.work_offset,
         tool=probe.tool,
         first=(at[0], at[1]),

@@ -167,6 +167,11 @@ class ControlContract:
             for tool in tools:
                 assert re.search(rf"(?<!\d)0*{tool.number}(?!\d)", text), f"tool {tool.number} is missing"
 
+    def test_names_its_files_before_any_planning(self) -> None:
+        """No file of a program has a stem that is not among those that a check compares."""
+        control, program = self.control(), self.program()
+        assert set(control.files(program)) <= set(control.stems(program.name, program.tools))
+
     def test_reads_back_what_it_writes(self) -> None:
         """Every cut is read where the program has it, with its tool, feed, spindle, coolant and offset."""
         assert_read_back(self.control(), self.program())

@@ -2,7 +2,7 @@
 
 from mechwright.build.build import Build, Wanted
 from mechwright.build.inspection import Inspection
-from mechwright.build.page import Page
+from mechwright.build.page import FileName, Page
 from mechwright.build.stock import Blank, RawStock
 
-__all__ = ["Blank", "Build", "Inspection", "Page", "RawStock", "Wanted"]
+__all__ = ["Blank", "Build", "FileName", "Inspection", "Page", "RawStock", "Wanted"]

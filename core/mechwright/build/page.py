@@ -1,14 +1,35 @@
 """The contract of a page: files that are made of a build."""
 
 from abc import abstractmethod
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from mechwright.build.build import Build
+from mechwright.build.build import Build, Wanted
+from mechwright.contracts.file_names import name_fault
 from mechwright.contracts.guard import UnsoundError, pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
+
+
+@dataclass(frozen=True)
+class FileName:
+    """The name of a file before the file is made.
+
+    Parameters
+    ----------
+    name
+        Of the file.
+    of
+        What it is of, in a few words, such as ``"part wheel"``.
+    key, text
+        The key of the design file that names it, and what that says; empty where no key does.
+    """
+
+    name: str
+    of: str
+    key: str = ""
+    text: str = ""
 
 
 class Page(Plugin):
@@ -41,8 +62,8 @@ class Page(Plugin):
         if method != "files":
             return found
         for name, content in found.items():
-            if name != Path(name).name or name in {"", ".", ".."} or not name.isprintable():
-                raise UnsoundError(f"{name!r} is no plain file name")
+            if fault := name_fault(name):
+                raise UnsoundError(f"{name!r} {fault}")
             if isinstance(content, str):
                 try:
                     content.encode()
@@ -62,6 +83,13 @@ class Page(Plugin):
     def late(self, build: Build) -> bool:  # noqa: ARG002 - for those whose work goes on beside
         """Whether its files are best asked for last, because work for them goes on beside other work."""
         return False
+
+    def names(self, build: Build, wanted: Wanted) -> Sequence[FileName]:  # noqa: ARG002 - for those who know them
+        """The files that it may write where ``wanted`` is asked for, named before any work; by default none.
+
+        A check compares the names of all pages. Where there are some, :meth:`files` writes no others.
+        """
+        return ()
 
     @abstractmethod
     def files(self, build: Build) -> Mapping[str, Content]:

@@ -6,9 +6,12 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from mechwright.build.build import Build
-from mechwright.build.page import Page
+from mechwright.build.build import Build, Wanted
+from mechwright.build.page import FileName, Page
 from mechwright.contracts.motion import Motion
+
+TABLE, SUMMARY = "motion.csv", "summary.json"
+"""The files."""
 
 ROWS = 1_000
 """Rows of a table that are written together."""
@@ -21,6 +24,12 @@ class MotionTables(Page):
     commands = frozenset({"solve", "build"})
     doing = "motion"
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Both files."""
+        return (
+            [FileName(name, "the motion") for name in (TABLE, SUMMARY)] if build.design.family.moves else []
+        )
+
     def files(self, build: Build) -> dict[str, str | Iterable[bytes]]:
         """The channels over the motion and its figures by name with units; none of what stands still."""
         if not build.design.family.moves:
@@ -31,8 +40,8 @@ class MotionTables(Page):
             name: {"value": scalar.value, "unit": scalar.unit} for name, scalar in first.scalars.items()
         }
         return {
-            "motion.csv": motion_csv(first, stretches),
-            "summary.json": json.dumps(figures, indent=2) + "\n",
+            TABLE: motion_csv(first, stretches),
+            SUMMARY: json.dumps(figures, indent=2) + "\n",
         }
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mechwright.build import Wanted
+from mechwright.contracts.file_names import file_key
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress
@@ -78,7 +79,7 @@ def into(designs: Iterable[Path], folder: Path) -> dict[Path, Path]:
     """
     places: dict[str, Path] = {}
     for path in designs:
-        other = places.setdefault(path.stem.casefold(), path)  # some systems do not tell letters' cases apart
+        other = places.setdefault(file_key(path.stem), path)
         if other is not path:
             raise DesignError(
                 f"{other} and {path} would both be written into {folder / path.stem}; rename one, or run "

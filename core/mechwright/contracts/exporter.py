@@ -27,6 +27,15 @@ class Exporter(Plugin):
     imported yet, ``build`` may let it write in a second process, beside other work. A copy made by pickle
     has to write the same bytes."""
 
+    def takes(self, part: "Part") -> bool:  # noqa: ARG002 - used by formats that leave parts out
+        """Whether :meth:`part` gives a file of a part; known before any work."""
+        return True
+
+    @property
+    def takes_assemblies(self) -> bool:
+        """Whether :meth:`assembly` gives a file; by default where a class has one of its own."""
+        return type(self).assembly is not Exporter.assembly
+
     @abstractmethod
     def part(self, part: "Part") -> bytes | None:
         """One part by itself, in its own coordinates; None if the format holds whole mechanisms alone."""

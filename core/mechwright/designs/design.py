@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.file_names import file_key
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
@@ -35,7 +36,7 @@ from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.settling import settled, told
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
-from mechwright.errors import DesignError, PluginError
+from mechwright.errors import DesignError, GeometryError, PluginError
 from mechwright.mechanics.chain import Chain, ChainParams
 from mechwright.plugins.host import Host
 from mechwright.reading import once
@@ -110,6 +111,13 @@ class Design:
         parts: Sequence[Part] = self.family.parts(self.params)
         for around in self.surroundings:
             parts = [*parts, *around.parts]
+        keys = [file_key(part.name) for part in parts]
+        for part, key in zip(parts, keys, strict=True):
+            if keys.count(key) > 1:  # the family's own are known to differ
+                raise GeometryError(
+                    f"part {part.name!r} stands in the mechanism and around it, and both have its files; "
+                    "leave out the table that adds the second"
+                )
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts

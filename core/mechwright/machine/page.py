@@ -6,14 +6,17 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.build.build import Build
+from mechwright.build.build import Build, Wanted
 from mechwright.build.figures import Figure, Grid, figures_page
-from mechwright.build.page import Page
+from mechwright.build.page import FileName, Page
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motors import Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
+
+HTML, JSON = "drive.html", "drive.json"
+"""The files."""
 
 FIGURES: Mapping[str, tuple[str, str]] = {
     "peak_torque": ("greatest torque of the drive", "N*m"),
@@ -42,6 +45,10 @@ class DrivePage(Page):
     commands = frozenset({"model", "build"})
     doing = "the drive"
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """Both files."""
+        return [FileName(name, "the drive") for name in (HTML, JSON)] if wanted_of(build) else []
+
     def files(self, build: Build) -> Mapping[str, str]:
         """Nothing where the design says nothing of a machine."""
         if not wanted_of(build):
@@ -57,7 +64,7 @@ class DrivePage(Page):
             _figures(build.made(motion_for).input_name, drive, choice),
             [_table(values)],
         )
-        return {"drive.html": html, "drive.json": json.dumps({**motor, "figures": numbers}, indent=2) + "\n"}
+        return {HTML: html, JSON: json.dumps({**motor, "figures": numbers}, indent=2) + "\n"}
 
 
 def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -> dict[str, float]:

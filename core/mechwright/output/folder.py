@@ -10,8 +10,9 @@ import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
+from mechwright.contracts.file_names import file_key, name_fault
 from mechwright.errors import OutputError
 from mechwright.output.staging import OLD, folder_to_disk, locked, staging_folder, to_disk, write_through
 from mechwright.reading import kind_of, read_bytes
@@ -19,6 +20,8 @@ from mechwright.reading import kind_of, read_bytes
 MANIFEST = "manifest.json"
 Content = str | bytes | Iterable[bytes]
 """Of a file: text, bytes, or bytes in pieces."""
+
+C = TypeVar("C", bound=Content)
 
 _AT_FDCWD, _RENAME_EXCHANGE = -100, 2
 
@@ -29,13 +32,32 @@ class Output:
 
     files: dict[str, bytes | Iterable[bytes]] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        # By what file systems compare.
+        self._names = {file_key(name): name for name in self.files}
+
     def add(self, name: str, content: Content) -> None:
-        """Add a file; ``name`` is a plain file name. What comes in pieces is asked for once."""
-        if name != Path(name).name or name in {"", ".", ".."}:
-            raise OutputError(f"{name!r} is no plain file name")
-        if name in self.files:
-            raise OutputError(f"two files would be called {name!r}; rename a part of the family")
+        """Add a file; ``name`` is a plain file name. What comes in pieces is asked for once.
+
+        Raises OutputError for a name that is no file on some system, or the same file as another one.
+        """
+        if fault := name_fault(name):
+            raise OutputError(f"{name!r} {fault}; rename what it is of")
+        key = file_key(name)
+        known = self._names.get(key, MANIFEST if key == MANIFEST else None)
+        if known is not None:
+            raise OutputError(f"the files {known!r} and {name!r} would be one; rename what one of them is of")
+        self._names[key] = name
         self.files[name] = content.encode() if isinstance(content, str) else content
+
+
+def distinct_files(files: Iterable[tuple[str, C]]) -> dict[str, C]:
+    """Name to content; raises OutputError as :meth:`Output.add` does: no file takes another's place."""
+    names, found = Output(), dict[str, C]()
+    for name, content in files:
+        names.add(name, b"")
+        found[name] = content
+    return found
 
 
 def write_folder(target: Path, output: Output, command: str, facts: Mapping[str, Any]) -> None:

@@ -42,6 +42,7 @@ from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.likeness import repeated
 from mechwright.testing.limits import limits_broken
+from mechwright.testing.names import NameTests
 from mechwright.testing.rates import assert_rates
 from mechwright.testing.results import Results
 from mechwright.testing.stretches import StretchTests
@@ -56,7 +57,14 @@ _REFINED = 1e-9
 
 
 class FamilyContract(
-    ToleranceTests, FixTests, FrameTests, TargetTests, EvaluationTests, StretchTests, TransmissionTests
+    NameTests,
+    ToleranceTests,
+    FixTests,
+    FrameTests,
+    TargetTests,
+    EvaluationTests,
+    StretchTests,
+    TransmissionTests,
 ):
     """Tests of one family; subclass it and set :attr:`family`.
 

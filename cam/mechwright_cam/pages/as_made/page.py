@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from mechwright.build import Build, Page
+from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.contracts.as_made import AsMade, MadeFigure
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.made_part import MadePart
@@ -18,6 +18,18 @@ class AsMadeFiles(Page):
     commands = frozenset({"build"})
     doing = "parts as made"
 
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The page, the data, and a drawing of every copy on a plate."""
+        from mechwright_cam.pages.file_names import machined
+        from mechwright_cam.proof.made_parts import placed_on
+
+        machining = machined(build)
+        if machining is None:
+            return []
+        labels = [one.label for job in machining.jobs if job.side == "top" for one in placed_on(job.part)]
+        drawn = [FileName(_drawing(label), f"the drawing of {label} as made") for label in labels]
+        return [*drawn, *(FileName(name, "the parts as made") for name in (JSON, HTML))]
+
     def files(self, build: Build) -> dict[str, str | bytes]:
         """Page, data and drawings; none where no program is made."""
         from mechwright_cam.as_made import MadeParts
@@ -27,13 +39,15 @@ class AsMadeFiles(Page):
         parts = [part for part in made.parts if part.off.size]
         if not parts:
             return {}
-        found: dict[str, str | bytes] = {
-            part.label.replace(" ", "-") + DRAWING: made_drawing(part) for part in parts
-        }
+        found: dict[str, str | bytes] = {_drawing(part.label): made_drawing(part) for part in parts}
         name = build.design.name
         found[JSON] = json.dumps(as_dict(name, parts, made.said), indent=2, ensure_ascii=False) + "\n"
         found[HTML] = html(name, build.path.name, parts, made.said)
         return found
+
+
+def _drawing(label: str) -> str:
+    return label.replace(" ", "-") + DRAWING
 
 
 def as_dict(name: str, parts: list[MadePart], said: AsMade) -> dict[str, Any]:
@@ -90,7 +104,7 @@ def html(name: str, design: str, parts: list[MadePart], said: AsMade) -> str:
             # Our own markup; all text in it is escaped where it is made.
             curves=[(curve.title, Markup(plot(curve))) for curve in said.curves],  # noqa: S704
             parts=[
-                (part, _part(part), part.label.replace(" ", "-") + DRAWING, Markup(made_picture(part)))  # noqa: S704
+                (part, _part(part), _drawing(part.label), Markup(made_picture(part)))  # noqa: S704
                 for part in parts
             ],
         )

@@ -5,9 +5,9 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from mechwright.build.build import Build
+from mechwright.build.build import Build, Wanted
 from mechwright.build.figures import Figure, Grid, figures_page
-from mechwright.build.page import Page
+from mechwright.build.page import FileName, Page
 
 if TYPE_CHECKING:
     from mechwright.build.poles.coupler import Coupler
@@ -36,6 +36,10 @@ class PolesPage(Page):
     @abstractmethod
     def coupler(self, params: Any) -> "Coupler":
         """The coupler of a design that moves."""
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The page."""
+        return [FileName(NAME, "the poles")] if build.design.family.name == self.family else []
 
     def files(self, build: Build) -> Mapping[str, str]:
         """The page; none for other families, and where the coupler only shifts."""

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from mechwright.build.build import Build
-from mechwright.build.page import Page
+from mechwright.build.build import Build, Wanted
+from mechwright.build.page import FileName, Page
 from mechwright.output.templates import templates
 
 NAME = "tolerances.html"
@@ -17,6 +17,10 @@ class TolerancePage(Page):
     name = "tolerances"
     commands = frozenset({"build"})
     doing = "tolerances"
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """The page."""
+        return [FileName(NAME, "the tolerances")]
 
     def files(self, build: Build) -> Mapping[str, str]:
         """The page; none where the family has no analysis of tolerances."""

@@ -1,0 +1,76 @@
+"""Whether the files of a design keep apart: what a check says of their names before one of them is made."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from mechwright.build.build import Build, Wanted
+from mechwright.build.inspection import Inspection
+from mechwright.build.page import FileName, Page
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.file_names import file_key, free_name, name_fault
+from mechwright.contracts.finding import Change, Finding, Stage
+
+STAGES = {"solve": Stage.MOTION, "model": Stage.PARTS, "cam": Stage.MACHINING, "build": Stage.MACHINING}
+"""The commands that write a design's files, and the stage of the work after which each ends."""
+
+
+class FileNames(Inspection):
+    """Files of one design that would be one file, here or on a system that does not tell cases apart."""
+
+    name = "file-names"
+    commands = frozenset({"check", *STAGES})
+    stage = Stage.MACHINING
+    order = 30
+    doing = "names of files"
+    share = 1.0
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """An error for each name that two files would have; of a check, in whatever command."""
+        found: dict[str, Finding] = {}
+        for wanted in _lookahead(build):
+            stage = STAGES[wanted.command]
+            for key, finding in _faults(files_of(build, wanted)):
+                found.setdefault(key, replace(finding, stage=stage))
+        return list(found.values())
+
+
+def files_of(build: Build, wanted: Wanted) -> list[FileName]:
+    """The files that the pages of a command would write, as far as they know before any work."""
+    pages = [page for page in build.host.all(Page) if wanted.command in page.commands]
+    return [one for page in pages for one in page.names(build, wanted)]
+
+
+def _lookahead(build: Build) -> list[Wanted]:
+    """What the build is asked for; of a check, what every command could be, in every format."""
+    if build.wanted.command in STAGES:
+        return [build.wanted]
+    formats = tuple(sorted(build.host.of(Exporter)))
+    return [replace(build.wanted, command=command, formats=formats) for command in STAGES]
+
+
+def _faults(files: Sequence[FileName]) -> Iterator[tuple[str, Finding]]:
+    """What is wrong with the names of one command, each by what file systems compare."""
+    known: dict[str, FileName] = {}
+    for one in files:
+        key = file_key(one.name)
+        if fault := name_fault(one.name):
+            yield key, _error(one, f"the file of {one.of}, {one.name!r}, {fault}", files)
+        other = known.setdefault(key, one)
+        if other is not one:
+            told = (
+                one.name
+                if one.name == other.name
+                else f"{other.name} and {one.name}, one file on some systems"
+            )
+            named = one if one.key or not other.key else other
+            yield key, _error(named, f"{other.of} and {one.of} would both be written as {told}", files)
+
+
+def _error(named: FileName, message: str, files: Sequence[FileName]) -> Finding:
+    change: tuple[Change, ...] = ()
+    remedy = f"rename {named.of}"
+    if named.key:
+        stems = [one.name.partition(".")[0] for one in files]
+        other = free_name(f"{named.text}-{named.key.split('.')[-2]}", stems)
+        change, remedy = ({named.key: other},), f'set {named.key} = "{other}"'
+    return Finding.error("files.names", named.key, message, remedy=remedy, proposed=change)
