@@ -44,7 +44,9 @@ class Building:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, IN_LINES: "1", "NO_COLOR": "1"},
+            encoding="utf-8",
+            errors="replace",
+            env={**os.environ, IN_LINES: "1", "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"},
             start_new_session=True,
         )
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeGuard
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
+from mechwright.contracts.file_names import name_fault
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.guard import later
@@ -34,10 +35,6 @@ _NAME = re.compile(NAME_PATTERN)
 _OTHER = re.compile(r"[^a-z0-9_]+")
 _LONGEST = 64
 """Characters of a name, as the pattern above has it."""
-_DEVICES = frozenset(
-    ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10)))
-)
-"""With any ending, ``con.step``, they are no files there."""
 
 
 def check_name(name: str, what: str = "name") -> str:
@@ -51,8 +48,8 @@ def check_name(name: str, what: str = "name") -> str:
             f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
             "a letter or digit at both ends"
         )
-    if name in _DEVICES:
-        raise DesignError(f"{what} {name!r} is that of a device on Windows; use another, such as {name}-1")
+    if fault := name_fault(name):
+        raise DesignError(f"{what} {name!r} {fault}; use another, such as {name}-1")
     return name
 
 
