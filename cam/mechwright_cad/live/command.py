@@ -1,5 +1,6 @@
 """The command ``live``."""
 
+import contextlib
 import webbrowser
 from pathlib import Path
 
@@ -20,17 +21,20 @@ def live(path: Path, port: int, show: bool) -> None:
         The design file cannot be read.
     """
     try:
+        from mechwright_cad.live.handover import Handover
         from mechwright_cad.live.server import serve
     except ModuleNotFoundError as error:
         raise OutputError(
             f'live: {error.name} is not installed; pip install "mechwright[live]" brings it'
         ) from error
 
-    def ready(address: str) -> None:
+    def ready(address: str, handover: Handover) -> None:
         typer.echo(f"{path}: {address}")
         typer.echo("for this machine alone; Ctrl-C ends it")
         if show:
-            webbrowser.open(address)
+            # Every user of the machine reads command lines: a browser's has the name of a file, no secret.
+            with contextlib.suppress(OSError, webbrowser.Error):
+                webbrowser.open(handover.entry_page().as_uri())
 
     serve(path, open_host(), port, ready)
     typer.echo("ended")

@@ -11,8 +11,8 @@ from mechwright.designs.change import rewritten
 from mechwright.designs.files import read_text
 from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import units_of, written
-from mechwright.errors import DesignError, MechwrightError, OutputError
-from mechwright.output.folder import rewrite, write_new
+from mechwright.errors import DesignError, MechwrightError
+from mechwright.output.folder import ChangedError, rewrite, write_new
 from mechwright.plugins.host import Host
 
 Change = Mapping[str, Any]
@@ -61,18 +61,28 @@ class Following(ABC):
 
         Raises
         ------
-        OutputError
-            The file is another than the page knows.
+        ChangedError
+            The file is another than the page knows. Of several saves of one state at once, one is written.
         DesignError
             The change cannot be written, or the new file could not be read.
         """
+        said = f"{self.path.name}: has changed on disk since; look at it first, then save again"
         text, now = read_text(self.path)
         if now != digest:
-            raise OutputError(
-                f"{self.path.name}: has changed on disk since; look at it first, then save again"
-            )
-        rewrite(self.path, self._text(text, change), known=now)
+            raise ChangedError(said)
+        try:
+            rewrite(self.path, self._text(text, change), known=now)
+        except ChangedError:
+            raise ChangedError(said) from None
         return f"{self.path.name}: saved"
+
+    def _saved(self, body: Asked) -> Mapping[str, Any]:
+        """Where the file is another by now, what it holds goes with the error."""
+        try:
+            return {"said": self.save(change_of(body), text_of(body, "digest"))}
+        except ChangedError as error:
+            text, digest = read_text(self.path)
+            return {"error": str(error), "changed": {"text": text, "digest": digest}}
 
     def save_as(self, change: Change, name: str) -> str:
         """Write what is shown to a new file beside the old one; raises as :meth:`save` does."""
@@ -97,7 +107,7 @@ class Following(ABC):
         """What every page can ask."""
         return {
             "described": lambda body: self.described(change_of(body)),
-            "save": lambda body: {"said": self.save(change_of(body), text_of(body, "digest"))},
+            "save": self._saved,
             "save-as": lambda body: {"said": self.save_as(change_of(body), text_of(body, "name"))},
         }
 
