@@ -7,7 +7,6 @@ from pathlib import Path
 import typer
 
 from mechwright.cli.hosting import open_host
-from mechwright.errors import OutputError
 
 
 def live(path: Path, port: int, show: bool) -> None:
@@ -16,17 +15,12 @@ def live(path: Path, port: int, show: bool) -> None:
     Raises
     ------
     OutputError
-        The port is taken, or the extra ``live`` is not installed.
+        The port is taken.
     MechwrightError
         The design file cannot be read.
     """
-    try:
-        from mechwright_cad.live.handover import Handover
-        from mechwright_cad.live.server import serve
-    except ModuleNotFoundError as error:
-        raise OutputError(
-            f'live: {error.name} is not installed; pip install "mechwright[live]" brings it'
-        ) from error
+    from mechwright_cad.live.handover import Handover
+    from mechwright_cad.live.server import serve
 
     def ready(address: str, handover: Handover) -> None:
         typer.echo(f"{path}: {address}")
