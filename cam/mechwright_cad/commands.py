@@ -40,6 +40,7 @@ class Live(Command):
     name = "live"
     order = 45
     reads_once = False
+    libraries = ("starlette", "uvicorn")
 
     def run(
         self,

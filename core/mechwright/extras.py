@@ -1,11 +1,28 @@
-"""Libraries that are not installed with the rest: each is imported when something needs it."""
+"""Libraries that are not installed with the rest: which extra brings each, and the line that installs it."""
 
+import json
+import os
+import shlex
+import sys
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, distribution
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from mechwright.errors import PluginError
 
-EXTRAS = {"distributed": "scale", "pandas": "data", "plotly": "data", "pyarrow": "scale"}
+NAME = "mechwright"
+EXTRAS = {
+    "distributed": "scale",
+    "pandas": "data",
+    "plotly": "data",
+    "pyarrow": "scale",
+    "starlette": "live",
+    "uvicorn": "live",
+}
 """Library to the extra of this distribution that brings it."""
 
 
@@ -15,7 +32,7 @@ def optional(module: str) -> Any:
     Raises
     ------
     PluginError
-        It is not installed; the line names the extra that brings it.
+        It is not installed; the line installs the extra that brings it.
     """
     try:
         return import_module(module)
@@ -23,6 +40,86 @@ def optional(module: str) -> Any:
         library = module.partition(".")[0]
         if (error.name or "").partition(".")[0] != library:
             raise  # it is there, and broken
-        raise PluginError(
-            f"{library} is not installed, which this needs: pip install 'mechwright[{EXTRAS[library]}]'"
-        ) from None
+        raise _missing(library, "") from None
+
+
+def require(*libraries: str, by: str = "") -> None:
+    """Raise PluginError where a library is not installed, without loading one: asked before any work.
+
+    Parameters
+    ----------
+    libraries
+        Keys of :data:`EXTRAS`.
+    by
+        What needs them, such as a command or an option.
+    """
+    for library in libraries:
+        if not _installed(library):
+            raise _missing(library, by)
+
+
+def _installed(library: str) -> bool:
+    try:
+        return find_spec(library) is not None
+    except (ImportError, ValueError):  # whoever looks for modules may say no in several ways
+        return False
+
+
+def _missing(library: str, by: str) -> PluginError:
+    extra = EXTRAS[library]
+    said = f"{by}: {library}" if by else library
+    return PluginError(f"{said} is not installed, which the extra {extra} brings: {install_line(extra)}")
+
+
+def install_line(extra: str) -> str:
+    """The line to type that installs an extra into this interpreter, from where the program itself came."""
+    editable, source = _source()
+    if source is None:
+        what = f"{NAME}[{extra}]"
+    elif isinstance(source, Path):
+        what = f"{source}[{extra}]"
+    else:
+        what = f"{NAME}[{extra}] @ {source}"
+    option = "-e " if editable else ""
+    return f"{_quoted(sys.executable or 'python')} -m pip install {option}{_quoted(what, always=True)}"
+
+
+def _source() -> tuple[bool, Path | str | None]:
+    """Whether the installation follows its sources, and where it is from.
+
+    That is a folder, the address of a file or of a repository, or None for an index of packages.
+    """
+    try:
+        said = json.loads(distribution(NAME).read_text("direct_url.json") or "{}")
+        address, folder = str(said.get("url", "")), said.get("dir_info")
+    except PackageNotFoundError:
+        return _sources()
+    except (OSError, ValueError, AttributeError):
+        return False, None
+    if not address:
+        return False, None
+    if folder is None:
+        versions = said.get("vcs_info")
+        if versions:
+            return False, f"{versions.get('vcs', 'git')}+{address}@{versions.get('commit_id', 'HEAD')}"
+        local = urlsplit(address).scheme == "file"
+        return False, address if not local or _path(address).is_file() else None
+    path = _path(address)
+    return (bool(folder.get("editable")), path) if path.is_dir() else (False, None)
+
+
+def _sources() -> tuple[bool, Path | str | None]:
+    """The same where nothing is installed, and the sources are run as they stand."""
+    path = Path(__file__).resolve().parents[2]
+    return (True, path) if (path / "pyproject.toml").is_file() else (False, None)
+
+
+def _path(address: str) -> Path:
+    return Path(url2pathname(urlsplit(address).path))
+
+
+def _quoted(text: str, *, always: bool = False) -> str:
+    """A word of a line for a shell; ``always`` one with brackets, which some shells take for a pattern."""
+    if os.name == "nt" or (always and not set('"$`\\!') & set(text)):
+        return f'"{text}"' if always or " " in text else text
+    return shlex.quote(text)

@@ -188,6 +188,47 @@ def test_hostile_questions_are_told_in_a_few_words(page, what, body):
     assert "please report" not in found.decode()
 
 
+LONG = {
+    "parts": {".".join("a" * 100_000): 1},
+    "parts-below": {f"parameters.{'.'.join('a' * 20_000)}": 1},
+    "keys": {f"parameters.{'.'.join([f'k{number}'] * 60)}": 1 for number in range(1000)},
+    "list": {"parameters.eccentricity": [1] * 600_000},
+    "tables": {"parameters.eccentricity": [{"a": 1}] * 150_000},
+    "depth": {"parameters.eccentricity": json.loads("[" * 300 + "]" * 300)},
+    "text": {"parameters.material": "x" * 1_900_000},
+    "key-within": {"parameters.eccentricity": {".".join("a" * 500_000): 1}},
+    "digits": {"parameters.eccentricity": int("9" * 4000)},
+}
+
+
+@pytest.mark.parametrize("what", ["motion", "save", "save-as"])
+@pytest.mark.parametrize("change", LONG.values(), ids=LONG)
+def test_what_is_long_to_answer_is_refused_at_once(page, change, what):
+    """A key of 100,000 parts took 11 s, a list of 600,000 numbers more than a minute."""
+    digest = page.ask("described", change={})["digest"]
+    began = time.monotonic()
+    found = page.ask(what, change=change, digest=digest, name="other")
+    assert found["error"]
+    assert "please report" not in found["error"]
+    assert len(found["error"]) < 3000
+    assert time.monotonic() - began < 8
+    assert not page.path.with_name("other.toml").exists()
+
+
+def test_the_file_is_looked_at_before_it_is_saved_over(page):
+    """What somebody has put there since has the same bounds."""
+    before = page.path.read_bytes()
+    try:
+        page.path.write_text('"\\"".' * 100_000 + "a = 1\n")
+        began = time.monotonic()
+        digest = json.loads(page.get("news?known="))["digest"]
+        found = page.ask("save", change={"parameters.eccentricity": 0.2}, digest=digest)
+        assert "a key with more than 64 parts" in found["error"]
+        assert time.monotonic() - began < 8
+    finally:
+        page.path.write_bytes(before)
+
+
 def test_the_keyboard_ends_it_while_answers_are_under_way(tmp_path):
     """Some take half a minute each; nobody waits for them."""
     path = tmp_path / "pair.toml"

@@ -138,15 +138,15 @@ def test_a_second_rename_that_fails_is_undone(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(files, "_exchange", lambda one, two: False)
     target = tmp_path / "out"
     run(target, "build", x="old")
-    rename, calls = Path.rename, []
+    rename, calls = os.replace, []
 
-    def fail_second(self: Path, to: Path) -> Path:
+    def fail_second(one: Path, to: Path) -> None:
         calls.append(to)
         if len(calls) == 2:
             raise OSError(28, "No space left on device")
-        return rename(self, to)
+        rename(one, to)
 
-    monkeypatch.setattr(Path, "rename", fail_second)
+    monkeypatch.setattr(os, "replace", fail_second)
     with pytest.raises(OutputError, match="No space left"):
         run(target, "build", x="new")
     assert (target / "x").read_text() == "old"

@@ -12,7 +12,8 @@ import pytest
 
 from mechwright import reading
 from mechwright.contracts.finding import Finding
-from mechwright.designs.files import read_toml
+from mechwright.designs.change import rewritten
+from mechwright.designs.files import SIZE_LIMIT, read_toml
 from mechwright.errors import LONGEST, MOST_LINES, DesignError, MechwrightError, OutputError, shortened
 from mechwright.output.folder import Output, write_folder, write_new
 
@@ -114,8 +115,12 @@ def test_an_integer_of_more_than_64_bits_is_no_toml(value, tmp_path):
         "[" + "a." * 450_000 + "b]\nc = 1\n",
         "x = {" + "a . 'b' .\t\"c\"." * 30 + "d = 1}\n",
         "[" + ".".join("a" * 65) + "]\n",
+        r'"\"".' * 100_000 + "b = 1\n",
+        r'"a\\".' * 100_000 + "b = 1\n",
+        "''." * 200_000 + "b = 1\n",
+        "[[" + "a." * 450_000 + "b]]\n",
     ],
-    ids=["key", "table", "inline", "just"],
+    ids=["key", "table", "inline", "just", "escaped", "backslashes", "empty", "tables"],
 )
 def test_a_key_of_many_parts_is_refused_at_once(text, tmp_path):
     """Who reads it takes the square of their number: 300,000 took minutes."""
@@ -131,6 +136,63 @@ def test_a_key_of_sixty_four_parts_and_a_text_of_more_are_read(tmp_path):
     path = tmp_path / "a.toml"
     path.write_text('s = "' + "a." * 100 + '"\n[' + ".".join("a" * 64) + "]\n")
     assert read_toml(path)[0]["s"] == "a." * 100
+
+
+def filled(line, before=""):
+    """A text of nearly as many bytes as a file may have, whose lines have their numbers in them."""
+    count = (SIZE_LIMIT - len(before)) // len(line.format(100_000))
+    return before + "".join(line.format(number) for number in range(count))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            filled("a." * 60 + "b{} = 1\n", "[" + "h." * 60 + "h]\n"),
+            "a key with more than 8 parts in more than",
+        ),
+        (filled("a{} = 1\n", "[" + "h." * 60 + "h]\n"), "a key with more than 8 parts in more than"),
+        (filled("[" + "h." * 60 + "b{}]\n"), "a key with more than 8 parts in more than"),
+        ("x = {" + filled("a." * 60 + "b{} = 1, ") + "c = 1}", "a key with more than 8 parts in more than"),
+        (filled("a{} = 1\n", "[" + "h" * 500_000 + "]\n"), "has 500,000 characters; write at most 255"),
+        ("a = " + "[" * 100_000 + "]" * 100_000, "nested too deep"),
+        ("a = " + "{a = " * 100_000 + "1" + "}" * 100_000, "nested too deep"),
+        ("a = " + "9" * 900_000, "at most 19 digits"),
+        ("a = 0x" + "f" * 900_000, "at most 19 digits"),
+    ],
+    ids=["keys", "table", "tables", "inline", "name", "lists", "inline-tables", "digits", "hexadecimal"],
+)
+def test_what_would_take_long_or_much_memory_is_refused_at_once(text, said, tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text(text)
+    began = time.process_time()
+    with pytest.raises(DesignError, match=said) as caught:
+        read_toml(path)
+    assert time.process_time() - began < 2
+    assert len(str(caught.value)) < 500
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a = 1\n" + "# more\n" * 30_000, "has 210,006 characters; at most 200,000 are rewritten"),
+        ("a." * 9 + "b = 1\n", "has a key with more than 8 parts"),
+    ],
+)
+def test_what_would_take_long_to_rewrite_is_refused_at_once(text, said):
+    began = time.process_time()
+    with pytest.raises(DesignError, match=said):
+        rewritten(text, {"a": 2})
+    with pytest.raises(DesignError, match="has 200,0"):
+        rewritten("a = 1\n", {"a": "x" * 200_000})
+    assert time.process_time() - began < 2
+
+
+def test_a_table_with_long_names_is_read(tmp_path):
+    """Layers of drawings have up to 255 characters."""
+    path = tmp_path / "a.toml"
+    path.write_text(f'[parameters.layers]\n"{"x" * 255}" = "outline"\n')
+    assert len(read_toml(path)[0]["parameters"]["layers"]) == 1
 
 
 def test_every_message_has_a_length():

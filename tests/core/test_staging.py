@@ -17,7 +17,8 @@ from writing_faults import KINDS, Shim, built, counted
 from mechwright.beside import Beside
 from mechwright.output import folder as files
 from mechwright.output.folder import Output, write_folder, write_new
-from mechwright.output.staging import MARK, OLD, locked, remove_leftovers, staging_folder
+from mechwright.output.locking import life_lock
+from mechwright.output.staging import MARK, OLD, remove_leftovers, staging_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and rights of POSIX")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "elliptic-pair.toml"
@@ -102,10 +103,11 @@ def test_a_folder_that_somebody_takes_away_before_it_is_locked_is_made_anew(
             path.rmdir()
 
     monkeypatch.setattr(Path, "mkdir", mkdir)
-    with staging_folder(tmp_path / "out") as folder:
+    with staging_folder(tmp_path / "out") as staged:
+        folder = staged.path
         assert folder.is_dir()
         assert folder != taken[0]
-        with locked(folder) as ours:
+        with life_lock(folder) as ours:
             assert not ours
     assert names(tmp_path) == set()
 

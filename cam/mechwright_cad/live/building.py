@@ -23,6 +23,7 @@ class Building:
         self._said: list[str] = []
         self._at: dict[str, Any] = {}
         self._printed = ""
+        self._lock = threading.Lock()
 
     @property
     def folder(self) -> Path:
@@ -36,15 +37,20 @@ class Building:
 
     def start(self) -> None:
         """Begin a build of the file as it is; nothing happens where one is under way."""
-        if self.runs:
-            return
+        with self._lock:  # two pages may ask at once
+            if not self.runs:
+                self._begin()
+
+    def _begin(self) -> None:
         self._said, self._at, self._printed = [], {}, ""
         self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and a file that the user named
             [sys.executable, "-m", "mechwright", "build", str(self._path), "-o", str(self.folder)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, IN_LINES: "1", "NO_COLOR": "1"},
+            encoding="utf-8",
+            errors="replace",
+            env={**os.environ, IN_LINES: "1", "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"},
             start_new_session=True,
         )
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()

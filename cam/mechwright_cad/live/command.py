@@ -1,12 +1,12 @@
 """The command ``live``."""
 
+import contextlib
 import webbrowser
 from pathlib import Path
 
 import typer
 
 from mechwright.cli.hosting import open_host
-from mechwright.errors import OutputError
 
 
 def live(path: Path, port: int, show: bool) -> None:
@@ -15,22 +15,20 @@ def live(path: Path, port: int, show: bool) -> None:
     Raises
     ------
     OutputError
-        The port is taken, or the extra ``live`` is not installed.
+        The port is taken.
     MechwrightError
         The design file cannot be read.
     """
-    try:
-        from mechwright_cad.live.server import serve
-    except ModuleNotFoundError as error:
-        raise OutputError(
-            f'live: {error.name} is not installed; pip install "mechwright[live]" brings it'
-        ) from error
+    from mechwright_cad.live.handover import Handover
+    from mechwright_cad.live.server import serve
 
-    def ready(address: str) -> None:
+    def ready(address: str, handover: Handover) -> None:
         typer.echo(f"{path}: {address}")
         typer.echo("for this machine alone; Ctrl-C ends it")
         if show:
-            webbrowser.open(address)
+            # Every user of the machine reads command lines: a browser's has the name of a file, no secret.
+            with contextlib.suppress(OSError, webbrowser.Error):
+                webbrowser.open(handover.entry_page().as_uri())
 
     serve(path, open_host(), port, ready)
     typer.echo("ended")

@@ -1,23 +1,31 @@
 """The file that a page shows and follows: read, watched, written where the page says so."""
 
-import tomllib
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.part import check_name
+from mechwright.designs.bounded_toml import DEEP, toml_of
 from mechwright.designs.change import rewritten
 from mechwright.designs.files import read_text
 from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import units_of, written
-from mechwright.errors import DesignError, MechwrightError, OutputError
-from mechwright.output.folder import rewrite, write_new
+from mechwright.errors import DesignError, MechwrightError
+from mechwright.output.folder import ChangedError, rewrite, write_new
 from mechwright.plugins.host import Host
 
 Change = Mapping[str, Any]
 Asked = Mapping[str, Any]
 """What a page sends: an object of JSON."""
+MOST_KEYS = 1000
+"""Keys of a change: a page has some hundreds of fields."""
+MOST_VALUES = 10_000
+"""Texts, numbers, lists and tables in the values of a change: points of a path, rows of a table."""
+DEEPEST_VALUE = 8
+"""Lists and tables in each other in a value."""
+LONGEST_CHANGE = 500
+"""Characters of a key of a change."""
 Answering = Callable[[Asked], Mapping[str, Any]]
 
 
@@ -61,18 +69,28 @@ class Following(ABC):
 
         Raises
         ------
-        OutputError
-            The file is another than the page knows.
+        ChangedError
+            The file is another than the page knows. Of several saves of one state at once, one is written.
         DesignError
             The change cannot be written, or the new file could not be read.
         """
+        said = f"{self.path.name}: has changed on disk since; look at it first, then save again"
         text, now = read_text(self.path)
         if now != digest:
-            raise OutputError(
-                f"{self.path.name}: has changed on disk since; look at it first, then save again"
-            )
-        rewrite(self.path, self._text(text, change), known=now)
+            raise ChangedError(said)
+        try:
+            rewrite(self.path, self._text(text, change), known=now)
+        except ChangedError:
+            raise ChangedError(said) from None
         return f"{self.path.name}: saved"
+
+    def _saved(self, body: Asked) -> Mapping[str, Any]:
+        """Where the file is another by now, what it holds goes with the error."""
+        try:
+            return {"said": self.save(change_of(body), text_of(body, "digest"))}
+        except ChangedError as error:
+            text, digest = read_text(self.path)
+            return {"error": str(error), "changed": {"text": text, "digest": digest}}
 
     def save_as(self, change: Change, name: str) -> str:
         """Write what is shown to a new file beside the old one; raises as :meth:`save` does."""
@@ -85,19 +103,19 @@ class Following(ABC):
         return f"{target.name}: written"
 
     def _text(self, text: str, change: Change) -> str:
-        said = tomllib.loads(text)
+        said = toml_of(text, self.path)
         own = "requirement" if "requirement" in said else "parameters"
         units = units_of(said, self.path)
         schemas = schemas_of(self.host, said, own) if units == "inch" else {}
         new = rewritten(text, written(change, units, schemas))
-        self.accept(tomllib.loads(new))
+        self.accept(toml_of(new, self.path))
         return new
 
     def common(self) -> dict[str, Answering]:
         """What every page can ask."""
         return {
             "described": lambda body: self.described(change_of(body)),
-            "save": lambda body: {"said": self.save(change_of(body), text_of(body, "digest"))},
+            "save": self._saved,
             "save-as": lambda body: {"said": self.save_as(change_of(body), text_of(body, "name"))},
         }
 
@@ -110,11 +128,36 @@ def text_of(body: Asked, key: str) -> str:
     return found
 
 
+def _require_short(change: Change) -> None:
+    """Raise DesignError for values that no page sends; they are looked at level by level."""
+    level, count = list(change.values()), 0
+    for _ in range(DEEPEST_VALUE):
+        count += len(level)
+        if count > MOST_VALUES:
+            raise DesignError(f"the page sent more than {MOST_VALUES:,} values; write them into the file")
+        level = [
+            one
+            for value in level
+            if isinstance(value, (list, dict))
+            for one in (value.values() if isinstance(value, dict) else value)
+        ]
+        if not level:
+            return
+    raise DesignError(f"the page sent a value deeper than {DEEPEST_VALUE} lists; write it into the file")
+
+
 def change_of(body: Asked) -> dict[str, Any]:
     """The change of a request: dotted keys to values; raises DesignError where it is none."""
     found = body.get("change")
-    if not isinstance(found, dict) or len(found) > 1000:
+    if not isinstance(found, dict) or len(found) > MOST_KEYS:
         raise DesignError("the page sent no change")
+    for key in found:
+        if len(key) > LONGEST_CHANGE or key.count(".") >= DEEP:
+            raise DesignError(
+                f"the page sent the key {key[:40]!r}...: a key has at most {DEEP} parts and {LONGEST_CHANGE} "
+                "characters"
+            )
+    _require_short(found)
     if any(key.partition(".")[0] in {"family", "format", "name", ""} for key in found):
         raise DesignError("family, format and name of a design are changed in its file")
     return found

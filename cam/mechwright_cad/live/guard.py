@@ -7,6 +7,7 @@ from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from mechwright_cad.live.handover import ENTRY, SHORT, Handover
 from mechwright_cad.live.patience import PATIENCE
 
 HEADERS = {
@@ -28,12 +29,13 @@ MOST = 2_000_000
 class Guard:
     """Refuse whatever does not come from the page itself.
 
-    The address has to begin with the token, ``Host`` to be this machine with this port (a name that somebody
-    else has pointed here is refused), and ``Origin`` of all that is no GET to be the same.
+    The address has to begin with the token, or with the place of the browser that has the cookie. ``Host``
+    has to be this machine with this port (a name that somebody else has pointed here is refused), and
+    ``Origin`` of all that is no GET the same. The entry page, a file, has no origin: its code alone counts.
     """
 
-    def __init__(self, app: ASGIApp, token: str, port: int) -> None:
-        self._app, self._token = app, token
+    def __init__(self, app: ASGIApp, token: str, port: int, handover: Handover) -> None:
+        self._app, self._token, self._handover = app, token, handover
         self._hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
         self._origins = {f"http://{host}" for host in self._hosts}
 
@@ -42,6 +44,9 @@ class Guard:
         if scope["type"] != "http":
             return
         headers = {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
+        if scope["path"] == f"/{ENTRY}" and scope["method"] == "POST" and headers.get("host") in self._hosts:
+            await self._enter(receive, send)
+            return
         if not self._known(scope, headers):
             await _refuse(send, 403, b"this address is not known here\n")
             return
@@ -64,11 +69,31 @@ class Guard:
                 message = {**message, "headers": [*message["headers"], *extra]}
             await send(message)
 
-        await self._app({**scope, "path": scope["path"][len(self._token) + 1 :]}, receive, guarded)
+        first = scope["path"].split("/")[1]
+        await self._app({**scope, "path": scope["path"][len(first) + 1 :]}, receive, guarded)
+
+    async def _enter(self, receive: Receive, send: Send) -> None:
+        """The cookie for the code of the entry page."""
+        try:
+            form = await asyncio.wait_for(_body(receive, SHORT), PATIENCE)
+            found = self._handover.admitted(form)
+        except (TimeoutError, ValueError, _TooMuchError):
+            found = None
+        if found is None:
+            await _refuse(send, 403, b"this page has been opened already; the terminal has the address\n")
+            return
+        cookie, page = found
+        head = {**HEADERS, "content-type": "text/html; charset=utf-8", "set-cookie": cookie}
+        pairs = [(key.encode(), value.encode()) for key, value in head.items()]
+        await send({"type": "http.response.start", "status": 200, "headers": pairs})
+        await send({"type": "http.response.body", "body": page.encode()})
 
     def _known(self, scope: Scope, headers: Mapping[str, str]) -> bool:
         given = scope["path"].split("/")[1:2]
-        if not given or not secrets.compare_digest(given[0].encode(), self._token.encode()):
+        if not given:
+            return False
+        token = secrets.compare_digest(given[0].encode(), self._token.encode())
+        if not token and not self._handover.known(given[0], headers.get("cookie", "")):
             return False
         if headers.get("host") not in self._hosts:
             return False
@@ -80,6 +105,18 @@ class Guard:
 
 class _TooMuchError(Exception):
     pass
+
+
+async def _body(receive: Receive, most: int) -> bytes:
+    """A body of at most so many bytes; raises _TooMuchError."""
+    found, more = b"", True
+    while more:
+        message = await receive()
+        found += message.get("body", b"")
+        more = message.get("more_body", False)
+        if len(found) > most:
+            raise _TooMuchError
+    return found
 
 
 async def _whole(receive: Receive) -> Receive:

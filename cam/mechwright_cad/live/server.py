@@ -24,6 +24,7 @@ from mechwright.output.templates import templates
 from mechwright.plugins.host import Host
 from mechwright_cad.live.following import Answering, Following
 from mechwright_cad.live.guard import Guard
+from mechwright_cad.live.handover import Handover
 from mechwright_cad.live.patience import MANY, Impatient
 from mechwright_cad.live.session import Session
 from mechwright_cad.live.wishing import Wishing
@@ -47,6 +48,7 @@ class Server:
     """The pages and answers of a file; see :func:`serve`."""
 
     def __init__(self, path: Path, host: Host, port: int, token: str) -> None:
+        self.handover = Handover(f"http://{HOST}:{port}")
         self.shown = shown(path, host)
         self._workers = ThreadPoolExecutor(AT_A_TIME)
         routes = [
@@ -60,7 +62,7 @@ class Server:
                 for name, ask in self.shown.asks.items()
             ),
         ]
-        self.app = Guard(Starlette(routes=routes, lifespan=None), token, port)
+        self.app = Guard(Starlette(routes=routes, lifespan=None), token, port, self.handover)
 
     async def _news(self, request: Request) -> Response:
         """The digest of the file as soon as it is another than the one the page knows."""
@@ -74,6 +76,7 @@ class Server:
 
     def close(self) -> None:
         """End what was begun for the page; answers that are under way are nobody's any more."""
+        self.handover.close()
         self._workers.shutdown(wait=False, cancel_futures=True)
         self.shown.close()
 
@@ -147,8 +150,8 @@ def bound(port: int) -> socket.socket:
     return found
 
 
-def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> None:
-    """Serve the page of a design until it is interrupted; ``ready`` is told the address.
+def serve(path: Path, host: Host, port: int, ready: Callable[[str, Handover], None]) -> None:
+    """Serve the page of a design until it is interrupted; ``ready`` gets the address, and the other way in.
 
     Raises
     ------
@@ -173,7 +176,7 @@ def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> No
         )
         try:
             server.shown.described({})  # what is wrong with the file is told before anything is served
-            ready(f"http://{HOST}:{number}/{token}/")
+            ready(f"http://{HOST}:{number}/{token}/", server.handover)
             with contextlib.suppress(KeyboardInterrupt):
                 uvicorn.Server(settings).run(sockets=[taken])
         finally:

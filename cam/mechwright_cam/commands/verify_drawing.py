@@ -1,12 +1,12 @@
 """Proving a program against a drawing, without a design file."""
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.materials import MATERIALS
+from mechwright.designs.bounded_toml import DEEP, toml_of
 from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.plugins.host import Host
 from mechwright_cam.commands.drawing import read_drawing
@@ -139,12 +139,14 @@ def _set(table: dict[str, Any], change: str) -> None:
     path = [word.strip() for word in key.split(".")]
     if not sign or not all(path):
         raise DesignError(f"--set: {change!r} is no setting; write KEY=VALUE, as in hold.tabs=3")
+    if len(path) > DEEP:
+        raise DesignError(f"--set: a key of {len(path):,} parts; a key has at most {DEEP}")
     setting = path[2] if path[0] == "part" and len(path) > 2 else path[0]
     if setting in SAID_ELSEWHERE:
         raise DesignError(f"--set: {setting}: {SAID_ELSEWHERE[setting]}")
     try:
-        said: Any = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+        said: Any = toml_of(f"value = {value}", "--set")["value"]
+    except DesignError:
         said = value.strip()
     for word in path[:-1]:
         inner = table.setdefault(word, {})

@@ -1,5 +1,6 @@
 """The command line: the commands that are installed, in their order."""
 
+import inspect
 import os
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -11,6 +12,7 @@ import typer
 from mechwright.cli.command import Command
 from mechwright.cli.hosting import warn_broken
 from mechwright.cli.progress import standing
+from mechwright.extras import EXTRAS, install_line, require
 from mechwright.plugins.host import COMMANDS, load
 from mechwright.reading import once
 
@@ -49,6 +51,7 @@ def _stoppable(command: Command) -> Callable[..., None]:
 
     @wraps(command.run)
     def stoppable(*arguments: object, **options: object) -> None:
+        require(*command.libraries, by=command.name)
         with standing(), once() if command.reads_once else nullcontext():
             command.run(*arguments, **options)
 
@@ -71,5 +74,12 @@ def make_app() -> typer.Typer:
     if COMPLETING not in os.environ:
         warn_broken(found)
     for command in sorted(found.all(Command), key=lambda command: command.order):
-        app.command(command.name)(_stoppable(command))
+        extras = dict.fromkeys(EXTRAS[library] for library in command.libraries)
+        needs = "".join(f"\n\nIt needs the extra {extra}." for extra in extras)
+        lines = "\n".join(f"  {install_line(extra)}" for extra in extras)
+        app.command(
+            command.name,
+            help=inspect.cleandoc(command.run.__doc__ or "") + needs or None,
+            epilog=f"\b\nThe extra is installed by\n{lines}" if extras else None,
+        )(_stoppable(command))
     return app

@@ -11,6 +11,7 @@ import typer
 
 from mechwright.cli import completing
 from mechwright.contracts.plugin import Plugin
+from mechwright.extras import EXTRAS
 
 DesignFile = Annotated[
     Path,
@@ -81,13 +82,17 @@ class Command(Plugin):
     """Commands of lower order stand higher in ``--help``."""
     reads_once: ClassVar[bool] = True
     """Whether each file is read once, whatever becomes of it meanwhile; not if it follows a file."""
+    libraries: ClassVar[tuple[str, ...]] = ()
+    """Optional libraries, of :data:`mechwright.extras.EXTRAS`, without which it does no work at all."""
     run: ClassVar[Any]
     """A method whose annotations are typer's and whose docstring is the help; it imports what it needs when
     it runs."""
 
     @classmethod
     def fault(cls) -> str:
-        """Whether there is something to run."""
+        """Whether there is something to run, with libraries that an extra brings."""
+        if unknown := [library for library in cls.libraries if library not in EXTRAS]:
+            return f"its library {unknown[0]!r} is of no extra; one of: {', '.join(EXTRAS)}"
         return "" if callable(getattr(cls, "run", None)) else "it has no method run"
 
 

@@ -281,6 +281,7 @@ class Sweep(Command):
 
     name = "sweep"
     order = 95
+    libraries = ("pyarrow",)
 
     def run(
         self,

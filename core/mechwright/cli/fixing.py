@@ -12,6 +12,7 @@ from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.telling import tell
 from mechwright.contracts.finding import Change, Stage
+from mechwright.designs.bounded_toml import require_rewritable
 from mechwright.designs.change import changed, rewritten
 from mechwright.designs.design import Design, design_of, load
 from mechwright.designs.files import read_bytes, read_text
@@ -40,6 +41,7 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
     target = _target(path, output, write)
     found = open_host()
     text, digest = read_text(path)
+    require_rewritable(text, f"{path}:")
     design = load(path, found)
     with fraction() as progress:
         repair = repaired(design, found, stages[to], progress)

@@ -12,6 +12,7 @@ from mechwright.cli.progress import fraction
 from mechwright.cli.stopping import StoppedError
 from mechwright.cores import cores
 from mechwright.errors import DesignError
+from mechwright.extras import require
 from mechwright.sweep.run import Swept, sweep
 from mechwright.sweep.study import load_study
 from mechwright.sweep.workers import Alone, Cluster, Processes, Workers
@@ -22,9 +23,9 @@ ADDRESS = "DASK_SCHEDULER_ADDRESS"
 
 def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bool) -> None:
     """Evaluate the designs of a study; the exit code is 1 if none is allowed."""
+    workers = _workers(count, scheduler)
     installed = open_host()
     study = load_study(path, installed)
-    workers = _workers(count, scheduler)
     try:
         with fraction() as progress:
             found = sweep(study, folder, workers, installed, progress)
@@ -46,6 +47,7 @@ def _workers(count: int | None, scheduler: str) -> Workers:
             "--workers: goes with processes of this machine, and --scheduler with a cluster; take one"
         )
     if address:
+        require("distributed", by="--scheduler" if scheduler else ADDRESS)
         return Cluster(address)
     number = count or cores()
     return Alone() if number == 1 else Processes(number)

@@ -1,10 +1,15 @@
 """Names of files that every file system takes and keeps apart."""
 
+import sys
 import unicodedata
 from collections.abc import Iterable
+from pathlib import Path
 
 DEVICES = frozenset(
-    ("con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10)))
+    (
+        *("con", "prn", "aux", "nul", "conin$", "conout$"),
+        *(f"{port}{n}" for port in ("com", "lpt") for n in "0123456789¹²³"),
+    )
 )
 """Devices of Windows: with any ending, ``con.step``, they are no files there."""
 
@@ -62,3 +67,11 @@ def free_name(name: str, taken: Iterable[str]) -> str:
         number += 1
         found = f"{name}-{number}"
     return found
+
+
+def path_fault(path: Path, system: str = sys.platform) -> str:
+    """What is wrong with a name that a user gives on this system: :func:`name_fault` on Windows alone.
+
+    There a name ``a:b`` is a stream of the file ``a``, and ``nul`` takes everything and holds nothing.
+    """
+    return name_fault(path.name) if system == "win32" and path.name not in {"", ".."} else ""

@@ -6,6 +6,7 @@ from copy import deepcopy
 from typing import Any
 
 from mechwright.contracts.finding import Change
+from mechwright.designs.bounded_toml import require_rewritable
 from mechwright.errors import DesignError
 
 
@@ -31,6 +32,7 @@ def rewritten(text: str, change: Change) -> str:
     >>> rewritten("[parameters]\nbore = 10  # of the shaft\n", {"parameters.bore": 12})
     '[parameters]\nbore = 12  # of the shaft\n'
     """
+    require_rewritable(text, "the change cannot be written into the file: it")
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 
@@ -40,6 +42,7 @@ def rewritten(text: str, change: Change) -> str:
         new = tomlkit.dumps(document)
         if "\r\n" in text:
             new = new.replace("\r\n", "\n").replace("\n", "\r\n")
+        require_rewritable(new, "the change cannot be written into the file: with it, it")
         faithful = tomllib.loads(new) == changed(tomllib.loads(text), change)
     except (TOMLKitError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise DesignError(f"the change cannot be written into the file: {error}") from error

@@ -1,29 +1,17 @@
 """Reading files that people write: sizes, encodings, and what lies beside a design file."""
 
 import hashlib
-import re
-import tomllib
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.inputs import beside as beside
-from mechwright.designs.toml_hints import toml_hint
+from mechwright.designs.bounded_toml import toml_of
 from mechwright.errors import DesignError
 from mechwright.reading import INPUT_LIMIT as INPUT_LIMIT
 from mechwright.reading import read_bytes as read_bytes
 
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
-
-
-DEEPEST = 64
-"""Parts of a key, ``a.b.c``: no table has five, and what reads them takes the square of their number."""
-
-_DEEP = re.compile(
-    rf"""(?:^|[\[{{,])[ \t]*+(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}}""",
-    re.MULTILINE,
-)
 
 
 def read_text(
@@ -56,38 +44,4 @@ def digest_of(content: str | bytes) -> str:
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
     text, digest = read_text(path)
-    if _DEEP.search(text):
-        raise DesignError(f"{path}: is no valid TOML: a key with more than {DEEPEST} parts; nested too deep")
-    try:
-        content = tomllib.loads(text)
-    except RecursionError as error:
-        raise DesignError(f"{path}: is no valid TOML: nested too deep") from error
-    except tomllib.TOMLDecodeError as error:
-        hint = toml_hint(text, str(error))
-        raise DesignError(f"{path}: is no valid TOML: {error}" + (f"; {hint}" if hint else "")) from error
-    except ValueError as error:  # Python turns no text of thousands of digits into an integer
-        raise _too_many_digits(path, "") from error
-    if (key := _long_integer(content)) is not None:
-        raise _too_many_digits(path, f"{key}: ")
-    return content, digest
-
-
-def _too_many_digits(path: Path, key: str) -> DesignError:
-    return DesignError(
-        f"{path}: {key}is no valid TOML: an integer has at most 19 digits (64 bits); write fewer"
-    )
-
-
-def _long_integer(content: Mapping[str, Any]) -> str | None:
-    """The key of an integer that is none of TOML's, if there is one."""
-    waiting: list[tuple[str, Any]] = [("", content)]
-    while waiting:
-        key, value = waiting.pop()
-        if isinstance(value, int):
-            if not -(1 << 63) <= value < 1 << 63:
-                return key
-        elif isinstance(value, Mapping):
-            waiting += ((f"{key}.{name}".lstrip("."), one) for name, one in value.items())
-        elif isinstance(value, list):
-            waiting += ((key, one) for one in value)
-    return None
+    return toml_of(text, path), digest

@@ -7,14 +7,22 @@ import os
 import shutil
 import stat
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mechwright.contracts.file_names import file_key, name_fault
+from mechwright.contracts.file_names import file_key, name_fault, path_fault
 from mechwright.errors import OutputError
-from mechwright.output.staging import OLD, folder_to_disk, locked, staging_folder, to_disk, write_through
+from mechwright.output.staging import (
+    OLD,
+    folder_to_disk,
+    move,
+    removed,
+    staging_folder,
+    to_disk,
+    write_through,
+)
 from mechwright.reading import kind_of, read_bytes
 
 MANIFEST = "manifest.json"
@@ -23,7 +31,13 @@ Content = str | bytes | Iterable[bytes]
 
 C = TypeVar("C", bound=Content)
 
+_OPEN_ELSEWHERE = (5, 32)
+"""Windows' numbers of the errors by which it refuses to move what a program has open."""
 _AT_FDCWD, _RENAME_EXCHANGE = -100, 2
+
+
+class ChangedError(OutputError):
+    """A file is another than the one that was read."""
 
 
 @dataclass
@@ -71,7 +85,8 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     made = 0
     try:
         _make_parents(target)
-        with staging_folder(target) as staging:
+        with staging_folder(target) as staged:
+            staging = staged.path
             stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
             kept = {name: entry for name, entry in old.items() if name not in stale}
             there = target.exists()
@@ -87,7 +102,8 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
             if there:
                 shutil.copymode(target, staging)
             made = staging.stat().st_ino
-            _swap(staging, target)
+            with staged.complete(target):
+                _swap(staging, target)
             folder_to_disk(target.parent)
     except OSError as error:
         raise _refusal(target, error) from error
@@ -123,6 +139,7 @@ def check_folder(target: Path) -> None:
 
 def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:
     """The folder itself, behind any symbolic link, and what an earlier run wrote into it."""
+    _require_name(target)
     try:
         here = _current()
         if here is None and not target.is_absolute():
@@ -143,6 +160,11 @@ def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:
         raise _refusal(target, error) from error
 
 
+def _require_name(path: Path) -> None:
+    if fault := path_fault(path):
+        raise OutputError(f"{path}: cannot be written: the name {fault}; give another name")
+
+
 def _current() -> Path | None:
     """The current folder; None where somebody has removed it."""
     try:
@@ -154,8 +176,14 @@ def _current() -> Path | None:
 def _refusal(target: Path, error: OSError | RuntimeError) -> OutputError:
     if isinstance(error, OutputError):
         return error
+    return OutputError(f"{target}: cannot be written: {_reason(error)}; nothing was changed")
+
+
+def _reason(error: OSError | RuntimeError) -> object:
     reason = getattr(error, "strerror", None) or error
-    return OutputError(f"{target}: cannot be written: {reason}; nothing was changed")
+    if getattr(error, "winerror", None) in _OPEN_ELSEWHERE:
+        return f"{reason}: close the programs and terminals that have it open"
+    return reason
 
 
 def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
@@ -174,8 +202,9 @@ def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
 
 
 def _carry_over(target: Path, staging: Path, leave: set[str]) -> None:
+    names = {file_key(name) for name in leave}
     for entry in sorted(target.iterdir()):
-        if entry.name in leave and not entry.is_dir():
+        if file_key(entry.name) in names and not entry.is_dir():
             continue
         if entry.is_dir() and not entry.is_symlink():
             shutil.copytree(entry, staging / entry.name, symlinks=True, copy_function=_link)
@@ -186,7 +215,7 @@ def _carry_over(target: Path, staging: Path, leave: set[str]) -> None:
 def _link(source: str, target: str) -> None:
     try:
         os.link(source, target, follow_symlinks=False)
-    except OSError:
+    except (OSError, NotImplementedError):  # not every system links links
         mode = os.lstat(source).st_mode
         if not stat.S_ISLNK(mode) and (kind := kind_of(mode)):
             raise OutputError(
@@ -198,20 +227,19 @@ def _link(source: str, target: str) -> None:
 def _swap(staging: Path, target: Path) -> None:
     """Put ``staging`` in the place of ``target``; then ``staging`` holds what was there, if anything."""
     if not target.exists():
-        staging.rename(target)
+        move(staging, target)
         return
     if _exchange(staging, target):
         return
     # No atomic exchange on this system: two renames, undone if the second fails.
     backup = staging.with_name(staging.name + OLD)
-    with locked(target):  # between the two it is no leftover
-        target.rename(backup)
-        try:
-            staging.rename(target)
-        except BaseException:
-            backup.rename(target)
-            raise
-    shutil.rmtree(backup, ignore_errors=True)
+    move(target, backup)
+    try:
+        move(staging, target)
+    except BaseException:
+        move(backup, target)
+        raise
+    removed(backup)
 
 
 def _exchange(one: Path, two: Path) -> bool:
@@ -228,25 +256,44 @@ def _exchange(one: Path, two: Path) -> bool:
 
 def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:
     """Write ``text`` to ``path`` in one step; refuses to replace a file unless told to."""
-    if path.exists():
-        if not replace:
-            raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
-        if kind := kind_of(path.stat().st_mode):
-            raise OutputError(f"{path}: is {kind}, which is not replaced; give another name")
-    try:
-        write_through(path, text.encode() if isinstance(text, str) else text)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+    def permitted() -> None:
+        if path.exists():
+            if not replace:
+                raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
+            if kind := kind_of(path.stat().st_mode):
+                raise OutputError(f"{path}: is {kind}, which is not replaced; give another name")
+
+    _require_name(path)
+    permitted()
+    _write(path, text, permitted)
 
 
 def rewrite(path: Path, text: str, like: Path | None = None, known: str | None = None) -> None:
     """Write a file in one step, behind a link, with the rights of ``like``, or those that it has itself.
 
-    Raises OutputError where it cannot be written, or is no more what has the SHA-256 ``known``.
+    Raises OutputError where it cannot be written, or is no more what has the SHA-256 ``known``: of several
+    that rewrite one state, threads or processes, one can. Without ``known`` the file is a new one.
     """
     real = path.resolve()
-    if known is not None and hashlib.sha256(read_bytes(real, anew=True)).hexdigest() != known:
-        raise OutputError(f"{path}: has changed on disk since it was read; look at it first, then try again")
-    rights = (like or path).stat().st_mode & 0o777
-    write_new(real, text, replace=real.exists())
-    real.chmod(rights)
+
+    def permitted() -> None:
+        if known is None and real.exists():
+            raise OutputError(f"{path}: is there already; give another name")
+        if known is not None and hashlib.sha256(read_bytes(real, anew=True)).hexdigest() != known:
+            raise ChangedError(
+                f"{path}: has changed on disk since it was read; look at it first, then try again"
+            )
+
+    permitted()
+    _write(real, text, permitted, (like or path).stat().st_mode & 0o777)
+
+
+def _write(path: Path, text: str | bytes, permitted: Callable[[], None], rights: int | None = None) -> None:
+    try:
+        data = text.encode() if isinstance(text, str) else text
+        write_through(path, data, rights=rights, before=permitted)
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {_reason(error)}") from error

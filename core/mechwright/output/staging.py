@@ -1,7 +1,8 @@
 """Folders beside a target in which its next state is made; what killed processes left there goes.
 
-A staging folder is locked as long as its process lives, whatever ends it: the system gives the lock back.
-What has the name of one and no lock is nobody's any more. Where the system has no locks nothing is removed.
+A staging folder has a life lock as long as its process fills it; what has the name of one and no lock is
+nobody's any more. Files and folders are moved to their places closed, under the lock of the folder that they
+stand in. Where the system has no locks nothing is removed.
 """
 
 import contextlib
@@ -10,55 +11,111 @@ import re
 import secrets
 import shutil
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-if sys.platform != "win32":
-    import fcntl
+from mechwright.output.locking import folder_lock, life_lock, lives
 
 MARK = ".mechwright-"
 """Between the name of a target and the random end of the name of what is made for it: nobody else's."""
 OLD = "-old"
 """Behind the name of a staging folder: what stood in the target's place, for as long as two renames take."""
 
+_AGAIN = (0.1, 0.4, 1.0) if sys.platform == "win32" else ()
+"""Seconds before another try to move: Windows moves nothing that is open, and scanners open what is new."""
+
+
+@dataclass(frozen=True)
+class Staging:
+    """A staging folder, and its life lock."""
+
+    path: Path
+    life: ExitStack
+
+    @contextmanager
+    def complete(self, target: Path) -> Iterator[None]:
+        """The folder is as it should be: within the block it is moved, closed and under the folder lock."""
+        with folder_lock(target.parent):
+            self.life.close()
+            yield
+
 
 @contextmanager
-def staging_folder(target: Path) -> Iterator[Path]:
+def staging_folder(target: Path) -> Iterator[Staging]:
     """A new hidden folder beside a target, gone at the end together with what was left there by the dead.
 
     Its rights are those that the user's mask gives to new folders. Raises OSError where it cannot be made.
     """
     remove_leftovers(target)
     while True:
-        folder, ours = temporary_name(target), True
-        try:
-            folder.mkdir()  # unlike mkdtemp with the rights that the mask leaves
-        except FileExistsError:
-            continue
-        try:
-            with locked(folder) as ours:
+        folder, ours = temporary_name(target), False
+        with ExitStack() as life:
+            try:
+                with folder_lock(target.parent):  # nobody takes it for one of the dead before it has its lock
+                    try:
+                        folder.mkdir()  # unlike mkdtemp with the rights that the mask leaves
+                    except FileExistsError:
+                        continue
+                    ours = True
+                    ours = life.enter_context(life_lock(folder))
                 if ours:
-                    yield folder
+                    yield Staging(folder, life)
                     return
+            finally:
+                life.close()
+                if ours:
+                    _removed_whole(folder)
+
+
+def write_through(
+    target: Path, content: bytes, *, rights: int | None = None, before: Callable[[], None] | None = None
+) -> None:
+    """Put a file in its place in one step; raises OSError, and what stood there stands.
+
+    Parameters
+    ----------
+    target
+        Its place.
+    content
+        What it holds.
+    rights
+        Of the new file; by default those that the user's mask leaves.
+    before
+        Called under the folder lock, when nothing is left to do but the step itself; it raises where what
+        stands there is not to be replaced. Of several at once that would replace one state, one can.
+    """
+    with folder_lock(target.parent) as ours:
+        if ours:
+            _remove_dead(target)
+        temporary = temporary_name(target)
+        try:
+            with temporary.open("xb") as file:
+                if rights is not None:
+                    temporary.chmod(rights)
+                file.write(content)
+                to_disk(file)
+            if before is not None:
+                before()
+            move(temporary, target)
         finally:
-            if ours:
-                _removed_whole(folder)
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
 
 
-def write_through(target: Path, content: bytes) -> None:
-    """Put a file in its place in one step; raises OSError, and what stood there stands."""
-    remove_leftovers(target)
-    temporary = temporary_name(target)
-    try:
-        with temporary.open("xb") as file, locked(temporary):
-            file.write(content)
-            to_disk(file)
-            temporary.replace(target)
-    finally:
-        with contextlib.suppress(OSError):
-            temporary.unlink(missing_ok=True)
+def move(source: Path, target: Path) -> None:
+    """Give a file or folder, which nothing has open, another name; a file that has that name is replaced."""
+    for wait in _AGAIN:
+        try:
+            source.replace(target)
+        except PermissionError:
+            time.sleep(wait)
+        else:
+            return
+    source.replace(target)
 
 
 def to_disk(file: IO[bytes]) -> None:
@@ -86,6 +143,13 @@ def temporary_name(target: Path) -> Path:
 
 def remove_leftovers(target: Path) -> None:
     """Remove what dead processes have left beside a target; a state that was taken out is put back."""
+    with contextlib.suppress(OSError), folder_lock(target.parent, 0.0) as ours:
+        if ours:
+            _remove_dead(target)
+
+
+def _remove_dead(target: Path) -> None:
+    """The same under the folder lock, without which what stands beside a target may be of the living."""
     if sys.platform == "win32":
         return
     # What stands beside a target is many files at times, and none of them is opened but by its name.
@@ -93,48 +157,17 @@ def remove_leftovers(target: Path) -> None:
     with contextlib.suppress(OSError):
         for entry in [one for one in target.parent.iterdir() if ours.fullmatch(one.name)]:
             with contextlib.suppress(OSError):
-                _remove_dead(entry, target)
+                if not lives(entry):
+                    _remove_one(entry, target)
 
 
-def _remove_dead(entry: Path, target: Path) -> None:
-    handle = os.open(entry, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)  # OSError: its process lives
-        if entry.name.endswith(OLD) and not target.exists():
-            entry.rename(target)
-        elif entry.is_dir():
-            _removed(entry)
-        else:
-            entry.unlink()
-    finally:
-        os.close(handle)
-
-
-@contextmanager
-def locked(path: Path) -> Iterator[bool]:
-    """Hold the lock of a file or folder as long as the block, or the process, lasts.
-
-    False where somebody else has it, or has removed the path meanwhile for being nobody's.
-    """
-    if sys.platform == "win32":
-        yield True
-        return
-    try:
-        handle = os.open(path, os.O_RDONLY)
-    except FileNotFoundError:
-        yield False
-        return
-    try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            ours = path.exists() and os.path.samestat(path.stat(), os.fstat(handle))
-        except BlockingIOError:
-            ours = False
-        except OSError:  # some network disks have no locks: then nobody removes anything either
-            ours = True
-        yield ours
-    finally:
-        os.close(handle)
+def _remove_one(entry: Path, target: Path) -> None:
+    if entry.name.endswith(OLD) and not target.exists():
+        move(entry, target)
+    elif entry.is_dir():
+        removed(entry)
+    else:
+        entry.unlink()
 
 
 def _removed_whole(folder: Path) -> None:
@@ -144,16 +177,16 @@ def _removed_whole(folder: Path) -> None:
     next run, and is no reason to say that nothing was written.
     """
     try:
-        _removed(folder)
+        removed(folder)
     except KeyboardInterrupt:
-        _removed(folder)
+        removed(folder)
         raise
     except Exception:
         with contextlib.suppress(Exception):
-            _removed(folder)
+            removed(folder)
 
 
-def _removed(folder: Path) -> None:
+def removed(folder: Path) -> None:
     """Remove a folder; one whose rights forbid that gets other ones."""
     with contextlib.suppress(OSError):
         folder.chmod(0o700)

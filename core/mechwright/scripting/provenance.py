@@ -1,5 +1,6 @@
 """What a manifest says of a run besides its outputs: what went in, and which versions were at work."""
 
+import os
 import sys
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
@@ -17,11 +18,16 @@ from mechwright.plugins.host import Host
 def facts(design: Design, found: Host) -> dict[str, Any]:
     """Facts of a run on a design: the hash of its file and of all that it names."""
     inputs = {design.path.name: design.digest or digest_of(design.text)}
-    inputs |= {file.name: file.digest for file in input_files(design.params).values()}
+    inputs |= {_slashed(file.name): file.digest for file in input_files(design.params).values()}
     for name, value in design.tables.items():
         named = found.get(Table, name).inputs(value, design.path)
-        inputs |= {name: digest_of(read_bytes(file)) for name, file in named.items()}
+        inputs |= {_slashed(name): digest_of(read_bytes(file)) for name, file in named.items()}
     return run_facts(design.name, design.family, inputs, found)
+
+
+def _slashed(name: str) -> str:
+    """The name of a file as manifests have it on every system."""
+    return name.replace(os.sep, "/")
 
 
 def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:

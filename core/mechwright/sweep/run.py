@@ -12,7 +12,7 @@ from mechwright.contracts.finding import errors
 from mechwright.contracts.part import check_name
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.change import changed
-from mechwright.extras import optional
+from mechwright.extras import require
 from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
@@ -67,7 +67,7 @@ def sweep(study: Study, folder: Path, workers: Workers, host: Host, progress: Pr
     PluginError
         pyarrow is not installed, or workers fail.
     """
-    optional("pyarrow")
+    require("pyarrow")
     place = SweepFolder(folder, study, host)
     total = study.batches * study.batch + study.asked.refine * study.batch
     tasks = [Task(f"part-{number:06d}", number * study.batch, number) for number in range(study.batches)]

@@ -111,8 +111,9 @@ def fingerprint(family: str) -> str:
     found = hashlib.sha256()
     for package in ("mechwright", type(host().family(family)).__module__.partition(".")[0]):
         root = Path(str(import_module(package).__file__)).parent
-        for path in sorted(root.rglob("*.py")):
-            found.update(str(path.relative_to(root)).encode())
+        files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.py")}
+        for name, path in sorted(files.items()):
+            found.update(name.encode())
             found.update(path.read_bytes())
-    said = [f"{name} {version(name)}" for name in LIBRARIES]
+    said = [f"{library} {version(library)}" for library in LIBRARIES]
     return ", ".join([f"python {platform.python_version()}", *said, f"program {found.hexdigest()[:12]}"])

@@ -91,7 +91,8 @@ def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list
 
 def _written(design: Mapping[str, Any], folder: Path) -> Path:
     file = folder / "design.toml"
-    file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
+    text = "".join(f"{key} = {toml(value)}\n" for key, value in design.items())
+    file.write_text(text, encoding="utf-8", newline="\n")
     return file
 
 
@@ -107,6 +108,7 @@ def heavy_imports(module: str) -> list[str]:
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,
+        encoding="utf-8",
         check=False,
     )
     if done.returncode:

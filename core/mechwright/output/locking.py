@@ -1,0 +1,120 @@
+"""Locks between processes, given back by the system whatever ends their process.
+
+Glossary
+--------
+folder lock
+    Whoever has it is the only one who gives names in a folder, for the moment of a rename. It opens nothing
+    that is moved: Windows moves nothing that is open.
+life lock
+    Of a staging folder: a process that lives fills it. Windows has none, and nothing is removed there.
+"""
+
+import errno
+import hashlib
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+PATIENCE = 20.0
+"""Seconds until a folder lock has to be free: whoever has it brings one file to the disk."""
+_LOOK = 0.005
+"""Seconds between two tries."""
+
+
+@contextmanager
+def folder_lock(folder: Path, patience: float = PATIENCE) -> Iterator[bool]:
+    """Have the folder lock as long as the block lasts.
+
+    Gives False where the system has no locks, as some network disks, or the folder cannot be opened; then
+    nobody has it. Raises OSError where another thread or process has it for longer than ``patience``, in s.
+    """
+    try:
+        handle = _opened(folder)
+    except OSError:
+        yield False
+        return
+    try:
+        yield _locked(handle, folder, patience)
+    finally:
+        os.close(handle)  # gives the lock back
+
+
+def _opened(folder: Path) -> int:
+    if sys.platform == "win32":  # opens no folders: the lock is that of a file in the user's temporary folder
+        name = hashlib.sha256(os.path.normcase(os.path.realpath(folder)).encode()).hexdigest()
+        place = Path(tempfile.gettempdir(), f"mechwright-{name[:32]}.lock")
+        return os.open(place, os.O_RDWR | os.O_CREAT)
+    return os.open(folder, os.O_RDONLY)
+
+
+def _locked(handle: int, folder: Path, patience: float) -> bool:
+    end = time.monotonic() + patience
+    while True:
+        try:
+            if try_lock(handle):
+                return True
+        except OSError:
+            return False
+        if time.monotonic() >= end:
+            said = f"another process has been writing in {folder} for {patience:g} s; try again later"
+            raise OSError(errno.EAGAIN, said)
+        time.sleep(_LOOK)
+
+
+def try_lock(handle: int) -> bool:
+    """Whether the lock of an open file is now this handle's; raises OSError where there are no locks."""
+    try:
+        if sys.platform == "win32":
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+        else:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    return True
+
+
+@contextmanager
+def life_lock(path: Path) -> Iterator[bool]:
+    """Show that a file or folder is somebody's as long as the block, or the process, lasts.
+
+    False where somebody else has the lock, or has removed the path meanwhile for being nobody's.
+    """
+    if sys.platform == "win32":
+        yield True
+        return
+    try:
+        handle = os.open(path, os.O_RDONLY)
+    except FileNotFoundError:
+        yield False
+        return
+    except OSError:  # it cannot be opened, by nobody else either
+        yield True
+        return
+    try:
+        try:
+            ours = try_lock(handle) and path.exists() and os.path.samestat(path.stat(), os.fstat(handle))
+        except OSError:  # some network disks have no locks: then nobody removes anything either
+            ours = True
+        yield ours
+    finally:
+        os.close(handle)
+
+
+def lives(path: Path) -> bool:
+    """Whether a process that lives has the life lock; raises OSError where that cannot be seen."""
+    if sys.platform == "win32":
+        raise OSError(errno.ENOTSUP, "no life locks")
+    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    try:
+        return not try_lock(handle)
+    finally:
+        os.close(handle)
