@@ -45,7 +45,7 @@ def greatest(params: CamParams, measure: Measure) -> Extreme:
             found = _climb(segment, measure, low, high)
             if found.value > best.value + 1e-12 * abs(found.value):
                 best = found
-    return Extreme(best.value, params.sense * best.angle)
+    return Extreme(best.value, params.sense * best.angle + 0.0)  # never -0
 
 
 def least(params: CamParams, measure: Measure) -> Extreme:

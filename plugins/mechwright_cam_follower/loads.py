@@ -92,7 +92,7 @@ def loads_at(
     )
     if len(contacts) == 1:
         whole = np.maximum(whole, 0.0)
-    torque = params.sense * whole * rates.v / (1000.0 if params.translating else 1.0)
+    torque = params.sense * whole * rates.v / (1000.0 if params.translating else 1.0) + 0.0  # never -0
     pressures = tuple(map(lambda one, force: _pressure(params, one, force), contacts, forces))
     return Loads(forces, pressures, torque)
 
