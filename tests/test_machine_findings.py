@@ -120,6 +120,47 @@ def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fi
     assert not [one for one in again if one.severity is Severity.ERROR]
 
 
+@pytest.mark.parametrize(
+    ("example", "table", "fixed"),
+    [
+        (FOUR_BAR, 'load = 0.05\nspeed = 60\nmotor = "37D 18.75:1"', "machine.motor"),
+        ("elliptic-pair", 'motor = "37D 18.75:1"\nspeed = 60\nload = 0.1', "machine.motor"),
+        ("elliptic-pair", 'motor = "37D 150:1"\nspeed = 60\nload = 0.1', None),
+        ("geneva-straight", 'speed = 45\nmotor = "auto"\nload = 0.3', None),
+    ],
+)
+def test_a_motor_that_turns_unevenly_is_a_warning_whose_remedy_works(
+    tmp_path: Path, example: str, table: str, fixed: str | None
+) -> None:
+    """At the voltage that it says; typed, the remedy leaves no warning of the speed."""
+    build, inspection = build_of(tmp_path, example, table), MachineDrive()
+    (said,) = (one for one in inspection.findings(build) if one.code == "machine.speed")
+    data = json.loads(DrivePage().files(build)["drive.json"])["figures"]
+    least, mean, most, volts = (
+        data[name]["value"]
+        for name in ("least_driven_speed", "mean_driven_speed", "greatest_driven_speed", "motor_voltage")
+    )
+    assert f"at {volts:.3g} V" in said.message
+    assert f"{least:.4g} to {most:.4g} rev/min" in said.message
+    assert said.value == pytest.approx(max(most - mean, mean - least) / mean)
+    if fixed is None:
+        return
+    assert said.severity is Severity.WARNING
+    (told,) = (one for one in proposed_tried(build, inspection, [said]) if one.code == "machine.speed")
+    assert told.fix is not None
+    assert list(told.fix) == [fixed]
+    changed = Build(build.design.changed(told.fix), host())
+    (again,) = (one for one in inspection.findings(changed) if one.code == "machine.speed")
+    assert again.severity is Severity.NOTE
+
+
+def test_the_page_draws_the_speed_of_a_gear_motor_and_says_the_voltage(tmp_path: Path) -> None:
+    build = build_of(tmp_path, FOUR_BAR, 'load = 0.05\nspeed = 60\nmotor = "37D 131:1"')
+    html = str(DrivePage().files(build)["drive.html"])
+    assert "Speed of the input" in html
+    assert "V of its 12 V 37D 131:1 turns the input at" in html
+
+
 def test_the_speed_of_the_parameters_is_changed_where_the_table_has_none(tmp_path: Path) -> None:
     build = build_of(tmp_path, "crank-rocker-three-poles", 'motor = "37D 150:1"')
     build = Build(build.design.changed({"parameters.speed": 400.0}), host())

@@ -31,7 +31,7 @@ Measure = Callable[[Rates], Array]
 
 @dataclass(frozen=True)
 class Extreme:
-    """A value and the angle of the cam, rad, where it is."""
+    """A value and the angle of the cam, rad, where it is, counted about +z as the channel ``theta1`` is."""
 
     value: float
     angle: float
@@ -45,7 +45,7 @@ def greatest(params: CamParams, measure: Measure) -> Extreme:
             found = _climb(segment, measure, low, high)
             if found.value > best.value + 1e-12 * abs(found.value):
                 best = found
-    return best
+    return Extreme(best.value, params.sense * best.angle + 0.0)  # never -0
 
 
 def least(params: CamParams, measure: Measure) -> Extreme:

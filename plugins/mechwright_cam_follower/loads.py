@@ -6,7 +6,10 @@ motion, s'' ω² is the follower's acceleration):
 
     F = m ω² s'' + F0 + k s + F_load        T = J ω² ψ'' + T0 + k ψ + T_load
     N = F/cos α                             N = T/(l cos α), l from the lever's axis to the contact
-    torque of the camshaft = F s'           = T ψ'
+    torque of the camshaft = σ F s'         = σ T ψ'
+
+σ is 1 for a cam that turns counter-clockwise and -1 for one that turns clockwise: torque and speed of the
+camshaft are counted about +z, and their product is the power that the shaft is given.
 
 The follower stays on its cam as long as F is above 0. Of a conjugate pair the first cam carries where it is,
 and the second where it is below.
@@ -69,7 +72,7 @@ class Loads:
     pressure
         Hertz pressure of each, MPa.
     torque
-        Of the camshaft, N·m, against its turning where above 0.
+        That the camshaft has to be given, N·m about +z, as its angle is counted.
     """
 
     force: tuple[Array, ...]
@@ -89,7 +92,7 @@ def loads_at(
     )
     if len(contacts) == 1:
         whole = np.maximum(whole, 0.0)
-    torque = whole * rates.v / (1000.0 if params.translating else 1.0)
+    torque = params.sense * whole * rates.v / (1000.0 if params.translating else 1.0) + 0.0  # never -0
     pressures = tuple(map(lambda one, force: _pressure(params, one, force), contacts, forces))
     return Loads(forces, pressures, torque)
 

@@ -39,4 +39,4 @@ class CamStage(Transmission):
 
     def power(self, drive: Turning, motion: Motion) -> Array:
         """Of spring, load and what moves."""
-        return np.asarray(motion["torque"] * self.params.sense * drive.omega)
+        return np.asarray(motion["torque"] * drive.omega)

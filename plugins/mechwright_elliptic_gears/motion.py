@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Channel, Curve, Motion, Poses, Trace
+from mechwright import Array, Channel, Curve, Load, Motion, Poses, Trace
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import along, turning_channels
@@ -63,7 +63,8 @@ def driven_by(params: EllipticGearParams, gear2: Turning, time: Array) -> Motion
         + 1j * ellipse.semi_minor * np.sin(around)
     )
     curves = {f"pitch-{name}": Curve.planar(name, pitch) for name in poses if name.startswith("gear-")}
-    return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves)
+    loads = {"load_torque": Load("gear-4" if phase is None else "gear-5", resisting=params.load_torque)}
+    return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves, loads)
 
 
 def _turning(gear2: Turning, e: Any, phase: float | None) -> dict[str, Turning]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, Finding, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Channel, Finding, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors, refuse
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.planar.channels import point_channels, rate_channels, turning_channels
@@ -73,7 +73,10 @@ def motion_over(params: FiveBarParams, period: Period, *, varies: bool = True) -
     else:
         figures |= {f"{name}_max": value for name, value in rate_peaks(period_of(params).bodies).items()}
     trace = Trace("coupler", (point.real, point.imag, 0.0))
-    return Motion("theta", channels, frames_of(params, bodies), figures, {"P": trace}, held_by(params))
+    force = (params.load_x, params.load_y, 0.0)
+    loads = {"load": Load("coupler", force=force, point=trace.point)}
+    frames, held = frames_of(params, bodies), held_by(params)
+    return Motion("theta", channels, frames, figures, {"P": trace}, held, loads=loads)
 
 
 def _figures(params: FiveBarParams) -> dict[str, Scalar]:

@@ -6,8 +6,8 @@ that moves. Whether one plate is enough is asked for forces and for the masses o
 tells by itself.
 """
 
-import math
 from collections.abc import Callable, Collection
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
+from mechwright.mechanics.planar.course import counted_from
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION
 from mechwright.tolerances import falls_short
 from mechwright_four_bar.bounds import bears
@@ -112,11 +113,12 @@ def _figures(
         found.give(name, simple[name]())
     if asked & {"swing", "time_ratio", "limit_extended", "limit_folded"}:
         limits, cranks = bar.folding(), _crank_rocker(bar) & ~course.rocks
+        counted = partial(counted_from, course.start, course.travel)
         for name, value in (
             ("swing", np.degrees(limits.swing)),
             ("time_ratio", limits.time_ratio),
-            ("limit_extended", np.degrees((limits.extended + bar.ground_angle) % math.tau)),
-            ("limit_folded", np.degrees((limits.folded + bar.ground_angle) % math.tau)),
+            ("limit_extended", np.degrees(counted(limits.extended + bar.ground_angle))),
+            ("limit_folded", np.degrees(counted(limits.folded + bar.ground_angle))),
         ):
             if name in asked:
                 found.give(name, np.where(cranks, value, np.nan))

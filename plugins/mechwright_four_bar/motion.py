@@ -101,11 +101,12 @@ def _figures(params: FourBarParams) -> dict[str, Scalar]:
         return figures | _lever(params)
     limits = bar.limits()
     if limits is not None:
+        counted = course_of(params).counted
         figures |= {
             "swing": Scalar(limits.swing, "rad"),
             "time_ratio": Scalar(limits.time_ratio, ""),
-            "limit_extended": Scalar((limits.extended + bar.ground_angle) % math.tau, "rad"),
-            "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
+            "limit_extended": Scalar(float(counted(limits.extended + bar.ground_angle)), "rad"),
+            "limit_folded": Scalar(float(counted(limits.folded + bar.ground_angle)), "rad"),
         }
     return figures
 

@@ -3,7 +3,7 @@
 With the roller's normal n, its centre C and its speed D over the wheel (equations of the facts, section 11):
 
     lever of the wheel   a b |sin φ|/D,  cos δ = lever/|C|
-    N = T_w/lever,  T_w = J (θw'' ω² + θw' α) ± T_load,  crank torque ± T_w θw', - backwards
+    N = T_w/lever,  T_w = J (θw'' ω² + θw' α) ± T_load,  crank torque T_w θw'
     R = r (1 ∓ κ r),  p = sqrt(N E*/(π L R)),  1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2
 
 At mid stroke of a curved slot the normal lies on the line of centres, δ = 90 degrees: no force turns the
@@ -63,7 +63,7 @@ class Contact:
     pressure
         Hertz pressure, MPa.
     crank_torque
-        N·m, against the driver where positive.
+        N·m, that the driver has to be given about θd: with its speed the power that goes to the wheel.
     blocked
         Samples in the blocked zone.
     """
@@ -160,7 +160,7 @@ def _straight(run: Stroke, drive: Drive) -> Contact:
         wall,
         force,
         line_pressure(force, drive.length, drive.radius, drive.stiffness),
-        drive.sense * torque * run.first,
+        torque * run.first,
         none.astype(bool),
     )
 
@@ -188,7 +188,7 @@ def curved(run: Stroke, drive: Drive) -> Contact:
     radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), SHARPEST)
     force = np.abs(push)
     pressure = line_pressure(force, drive.length, radius, drive.stiffness)
-    return Contact(lever, delta, wall, carrier, force, pressure, drive.sense * torque * run.first, blocked)
+    return Contact(lever, delta, wall, carrier, force, pressure, torque * run.first, blocked)
 
 
 def stiffness(wheel: str, roller: str) -> float:

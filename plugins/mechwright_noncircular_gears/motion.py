@@ -11,6 +11,7 @@ from mechwright import (
     Curve,
     Joint,
     KinematicsError,
+    Load,
     Motion,
     Poses,
     Scalar,
@@ -101,7 +102,8 @@ def driven_by(params: NoncircularParams, driver: Turning, time: Array) -> Motion
         "o2": Joint("revolute", GROUND, "gear-2", (a, 0.0, 0.0)),
         "mesh": Joint("gear", "gear-1", "gear-2"),
     }
-    return Motion("theta1", channels, poses, figures(params), {}, held, _pitch_curves(params))
+    loads = {"load_torque": Load("gear-2", resisting=params.load_torque)}
+    return Motion("theta1", channels, poses, figures(params), {}, held, _pitch_curves(params), loads)
 
 
 def _pitch_curves(params: NoncircularParams) -> dict[str, Curve]:

@@ -1,6 +1,7 @@
 """How the crank of a slider-crank goes over one period, and where the slider comes to."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -113,17 +114,18 @@ def period_of(params: SliderCrankParams, samples: int = _SAMPLES) -> tuple[Array
 
 @kept
 def ends_of(params: SliderCrankParams) -> Limits:
-    """The ends of the slider's way, in closed form for a crank that turns."""
+    """The ends of the slider's way, in closed form for a crank that turns; angles as the channel ``phi``."""
     if not is_lever(params) and not params.linkage.at_limit:
-        return limits(params.linkage)
+        found, course = limits(params.linkage), course_of(params)
+        return replace(found, far=float(course.counted(found.far)), near=float(course.counted(found.near)))
     _, phi, bodies = period_of(params)
     positions = bodies.position
     far, near = sorted(
         (int(np.argmin(positions)), int(np.argmax(positions))), key=lambda k: -abs(positions[k])
     )
     return Limits(
-        float(phi[far]) % math.tau,
-        float(phi[near]) % math.tau,
+        float(phi[far]),
+        float(phi[near]),
         float(positions[far]),
         float(positions[near]),
         1.0,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array
+from mechwright.mechanics.planar.course import counted_from
 from mechwright_slider_crank.figures import Limits
 
 _LEVER_SAMPLES = 1441
@@ -65,8 +66,9 @@ class Cranks:
 
     @cached_property
     def ends(self) -> Limits:
-        """Ends of the slider's way, arrays (n,)."""
+        """Ends of the slider's way, arrays (n,); angles as the channel ``phi``."""
         a, c, e, direction, branch = self.bars.T
+        start, travel = self.drives.T[:2]
         with np.errstate(invalid="ignore", divide="ignore"):
             stretched = np.arcsin(e / (a + c))
             folded = math.pi + np.where(e != 0, np.arcsin(np.clip(e / (c - a), -1, 1)), 0.0)
@@ -77,8 +79,7 @@ class Cranks:
         inward = np.where(behind, math.tau - inward, inward)
         longer = np.maximum(inward, math.tau - inward)
         found = [
-            (stretched + direction) % math.tau,
-            (folded + direction) % math.tau,
+            *(counted_from(start, travel, one + direction) for one in (stretched, folded)),
             far,
             near,
             longer / np.minimum(inward, math.tau - inward),
@@ -102,4 +103,4 @@ def _swept(many: Cranks) -> tuple[Array, Array, Array, Array]:
     least, most = np.argmin(s, axis=1), np.argmax(s, axis=1)
     out = np.abs(s[each, least]) >= np.abs(s[each, most])
     far, near = np.where(out, least, most), np.where(out, most, least)
-    return phi[each, far] % math.tau, phi[each, near] % math.tau, s[each, far], s[each, near]
+    return phi[each, far], phi[each, near], s[each, far], s[each, near]

@@ -7,8 +7,17 @@ import pytest
 
 from mechwright import GROUND, Channel, Instance, Joint, Loop, Motion, Outline, Part, Poses, circle
 from mechwright.machine import MachineSettings, drive_of, motor_of
-from mechwright.machine.motors import EFFICIENCY, able_at, carried, curve_of, demand_of, geared_down, judged
-from mechwright.mechanics.strength.motor import gear_motor_margin, stepper_margin
+from mechwright.machine.motors import (
+    EFFICIENCY,
+    able_at,
+    carried,
+    curve_of,
+    demand_of,
+    geared_down,
+    judged,
+    with_speed,
+)
+from mechwright.mechanics.strength.motor import INERTIA_RATIO, gear_motor_margin, stepper_margin
 from mechwright.standards.motors import motor, motors
 
 SAMPLES = 361
@@ -58,14 +67,17 @@ def test_a_gear_takes_torque_and_adds_speed_and_its_losses_help_to_brake():
     assert demand_of(free, braking).rms == pytest.approx(math.sqrt(free.mean_of(wanted**2)), rel=1e-6)
 
 
-def test_auto_takes_the_lightest_that_is_enough():
+def test_auto_takes_the_lightest_that_is_enough_and_turns_evenly():
     for load in (0.02, 0.1, 0.3):
         asked = settings(load=load)
         found = drive(asked)
         choice = motor_of(found, asked)
-        lighter = [one for one in motors() if one.mass < choice.motor.mass]
         assert choice.enough
-        assert not any(judged(found, asked, one).enough for one in lighter)
+        seen = [with_speed(found, asked, judged(found, asked, one)) for one in motors()]
+        enough = [one for one in seen if one.enough and (one.ratio is None or one.ratio <= INERTIA_RATIO)]
+        wanted = next((one for one in enough if one.even), None)
+        wanted = wanted or min(enough, key=lambda one: one.speed.deviation)
+        assert choice.motor == wanted.motor
 
 
 def test_how_a_motor_covers_its_demand_is_the_formulas_of_strength():

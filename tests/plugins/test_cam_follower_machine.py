@@ -28,7 +28,7 @@ def test_drive_by_virtual_power_is_the_torque_of_the_camshaft(table):
     motion = motion_of(params, SAMPLES)
     drive = drive_of(motion, parts_of(params), MachineSettings(direction="forwards"))
     torque = motion["torque"]
-    assert_allclose(drive.runs[0].torque, torque, rtol=0, atol=2e-3 * np.abs(torque).max())
+    assert_allclose(params.sense * drive.runs[0].torque, torque, rtol=0, atol=2e-3 * np.abs(torque).max())
 
 
 def test_a_share_has_a_number_for_each_sample():

@@ -56,8 +56,7 @@ def test_the_drive_is_the_familys_own_torque(name, changes, share):
     drive = drive_of(motion, parts, MachineSettings())
     own = next(one.values for key, one in motion.channels.items() if key.endswith("_torque"))
     sense = 1.0 if drive.course.rocks else np.sign(np.diff(drive.course.angle[:2]))
-    geneva = "crank_torque" in motion.channels
-    found = drive.runs[0].torque * (1.0 if geneva else sense)
+    found = drive.runs[0].torque * sense
     np.testing.assert_allclose(found, own, rtol=0, atol=1e-6 * share * np.abs(own).max())
 
 
@@ -74,8 +73,8 @@ def test_a_geneva_driver_that_varies_also_asks_for_its_own_inertia(changes):
     motion, parts = solved(GENEVA, **changes)
     drive = drive_of(motion, parts, MachineSettings())
     sense = np.sign(np.diff(drive.course.angle[:2]))
-    rest = drive.runs[0].torque - motion.channels["crank_torque"].values
-    alpha = sense * motion.channels["alpha_d"].values
+    rest = sense * drive.runs[0].torque - motion.channels["crank_torque"].values
+    alpha = motion.channels["alpha_d"].values
     turned = np.abs(alpha) > 0
     felt = drive.reflected[drive.reflected.argmin()]  # while the wheel rests
     np.testing.assert_allclose(rest[turned], felt * alpha[turned], rtol=1e-6, atol=1e-9)

@@ -92,6 +92,20 @@ class Drive:
         runs = tuple(_run(self.course, conservative, resisting, run.name) for run in self.runs)
         return replace(self, resisting=resisting, of_load=share * self.of_load, runs=runs)
 
+    def slowed(self, share: float) -> "Drive":
+        """The same drive at that share of its speed; bodies of the course keep their rates."""
+        course = replace(
+            self.course,
+            time=self.course.time / share,
+            speed=self.course.speed * share,
+            acceleration=self.course.acceleration * share**2,
+        )
+        inertia = self.inertia * share**2
+        runs = tuple(
+            _run(course, inertia + self.weight + self.given, self.resisting, run.name) for run in self.runs
+        )
+        return replace(self, course=course, inertia=inertia, runs=runs)
+
     def peak(self) -> tuple[float, float, str]:
         """The greatest torque either way, N m with its sign, at which angle, rad, and in which run."""
         found = [(*greatest(run.torque, self.course.angle), run.name) for run in self.runs]
@@ -142,6 +156,11 @@ class Drive:
             return None
         angle = np.abs(self.course.angle - self.course.angle[0])
         return max(energy_swing(run.torque, angle) for run in self.runs)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether the input turns on at one speed."""
+        return not self.course.rocks and bool(np.ptp(self.course.speed) <= _SAME * self.speed)
 
     @property
     def repeats(self) -> bool:

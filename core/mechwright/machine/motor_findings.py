@@ -1,15 +1,25 @@
 """What is found of the motor of a machine, with changes that are tried."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from mechwright.build.build import Build
 from mechwright.contracts.finding import Change, Finding
 from mechwright.machine.drive import Drive
-from mechwright.machine.motors import Choice, able_at, carried, geared_down, stronger
+from mechwright.machine.motors import (
+    DEVIATION,
+    SHARES,
+    Choice,
+    able_at,
+    carried,
+    even_on,
+    geared_down,
+    more_even,
+    stronger,
+)
 from mechwright.machine.settings import MachineSettings
 from mechwright.mechanics.strength.motor import INERTIA_RATIO
-from mechwright.standards.motors import GearMotor
+from mechwright.standards.motors import NOMINAL_VOLTAGE, GearMotor
 
 
 def motor_findings(
@@ -45,7 +55,77 @@ def motor_findings(
             remedy=f"gear it down to {gear:g}, or take a motor with a heavier rotor",
             proposed=tuple(proposed),
         )
+    yield from _speeds(build, drive, settings, choice)
     yield from _manners(drive, choice)
+
+
+def speed_said(choice: Choice) -> str:
+    """How evenly a motor turns the input, at which voltage; empty where that cannot be said."""
+    seen, name = choice.speed, choice.motor.name
+    if seen is None:
+        return ""
+    mean = seen.requested * 60 / math.tau
+    if not isinstance(choice.motor, GearMotor):
+        return (
+            f"at {seen.voltage:g} V {name} keeps its steps: {mean:.4g} rev/min of the input all over the turn"
+        )
+    if seen.stalls:
+        return f"{name} stalls within the turn, {seen.run}: no voltage gives it a mean of {mean:.4g} rev/min"
+    least, most = (one * 60 / math.tau for one in (seen.least, seen.greatest))
+    return (
+        f"at {seen.voltage:.3g} V of its {NOMINAL_VOLTAGE:g} V {name} turns the input at {least:.4g} to "
+        f"{most:.4g} rev/min over the turn, {seen.run}, {mean:.4g} rev/min in the mean"
+    )
+
+
+def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choice) -> Iterator[Finding]:
+    """How evenly the motor turns the input."""
+    seen = choice.speed
+    if seen is None:
+        return
+    if choice.even:
+        yield Finding.note("machine.speed", speed_said(choice), seen.deviation)
+        return
+    words: list[str] = []
+    proposed: list[Change] = []
+    better = more_even(drive, settings)
+    if better is not None:
+        words.append(f"take {better.motor.name}")
+        proposed.append({"machine.motor": better.motor.name})
+    elif settings.frame in {"none", "plates"} and (geared := geared_down(drive, settings)) is not None:
+        words.append(f"gear it down to {geared:g}")
+        proposed.append({"machine.gear": geared})
+    if better is None:
+        key, now = _speed(build, drive, settings)
+        slower = _shares(now, lambda speed: even_on(drive.slowed(speed / now), settings))
+        if slower is not None:
+            words.append(f"run it at {slower:g} rev/min")
+            proposed.append({key: slower})
+        load = settings.load
+        lighter = (
+            _shares(load, lambda part: even_on(drive.lightened(part / load), settings)) if load else None
+        )
+        if lighter is not None:
+            words.append(f"load it by no more than {lighter:g} N·m")
+            proposed.append({"machine.load": lighter})
+    if not words:
+        words.append("lessen the load or what swings")
+    off = "" if seen.stalls else f", {100 * seen.deviation:.3g} % off"
+    yield Finding.warning(
+        "machine.speed",
+        "machine.motor",
+        f"{speed_said(choice)}{off}; the limit is {100 * DEVIATION:g} %",
+        None if seen.stalls else seen.deviation,
+        DEVIATION,
+        remedy=f"{', or '.join(words)}; a motor whose speed is controlled by an encoder keeps it as well, "
+        "but [machine] has no key for one",
+        proposed=tuple(proposed),
+    )
+
+
+def _shares(now: float, passes: Callable[[float], bool]) -> float | None:
+    """The greatest of the shares of a value that passes; None if none does."""
+    return next((value for value in (_below(share * now) for share in SHARES) if passes(value)), None)
 
 
 def _manners(drive: Drive, choice: Choice) -> Iterator[Finding]:

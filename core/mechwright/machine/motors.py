@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +24,10 @@ from mechwright.mechanics.strength.motor import (
     stepper_torque,
 )
 from mechwright.standards.motors import GearMotor, Stepper, motor, motors
+from mechwright.tolerances import exceeds
+
+if TYPE_CHECKING:
+    from mechwright.machine.speeds import InputSpeed
 
 EFFICIENCY = 0.9
 """Of a belt or gears between motor and input; a handbook figure."""
@@ -32,6 +37,9 @@ ENDLESS = 1e6
 
 STEPS = 200
 """Full steps of a turn of a stepper."""
+
+DEVIATION = 0.1
+"""Share of the requested speed by which that of the input may differ from it within the turn."""
 
 Motor = Stepper | GearMotor
 
@@ -55,6 +63,8 @@ class Choice:
         Whether a stepper runs at speeds at which it resonates without microsteps.
     voltage
         That a stepper's driver is fed with, V.
+    speed
+        Of the input with this motor; None where it is not enough, or not to turn at one speed.
     """
 
     motor: Motor
@@ -63,6 +73,12 @@ class Choice:
     ratio: float | None = None
     resonant: bool = False
     voltage: float = 24.0
+    speed: "InputSpeed | None" = None
+
+    @property
+    def even(self) -> bool:
+        """Whether the input stays near the requested speed all along, as far as that can be said."""
+        return self.speed is None or not exceeds(self.speed.deviation, DEVIATION)
 
     @property
     def enough(self) -> bool:
@@ -80,8 +96,7 @@ def demand_of(drive: Drive, settings: MachineSettings, rotor: float = 0.0, slowe
 
     ``slower`` is the share of the speed at which it runs: torques of inertia go with its square.
     """
-    course, gear = drive.course, settings.gear
-    efficiency = 1.0 if gear == 1 else EFFICIENCY
+    course, gear, efficiency = drive.course, settings.gear, efficiency_of(settings)
     accelerating = rotor * gear * course.acceleration * slower**2
     if not course.rocks:
         accelerating = accelerating * np.sign(course.angle[-1] - course.angle[0])
@@ -98,6 +113,21 @@ def demand_of(drive: Drive, settings: MachineSettings, rotor: float = 0.0, slowe
     return Demand(speed, settings.margin * peak, settings.margin * rms)
 
 
+def efficiency_of(settings: MachineSettings) -> float:
+    """Of what stands between motor and input."""
+    return 1.0 if settings.gear == 1 else EFFICIENCY
+
+
+def with_speed(drive: Drive, settings: MachineSettings, choice: Choice) -> Choice:
+    """The same with the speed of the input over the turn, where the motor is enough."""
+    if not choice.enough:
+        return choice
+    from mechwright.machine.speeds import input_speed
+
+    gear, efficiency = settings.gear, efficiency_of(settings)
+    return replace(choice, speed=input_speed(drive, choice.motor, gear, efficiency, settings.voltage))
+
+
 def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 1.0) -> Choice:
     """How a motor stands to a drive that runs at that share of its speed."""
     if isinstance(one, GearMotor):
@@ -112,20 +142,24 @@ def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 
 
 
 def motor_of(drive: Drive, settings: MachineSettings) -> Choice | None:
-    """The motor that is named, or the lightest that is enough; None where none is wanted.
+    """The motor that is named, or the lightest that is enough and turns evenly; None where none is wanted.
 
-    Where none is enough, that which covers most.
+    Where none turns evenly that which does so most, and where none is enough, the one that covers most.
     """
     if settings.motor == "none":
         return None
     if settings.motor != "auto":
-        return judged(drive, settings, motor(settings.motor))
+        return with_speed(drive, settings, judged(drive, settings, motor(settings.motor)))
     found = [judged(drive, settings, one) for one in motors()]
-    return (
-        next((one for one in found if one.enough and _steady(one)), None)
-        or next((one for one in found if one.enough), None)
-        or max(found, key=lambda one: one.cover)
-    )
+    steady = [one for one in found if one.enough and _steady(one)]
+    seen = []
+    for one in steady or [one for one in found if one.enough]:
+        seen.append(with_speed(drive, settings, one))
+        if seen[-1].even:
+            return seen[-1]
+    if seen:
+        return min(seen, key=lambda one: one.speed.deviation if one.speed else 0.0)
+    return max(found, key=lambda one: one.cover)
 
 
 def _steady(one: Choice) -> bool:
@@ -161,11 +195,11 @@ GEARS = (1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 
 
 
 def geared_down(drive: Drive, settings: MachineSettings) -> float | None:
-    """The least ratio beyond the present one with which the design's motor is enough; None if with none."""
+    """The least ratio above the present one with which the design's motor is enough and turns evenly."""
     for gear in GEARS:
         if gear > settings.gear:
             choice = motor_of(drive, settings.model_copy(update={"gear": gear}))
-            if choice is not None and choice.enough and _steady(choice):
+            if choice is not None and choice.enough and _steady(choice) and choice.even:
                 return gear
     return None
 
@@ -199,3 +233,19 @@ _HALVINGS = 24
 def stronger(drive: Drive, settings: MachineSettings) -> Sequence[Choice]:
     """All motors that are enough, the lightest first."""
     return [one for one in (judged(drive, settings, each) for each in motors()) if one.enough]
+
+
+def more_even(drive: Drive, settings: MachineSettings) -> Choice | None:
+    """The lightest motor that is enough and turns evenly; None if none does."""
+    seen = (with_speed(drive, settings, one) for one in stronger(drive, settings) if _steady(one))
+    return next((one for one in seen if one.even), None)
+
+
+SHARES = (0.8, 0.63, 0.5, 0.4, 0.315, 0.25, 0.2, 0.16, 0.125, 0.1)
+"""Shares of the speed or the load that are proposed: preferred numbers R10."""
+
+
+def even_on(drive: Drive, settings: MachineSettings) -> bool:
+    """Whether the design's motor is enough for a drive and turns it evenly."""
+    choice = motor_of(drive, settings)
+    return choice is not None and choice.enough and _steady(choice) and choice.even

@@ -11,7 +11,8 @@ from mechwright.build.figures import Figure, Grid, figures_page
 from mechwright.build.page import FileName, Page
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
-from mechwright.machine.motors import Choice, curve_of
+from mechwright.machine.motor_findings import speed_said
+from mechwright.machine.motors import DEVIATION, Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
 
@@ -33,6 +34,10 @@ FIGURES: Mapping[str, tuple[str, str]] = {
     "motor_rms": ("rms torque at the motor, with the margin", "N*m"),
     "motor_speed": ("greatest speed of the motor", "rev/min"),
     "motor_cover": ("times that the motor covers this", ""),
+    "least_driven_speed": ("least speed of the input over the turn with this motor", "rev/min"),
+    "mean_driven_speed": ("mean over time", "rev/min"),
+    "greatest_driven_speed": ("greatest", "rev/min"),
+    "motor_voltage": ("voltage of the motor, or of its driver, there", "V"),
     "inertia_ratio": ("inertia that its rotor feels, over its own", ""),
 }
 """Name in ``drive.json`` to words and unit."""
@@ -89,12 +94,26 @@ def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -
             "motor_rms": choice.demand.rms,
             "motor_speed": choice.demand.speed,
             "motor_cover": choice.cover,
+            **_speeds(choice),
             "inertia_ratio": choice.ratio,
         }
     return {
         name: float(f"{value:.{_DIGITS}g}")
         for name, value in found.items()
         if value is not None and math.isfinite(value)
+    }
+
+
+def _speeds(choice: Choice) -> dict[str, float | None]:
+    seen = choice.speed
+    if seen is None or seen.stalls:
+        return {}
+    least, mean, most = (one * 60 / math.tau for one in (seen.least, seen.requested, seen.greatest))
+    return {
+        "least_driven_speed": least,
+        "mean_driven_speed": mean,
+        "greatest_driven_speed": most,
+        "motor_voltage": seen.voltage,
     }
 
 
@@ -114,8 +133,10 @@ def _notes(settings: MachineSettings, choice: Choice | None) -> list[str]:
         else f"{choice.motor.name}{gear} covers {choice.cover:.3g} times what is asked, a margin of "
         f"{settings.margin:g} in it."
     )
+    said = "" if choice is None else speed_said(choice)
     return [
         motor,
+        *([f"{said[0].upper()}{said[1:]}."] if said else []),
         "Torque of accelerated masses as parts and materials have them, of loads, and of weights "
         f"({weights}); friction is in the margin alone. Positive torque drives, negative torque brakes.",
     ]
@@ -154,8 +175,24 @@ def _figures(name: str, drive: Drive, choice: Choice | None) -> list[Figure]:
         Figure("Inertia that the input feels", plot(felt, across, "kg·mm²"), "All that moves, reduced to it.")
     )
     if choice is not None:
-        found.append(_motor(choice))
+        found += [*_speed(name, choice), _motor(choice)]
     return found
+
+
+def _speed(name: str, choice: Choice) -> list[Figure]:
+    """The speed of the input over the turn with a gear motor; nothing of a stepper, which keeps its steps."""
+    seen = choice.speed
+    if seen is None or seen.stalls or choice.ratio is not None:
+        return []
+    angle, rate = np.degrees(seen.angle), seen.speed * 60 / math.tau
+    mean = np.full(angle.size, seen.requested * 60 / math.tau)
+    lines = [Line(seen.run, angle, rate), Line("requested", angle, mean, dashed=True)]
+    words = (
+        f"At a constant {seen.voltage:.3g} V the motor drives and brakes along its line. Inertia of the "
+        "mechanism evens the speed out; that of the motor's own rotor is not counted. "
+        f"{key(lines).capitalize()}; more than {100 * DEVIATION:g} % off is a warning."
+    )
+    return [Figure("Speed of the input", plot(lines, f"{name}, deg", "rev/min"), words)]
 
 
 def _motor(choice: Choice) -> Figure:

@@ -10,6 +10,9 @@ from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.standards.table import table
 
+NOMINAL_VOLTAGE = 12.0
+"""At which the gear motors of the table have their speeds and torques, V."""
+
 KG_MM = 9.80665e-3
 """A torque of one kilogram-force millimetre, N m."""
 
@@ -79,7 +82,7 @@ class Stepper:
 
 @dataclass(frozen=True)
 class GearMotor:
-    """A DC gear motor at 12 V; speeds in rev/min, torques in the table's kg mm, length mm, mass g."""
+    """A DC gear motor at its nominal voltage: rev/min, torques in the table's kg mm, length mm, mass g."""
 
     ratio: float
     no_load: float
@@ -111,7 +114,7 @@ class GearMotor:
     @property
     def bought(self) -> Bought:
         """How it is ordered."""
-        words = f"gear motor 37D, 12 V, {self.ratio:g}:1, {self.no_load:g} rev/min"
+        words = f"gear motor 37D, {NOMINAL_VOLTAGE:g} V, {self.ratio:g}:1, {self.no_load:g} rev/min"
         note = "no standard fixes its face; compare with the maker's sheet"
         return Bought(words, "", self.mass, self.face.shape(self.length), note)
 

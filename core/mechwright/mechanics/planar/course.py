@@ -50,6 +50,10 @@ class Course:
         """Of a lever that swings from ``one`` to ``two`` and back, rad."""
         return cls(one, two - one, rocks=True)
 
+    def counted(self, angle: Array | float) -> Array:
+        """The angles (...), rad, of a crank as its course counts them; see :func:`counted_from`."""
+        return counted_from(self.start, self.travel, angle)
+
     def way(self, samples: Samples) -> Array:
         """Input angles (samples,), rad, once along, both ends included; raises as :func:`travelled` does."""
         return travelled(self.travel, samples, self.start)
@@ -90,3 +94,15 @@ class Course:
         k = self.acceleration_ratio
         omega = math.copysign(speed, self.travel) * np.exp(k * (angles - self.start))
         return Turning.of(angles, omega, k * omega**2, 2 * k**2 * omega**3)
+
+
+def counted_from(start: Array | float, travel: Array | float, angle: Array | float) -> Array:
+    """Angles (...), rad, less than a turn from a start on, in the sense of the travel.
+
+    A crank that turns clockwise has its angles below its start, and so has each figure that is one of them.
+
+    >>> np.degrees(counted_from(0.0, -math.tau, np.radians([200.0, -20.0]))).round(9).tolist()
+    [-160.0, -20.0]
+    """
+    sense = np.sign(travel)
+    return np.asarray(start + sense * (sense * (angle - start) % math.tau))
