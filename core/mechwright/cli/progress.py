@@ -1,4 +1,4 @@
-"""A progress bar on a terminal; in a pipe nothing, a line now and then, or lines for a program that reads them."""
+"""A progress bar on a terminal; in a pipe nothing, a line now and then, or lines for a program."""
 
 import json
 import os

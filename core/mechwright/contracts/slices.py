@@ -1,8 +1,7 @@
 """A batch that is evaluated in slices: what is known of it, what is left, and how long to go on.
 
 A batch is answered by two kinds of work. Its *chunks* are the designs that one call of arrays answers, always
-the same ones; all other designs are asked *singly*. Neither depends on what else is evaluated with it. A batch
-gives the same bytes however its work is divided.
+the same ones; all other designs are asked *singly*. Neither depends on what else is evaluated with it.
 
 A family that evaluates by :func:`~mechwright.contracts.by_arrays.by_arrays`, or as the contract does by
 default, is divided without knowing it. An ``evaluate`` of another kind is one slice.

@@ -1,4 +1,4 @@
-"""Designs of the front, checked up to their programs: side by side, each verdict saved as soon as it is there."""
+"""Designs of the front, checked up to their programs: side by side, each saved as soon as it is done."""
 
 import hashlib
 import json

@@ -96,7 +96,7 @@ class SweepFolder:
         return True
 
     def whole(self, tasks: Iterable[Task]) -> set[str]:
-        """The names of tasks that are done; where many tables were not read in this run, these are not read."""
+        """The names of tasks that are done; many tables that were not read in this run are not read."""
         there = [task.name for task in tasks if regular(self.table(task.name))]
         known = {name for name in there if name in self._whole}
         unread = [name for name in there if name not in known]

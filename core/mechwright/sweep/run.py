@@ -131,7 +131,7 @@ def _evaluated(
     missing = without_tables(place, tasks)
     before = sum(task.size(study) for task in tasks) - sum(task.size(study) for task in missing)
     schedule = Schedule(place, standing, missing, workers.count)
-    bar.say(before)
+    bar.say(before + schedule.saved)
     for task, found in workers.done(Source.of(study), schedule) if missing else ():
         schedule.put(task, found)
         bar.say(before + schedule.finished + schedule.saved)

@@ -1,7 +1,8 @@
 """The batches of a study as they are worked on: cut into slices of some seconds, kept, and put together.
 
-A batch is *surveyed* first: evaluated from its beginning for some seconds, which is all of most batches. The rest
-is *open*: chunks and designs that workers take slice by slice, each as large as its predecessors' seconds say. Every slice is a file as soon as it is there. No design is given out twice.
+A batch is *surveyed* first: evaluated from its beginning for some seconds, which is all of most batches. The
+rest is *open*: chunks and designs that workers take slice by slice. The seconds of a slice say how large the
+next one is. Every slice is a file as soon as it is there. No design is given out twice.
 """
 
 from collections import deque
@@ -16,7 +17,7 @@ from mechwright.contracts.slices import Chunk, Places, Question, Work
 from mechwright.errors import PluginFaultError
 from mechwright.sweep.folder import SweepFolder
 from mechwright.sweep.portion import OfChunks, OfPlaces, Order, Portion, Survey, assembled, sliced
-from mechwright.sweep.slice_file import designs_in, slice_of, work_of
+from mechwright.sweep.slice_file import designs_in, saved_in, slice_of, work_of
 from mechwright.sweep.standing import Standing
 from mechwright.sweep.task import Task, batch_of
 
@@ -130,6 +131,10 @@ class Schedule:
         self.place, self.study, self.standing = place, place.study, standing
         self._new = deque(tasks)
         self._slices = place.all_slices()
+        self._waiting = {
+            task.name: sum(saved_in(self.study, path) for path in self._slices.get(task.name, []))
+            for task in tasks
+        }
         self._open: dict[str, _Open] = {}
         self._survey = LONGEST if 0 < workers <= len(tasks) else FIRST
         self.finished = 0
@@ -137,8 +142,8 @@ class Schedule:
 
     @property
     def saved(self) -> int:
-        """Designs that are in slices of batches that are open."""
-        return sum(one.saved for one in self._open.values())
+        """Designs that are in slices of batches that have no table yet."""
+        return sum(one.saved for one in self._open.values()) + sum(self._waiting.values())
 
     def take(self) -> Task | None:
         """The next slice; None where there is none before another one is back."""
@@ -149,6 +154,7 @@ class Schedule:
                 return replace(one.task, order=one.order())
         while self._new:
             task = self._new.popleft()
+            self._waiting.pop(task.name, None)
             paths = self._slices.get(task.name, [])
             if not paths:
                 return replace(task, order=Survey(self._survey))

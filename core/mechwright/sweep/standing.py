@@ -59,11 +59,10 @@ class Standing:
             return "the sweep had not begun; no file was changed"
         folder, saved, total = self.place.path, self.saved(), self.total
         if not saved:
-            return f"none of {total:,} designs is saved in {folder}; the same command begins anew"
-        are = "is" if saved == 1 else "are"
+            return f"saved in {folder}: none of {total:,} designs; the same command begins anew"
         if saved < total:
             rest = total - saved
-            return f"{saved:,} of {total:,} designs {are} saved in {folder}; {ON} with the other {rest:,}"
+            return f"saved in {folder}: {saved:,} of {total:,} designs; {ON} with the other {rest:,}"
         checks = len(self.place.checks())
-        besides = f", and {checks:,} checked for the front" if checks else ""
-        return f"all of {total:,} designs {are} saved in {folder}{besides}; {ON} from there"
+        besides = f", and {checks:,} checks for the front" if checks else ""
+        return f"saved in {folder}: all of {total:,} designs{besides}; {ON} from there"
