@@ -70,9 +70,9 @@ class Stopping(Alone):
             if number == self.slices:
                 raise StoppedError
             if isinstance(found, Portion):
-                self.asked.update(list(found.work.answers))
+                self.asked.update((task.name, chunk) for chunk in found.work.answers)
                 for question, some in found.work.singles.items():
-                    self.asked.update((question, place) for place in some.places.tolist())
+                    self.asked.update((task.name, question, place) for place in some.places.tolist())
             yield task, found
 
 
@@ -96,6 +96,29 @@ def test_each_design_is_evaluated_once_however_often_it_is_stopped(study, whole,
     assert all(
         one.endswith(f"goes on with the other {COUNT - n}") for one, n in zip(said, saved, strict=True)
     )
+
+
+@by_night
+def test_several_batches_and_rounds_of_search_are_cut_alike(tmp_path, short):
+    path, asked = tmp_path / "forces.toml", Counter()
+    path.write_text(sweep_in_slices.TEXT.format(more="batch = 24\nrefine = 1"))
+    several = load_study(path, host())
+    with pytest.MonkeyPatch.context() as long:
+        for name in ("LONGEST", "FIRST"):
+            long.setattr(schedule, name, 600.0)
+        sweep(several, tmp_path / "whole", Alone(), host())
+    while True:
+        workers = Stopping(4)
+        try:
+            sweep(several, tmp_path / "out", workers, host())
+            break
+        except StoppedError:
+            continue
+        finally:
+            asked.update(workers.asked)
+    assert len({key[0] for key in asked}) > 2
+    assert max(asked.values()) == 1
+    assert bytes_of(tmp_path / "out") == bytes_of(tmp_path / "whole")
 
 
 def test_nothing_saved_is_said(study, tmp_path, short):

@@ -338,7 +338,8 @@ class Family(Plugin, Generic[P]):
         -------
         columns
             The same numbers as ``solve`` and ``parts`` give for each of them, and the code of the first error
-            that ``judge`` finds. The default asks these three, one design after the other.
+            that ``judge`` finds. The default asks these three, one design after the other. A study cuts the
+            default, and ``by_arrays``, into slices that workers share; any other ``evaluate`` is one slice.
         """
         import numpy as np
 
