@@ -48,7 +48,18 @@ def evaluated(family: Family[Any], batch: Batch[Any], columns: list[str], seed: 
             assert max(seen.values()) == 1
             return found, known
         chunks, left = list(slices.chunks), dict(slices.left)
-        if chunks and (not left or rng.random() < 0.5):
+        if rng.random() < 0.3:  # from the beginning, until it is late
+            slices.begin(known, NOW)
+            family.evaluate(batch, columns, Stage.PARTS)
+            seen.update(list(slices.fresh.answers))
+            for question, one in slices.fresh.singles.items():
+                seen.update((question, place) for place in one.places.tolist())
+            known.update(slices.fresh)
+            said = {question: sorted(some.tolist()) for question, some in slices.left.items()}
+            slices.begin(known, 0.0)
+            family.evaluate(batch, columns, Stage.PARTS)
+            assert said == {question: sorted(some.tolist()) for question, some in slices.left.items()}
+        elif chunks and (not left or rng.random() < 0.5):
             none = {key: one for key, one in known.answers.items() if one.answer is None}
             few = Work({key: Answered(np.zeros(0, np.intp), None) for key in none})
             slices.begin(
