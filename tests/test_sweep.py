@@ -52,8 +52,8 @@ def test_a_full_disk_is_one_line_and_the_sweep_goes_on_from_there(tmp_path, monk
     done = swept(tmp_path / "out", "--workers", "1")
     assert done.exit_code != 0
     assert str(done.exception).endswith(
-        "part-000001.parquet: cannot be written: No space left on device; what is finished stays, and the same "
-        "command goes on with it"
+        f"part-000001.parquet: cannot be written: No space left on device; saved in {tmp_path / 'out'}: 8 of 24 "
+        "designs; the same command goes on with the other 16"
     )
     assert [path.name for path in (tmp_path / "out" / "tables").iterdir()] == ["part-000000.parquet"]
     assert swept(tmp_path / "out", "--workers", "1").exit_code == 0

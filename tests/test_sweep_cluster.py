@@ -11,12 +11,16 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+import sweep_in_slices
 from by_night import by_night
 from strokes import bytes_of, swept
 
 import mechwright
 from mechwright.errors import PluginError
+from mechwright.plugins.host import host
 from mechwright.sweep import workers
+from mechwright.sweep.run import sweep
+from mechwright.sweep.study import load_study
 from mechwright.sweep.task import Source, Task
 
 
@@ -85,6 +89,30 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
     while not (tables.is_dir() and any(tables.iterdir())) and time.monotonic() < end:
         time.sleep(0.05)
     workers[0].send_signal(signal.SIGKILL)
+    first.kill()
+    first.wait()
+    scheduler_of(cluster, port)
+    worker_of(cluster, port, tmp_path / "c")
+    said, _ = running.communicate(timeout=240)
+    assert running.returncode == 0, said.decode()
+    assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
+
+
+@by_night
+def test_a_cluster_shares_one_batch_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
+    path, port = tmp_path / "forces.toml", 20000 + (os.getpid() + 13) % 20000
+    path.write_text(sweep_in_slices.TEXT.format(more=""))
+    sweep(load_study(path, host()), tmp_path / "one", workers.Alone(), host())
+    first = scheduler_of(cluster, port)
+    dying = [worker_of(cluster, port, tmp_path / name) for name in "ab"]
+    command = [sys.executable, sweep_in_slices.__file__, "sweep", str(path), "-o", str(tmp_path / "two")]
+    running = subprocess.Popen(
+        [*command, "--scheduler", f"tcp://127.0.0.1:{port}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    slices, end = tmp_path / "two" / "slices", time.monotonic() + 120
+    while len(list(slices.glob("*.parquet"))) < 3 and running.poll() is None and time.monotonic() < end:
+        time.sleep(0.05)
+    dying[0].send_signal(signal.SIGKILL)
     first.kill()
     first.wait()
     scheduler_of(cluster, port)

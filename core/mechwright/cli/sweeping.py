@@ -9,11 +9,13 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
-from mechwright.cli.stopping import StoppedError
+from mechwright.cli.stopping import StoppedError, deaf
+from mechwright.cli.streams import say
 from mechwright.cores import cores
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, MechwrightError
 from mechwright.extras import require
 from mechwright.sweep.run import Swept, sweep
+from mechwright.sweep.standing import Standing
 from mechwright.sweep.study import load_study
 from mechwright.sweep.workers import Alone, Cluster, Processes, Workers
 
@@ -26,11 +28,23 @@ def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bo
     workers = _workers(count, scheduler)
     installed = open_host()
     study = load_study(path, installed)
+    standing = Standing(study)
     try:
-        with fraction() as progress:
-            found = sweep(study, folder, workers, installed, progress)
+        with fraction(lines=True) as progress:
+            found = sweep(study, folder, workers, installed, progress, standing)
     except KeyboardInterrupt:
-        raise StoppedError(f"the tables in {folder} stand; the same command goes on") from None
+        deaf()
+        raise StoppedError(standing.sentence()) from None
+    except MemoryError:
+        raise MechwrightError(f"there is not enough memory for this; {standing.sentence()}") from None
+    except MechwrightError as error:
+        if standing.begun:
+            error.args = (f"{error}; {standing.sentence()}",)
+        raise
+    except Exception:
+        if standing.begun:
+            say(f"mechwright: {standing.sentence()}")
+        raise
     if as_json:
         typer.echo(
             json.dumps({"ok": found.counts.feasible > 0, "folder": str(folder), **asdict(found)}, indent=2)

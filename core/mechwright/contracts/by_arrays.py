@@ -16,18 +16,20 @@ undecided, and any column out: what it does not decide is checked and solved one
 leaves out are taken from the motion of each design that is allowed.
 """
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.contracts.evaluation import Batch, Columns, one_by_one
-from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.evaluation import Batch, Columns
+from mechwright.contracts.finding import Stage
 from mechwright.contracts.refusals import refusals
+from mechwright.contracts.singly import singly
+from mechwright.contracts.slices import Chunk, Skipped, Slices
 
 if TYPE_CHECKING:
     from mechwright.contracts.family import Family
@@ -147,41 +149,38 @@ def by_arrays(
     chunk: int = CHUNK,
 ) -> Columns:
     """What :meth:`Family.evaluate` says, by arrays where ``answer`` has a way, design by design where not."""
-    told = refusals(batch)
+    slices = batch.slices or Slices()
+    told = slices.memo(refusals, lambda: refusals(batch))
     found = _Found(batch, columns, told.codes, told.forbidden.copy())
     slow = ~told.known
     left = np.flatnonzero(told.known & (told.forbidden == 0))
-    kinds = [(left, Designs(told.common, told.values))]
+    root: tuple[int, ...] = (slices.call(),)
+    kinds = [(root, left, Designs(told.common, told.values))]
     while kinds:
-        places, designs = kinds.pop()
+        kind, places, designs = kinds.pop()
         for start in range(0, places.size, chunk):
             some = places[start : start + chunk]
-            with np.errstate(all="ignore"):
-                said = answer(designs.some(some), columns, stage)
+            hang_on_it = places.size if start == 0 else some.size
+            find = partial(_answered, answer, designs.some(some), columns, stage)
+            said = slices.answer(Chunk(kind, start), some, hang_on_it, find)
+            if isinstance(said, Skipped):
+                if start == 0 and slices.only is None:
+                    break  # it tells whether arrays have a way
+                continue
             if said is None:
                 more = _alike(batch, designs, places[start:])
-                kinds += more
+                kinds += [((*kind, number), *one) for number, one in enumerate(more)]
                 slow[places[start:]] = not more
                 break
             slow[some[said.undecided]] = True
             found.take(some, said)
             if missing := [name for name in columns if name not in said.values]:
                 solved = some[said.open]
-                found.merge(solved, _slow(family, _allowed, _some(batch, solved), missing, stage))
+                found.merge(solved, singly(family, batch, missing, stage, solved, judged=False))
     if slow.any():
         rest = np.flatnonzero(slow)
-        found.merge(rest, _slow(family, family.judge, _some(batch, rest), columns, stage))
+        found.merge(rest, singly(family, batch, columns, stage, rest))
     return Columns(found.values, found.forbidden, tuple(found.codes))
-
-
-def _slow(
-    family: "Family[Any]",
-    judge: Callable[[Any], Sequence[Finding]],
-    batch: Batch[Any],
-    columns: Collection[str],
-    stage: Stage,
-) -> Columns:
-    return one_by_one(judge, family.solve, batch, columns, stage, family.parts)
 
 
 def _alike(
@@ -207,13 +206,14 @@ def _alike(
     return [(group, Designs(batch.one(int(group[0])), rest)) for group in groups]
 
 
-def _some(batch: Batch[Any], places: NDArray[np.intp]) -> Batch[Any]:
-    varied = {name: values[places] for name, values in batch.varied.items()}
-    return Batch(batch.model, batch.content, varied)
-
-
-def _allowed(params: Any) -> Sequence[Finding]:  # noqa: ARG001 - what is asked has been judged
-    return ()
+def _answered(
+    answer: Callable[[Designs, Collection[str], Stage], Answer | None],
+    designs: Designs,
+    columns: Collection[str],
+    stage: Stage,
+) -> Answer | None:
+    with np.errstate(all="ignore"):
+        return answer(designs, columns, stage)
 
 
 @dataclass

@@ -1,8 +1,9 @@
 """Many designs at once: what a study varies, and what is found of every design, as columns."""
 
 import math
+import time
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -15,6 +16,7 @@ from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.masses import is_mass, masses_of
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.sampling import SAMPLES
+from mechwright.contracts.slices import Slices
 from mechwright.errors import MechwrightError, PluginFaultError
 
 if TYPE_CHECKING:
@@ -44,11 +46,14 @@ class Batch(Generic[P]):
     varied
         Dotted name of a parameter to its values (n,) of the designs: numbers in the unit of the parameter, or
         texts.
+    slices
+        How far its evaluation goes now; None where it is not divided.
     """
 
     model: type[P]
     content: Mapping[str, Any]
     varied: Mapping[str, NDArray[Any]]
+    slices: Slices | None = field(default=None, repr=False, compare=False)
 
     def __len__(self) -> int:
         return min((values.size for values in self.varied.values()), default=0)
@@ -66,6 +71,10 @@ class Batch(Generic[P]):
         for step in name.split("."):
             value = getattr(value, step)
         return np.full(len(self), value)
+
+    def at(self, places: NDArray[np.intp]) -> "Batch[P]":
+        """Those at these places, not divided."""
+        return Batch(self.model, self.content, {name: one[places] for name, one in self.varied.items()})
 
     def one(self, place: int) -> P:
         """One of the designs; raises pydantic's ValidationError where its table is refused."""
@@ -138,10 +147,12 @@ def one_by_one(
     columns: Collection[str],
     stage: Stage,
     parts: "Callable[[P], Sequence[Part]] | None" = None,
+    until: float = math.inf,
 ) -> Columns:
     """What :meth:`Family.evaluate` says, from ``judge`` and ``solve`` of one design after the other.
 
-    Masses are those of ``parts``; without it, and up to the stage ``motion``, there are none.
+    Masses are those of ``parts``; without it, and up to the stage ``motion``, there are none. ``until`` is a
+    reading of ``time.perf_counter``: from then on no design is begun but the first, and fewer are told of.
     """
     size = len(batch)
     values = {name: np.full(size, np.nan) for name in columns}
@@ -151,6 +162,9 @@ def one_by_one(
     moves = any(not is_mass(name) for name in columns)
     asked = _Asked(judge, solve if moves else None, parts if weighs else None, stage)
     for place in range(size):
+        if place and time.perf_counter() >= until:
+            values = {name: some[:place] for name, some in values.items()}
+            return Columns(values, forbidden[:place], tuple(codes))
         code, found = _one(asked, batch, place)
         forbidden[place] = codes.setdefault(code, len(codes))
         for name in values.keys() & found.keys():

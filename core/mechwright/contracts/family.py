@@ -338,11 +338,14 @@ class Family(Plugin, Generic[P]):
         -------
         columns
             The same numbers as ``solve`` and ``parts`` give for each of them, and the code of the first error
-            that ``judge`` finds. The default asks these three, one design after the other.
+            that ``judge`` finds. The default asks these three, one design after the other. A study cuts the
+            default, and ``by_arrays``, into slices that workers share; any other ``evaluate`` is one slice.
         """
-        from mechwright.contracts.evaluation import one_by_one
+        import numpy as np
 
-        return one_by_one(self.judge, self.solve, batch, columns, stage, self.parts)
+        from mechwright.contracts.singly import singly
+
+        return singly(self, batch, columns, stage, np.arange(len(batch)))
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
         """The places that a requirement asks for, which ``mechwright live`` lets one drag.

@@ -1,8 +1,14 @@
-"""The folder of a sweep: each table in one step, so that a sweep that was stopped goes on where it stood."""
+"""The folder of a sweep: each file in one step, so that a sweep that was stopped goes on where it stood.
+
+Besides the tables there are *slices* of batches that are not finished, and *checks* of designs of the front.
+Both are gone when the sweep is done.
+"""
 
 import contextlib
 import json
 import os
+import re
+from collections.abc import Iterable
 from pathlib import Path
 
 from mechwright.errors import OutputError
@@ -12,14 +18,21 @@ from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
 from mechwright.sweep.shard import Counts, counts_of
 from mechwright.sweep.study import Study
-from mechwright.sweep.task import fingerprint
+from mechwright.sweep.task import Task, fingerprint
 
 COMMAND = "sweep"
 BEGUN = "study.json"
 BEGUN_LIMIT = 10_000
 """Bytes of that file, which holds three short texts."""
 SHARDS = "tables"
+SLICES = "slices"
+CHECKS = "checks"
 SUFFIX = ".parquet"
+UNREAD = 1000
+"""Tables that are read to tell whether they are whole when a sweep is stopped before it has read them."""
+_PART = ".part"
+_NUMBERED = re.compile(r"(.+)-(\d{6,})")
+"""Name of a slice: the task's, and its number."""
 
 
 class SweepFolder:
@@ -38,6 +51,7 @@ class SweepFolder:
 
     def __init__(self, path: Path, study: Study, host: Host) -> None:
         self.path, self.study, self.host = path, study, host
+        self._whole: set[str] = set()
         own = {"study": study.digest, "program": fingerprint(study.family.name), "batch": study.batch}
         found = self._begun()
         if found is None:
@@ -50,8 +64,9 @@ class SweepFolder:
             )
         try:
             (path / SHARDS).mkdir(exist_ok=True)
-            for part in (path / SHARDS).glob("*.part"):
-                part.unlink()
+            for name in (SHARDS, SLICES, CHECKS):
+                for part in (path / name).glob(f"*{_PART}"):
+                    part.unlink()
         except OSError as error:
             raise OutputError(f"{path / SHARDS}: cannot be written: {error.strerror or error}") from error
 
@@ -77,17 +92,79 @@ class SweepFolder:
         if not regular(self.table(name)):
             return False
         self.counts(name)
+        self._whole.add(name)
         return True
+
+    def whole(self, tasks: Iterable[Task]) -> set[str]:
+        """The names of tasks that are done; many tables that were not read in this run are not read."""
+        there = [task.name for task in tasks if regular(self.table(task.name))]
+        known = {name for name in there if name in self._whole}
+        unread = [name for name in there if name not in known]
+        return known | {name for name in unread if len(unread) > UNREAD or self._is_whole(name)}
+
+    def _is_whole(self, name: str) -> bool:
+        try:
+            return self.has(name)
+        except OutputError:
+            return False
 
     def counts(self, name: str) -> Counts:
         """What was counted in a task that is done."""
         return counts_of(self.study, self.table(name))
 
     def store(self, name: str, content: bytes) -> None:
-        """Write the table of a task: it is there as a whole, or not at all."""
-        path = self.table(name)
-        part = path.with_suffix(".part")
+        """Write the table of a task, in whose place its slices go."""
+        self._whole.add(name)
+        self._put(self.table(name), content)
+        self.drop(self.slices(name))
+
+    def slices(self, name: str) -> list[Path]:
+        """The files of slices of a task."""
+        return self.all_slices().get(name, [])
+
+    def all_slices(self) -> dict[str, list[Path]]:
+        """The files of slices by the names of their tasks, in the order of their numbers."""
+        found: dict[str, list[Path]] = {}
+        for path in sorted((self.path / SLICES).glob(f"*{SUFFIX}")):
+            if match := _NUMBERED.fullmatch(path.stem):
+                found.setdefault(match[1], []).append(path)
+        return found
+
+    def store_slice(self, name: str, number: int, content: bytes) -> Path:
+        """Write a slice of a task."""
+        path = self.path / SLICES / f"{name}-{number:06d}{SUFFIX}"
+        self._put(path, content)
+        return path
+
+    def next_number(self, name: str) -> int:
+        """The number of the next slice of a task."""
+        taken = [int(match[2]) for path in self.slices(name) if (match := _NUMBERED.fullmatch(path.stem))]
+        return max(taken, default=-1) + 1
+
+    def checks(self) -> list[Path]:
+        """The files of designs of the front that were checked."""
+        return sorted((self.path / CHECKS).glob("*.json"))
+
+    def store_check(self, name: str, content: bytes) -> None:
+        """Write what the check of a design found."""
+        self._put(self.path / CHECKS / f"{name}.json", content)
+
+    def drop(self, paths: Iterable[Path]) -> None:
+        """Remove slices or checks that nobody needs any more, and their folder with the last one."""
         try:
+            for path in paths:
+                path.unlink(missing_ok=True)
+            for name in (SLICES, CHECKS):
+                with contextlib.suppress(OSError):  # others are left, or it is not there
+                    (self.path / name).rmdir()
+        except OSError as error:
+            raise OutputError(f"{path}: cannot be removed: {error.strerror or error}") from error
+
+    def _put(self, path: Path, content: bytes) -> None:
+        """Write a file: it is there as a whole, or not at all."""
+        part = path.with_suffix(_PART)
+        try:
+            path.parent.mkdir(exist_ok=True)
             with part.open("wb") as file:
                 file.write(content)
                 file.flush()
@@ -96,10 +173,7 @@ class SweepFolder:
         except OSError as error:
             with contextlib.suppress(OSError):
                 part.unlink(missing_ok=True)
-            raise OutputError(
-                f"{path}: cannot be written: {error.strerror or error}; what is finished stays, and the same "
-                "command goes on with it"
-            ) from error
+            raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
     def write(self, output: Output) -> None:
         """Write the files beside the tables, in one step."""

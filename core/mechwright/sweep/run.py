@@ -8,29 +8,25 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from mechwright.contracts.finding import errors
-from mechwright.contracts.part import check_name
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.designs.change import changed
 from mechwright.extras import require
 from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
-from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.moving import moving
 from mechwright.scripting.pareto import spread
+from mechwright.sweep.checks import checked, mechanism_of
 from mechwright.sweep.folder import SUFFIX, SweepFolder
 from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
 from mechwright.sweep.page import page_of
+from mechwright.sweep.schedule import Schedule, without_tables
 from mechwright.sweep.shard import NUMBER, Counts, read_file, written
-from mechwright.sweep.study import Study, design_of
+from mechwright.sweep.standing import Standing
+from mechwright.sweep.study import Study
 from mechwright.sweep.task import Source, Task
 from mechwright.sweep.workers import Workers
 
 EVALUATED = 0.9
 """Share of a sweep's work that is the tables; the rest are the designs of the front."""
-
-TRIES = 4
-"""Times as many designs of the front as are asked for that are checked until there are enough that build."""
 
 
 @dataclass(frozen=True)
@@ -55,56 +51,102 @@ class Swept:
     files: tuple[str, ...]
 
 
-def sweep(study: Study, folder: Path, workers: Workers, host: Host, progress: Progress = unheard) -> Swept:
+def sweep(
+    study: Study,
+    folder: Path,
+    workers: Workers,
+    host: Host,
+    progress: Progress = unheard,
+    standing: Standing | None = None,
+) -> Swept:
     """Evaluate the designs of a study, and write what was found.
 
-    A folder in which the same study was stopped is gone on with: the result is the same.
+    A folder in which the same study was stopped is gone on with: the result is the same. ``standing`` says at
+    any time, and when an error has come, what of it is saved.
 
     Raises
     ------
     OutputError
-        The folder holds something else, or cannot be written; tables that are finished stay.
+        The folder holds something else, or cannot be written.
     PluginError
         pyarrow is not installed, or workers fail.
     """
     require("pyarrow")
-    place = SweepFolder(folder, study, host)
-    total = study.batches * study.batch + study.asked.refine * study.batch
+    standing = standing or Standing(study)
     tasks = [Task(f"part-{number:06d}", number * study.batch, number) for number in range(study.batches)]
-    _evaluated(place, study, tasks, workers, progress, 0, total)
+    standing.tasks += tasks
+    standing.place = place = SweepFolder(folder, study, host)
+    bar = _Bar(study, progress)
+    _evaluated(place, standing, tasks, workers, bar)
     front, counts = Front(study), Counts(0, 0, {})
-    for task in tasks:
-        counts = counts.plus(place.counts(task.name))
-        if study.objectives:
-            front.take(_allowed(study, place.table(task.name)))
+    counts = _taken(place, study, tasks, front, counts, bar)
     first = study.count
     for number in range(study.asked.refine):
         extra = _around(study, front, number, first)
-        _evaluated(place, study, extra, workers, progress, study.count + number * study.batch, total)
-        for task in extra:
-            counts = counts.plus(place.counts(task.name))
-            front.take(_allowed(study, place.table(task.name)))
-            first += len(next(iter(task.given.values())))
+        standing.tasks += extra
+        what = f"round {number + 1} of {study.asked.refine} around the front: "
+        bar.begin(what, sum(task.size(study) for task in extra))
+        _evaluated(place, standing, extra, workers, bar)
+        counts = _taken(place, study, extra, front, counts, bar)
+        first += sum(task.size(study) for task in extra)
         tasks += extra
-    chosen = _chosen(study, front, host, progress)
-    return _written(place, study, counts, front, chosen, [place.table(task.name) for task in tasks])
+    standing.begun = True
+    chosen = checked(
+        place, front, workers.local, lambda part, what: progress(EVALUATED + (1 - EVALUATED) * part, what)
+    )
+    found = _written(place, study, counts, front, chosen, [place.table(task.name) for task in tasks])
+    place.drop(place.checks())
+    return found
+
+
+class _Bar:
+    """How far the evaluation is, in its rounds."""
+
+    def __init__(self, study: Study, progress: Progress) -> None:
+        self._progress = progress
+        self._whole = study.count + study.asked.refine * min(study.count, MOST * AROUND)
+        self._before = 0
+        self.begin("", study.count)
+
+    def begin(self, what: str, size: int) -> None:
+        """Begin with the designs that are drawn, or with a round of search."""
+        self._before += getattr(self, "_size", 0)
+        self._what, self._size = what, size
+
+    def say(self, saved: int) -> None:
+        """Say how many designs of it are saved."""
+        part = min((self._before + saved) / self._whole, 1.0)
+        self._progress(EVALUATED * part, f"{self._what}{saved:,} of {self._size:,} designs saved")
+
+    def read(self, number: int, tables: int) -> None:
+        """Say how many tables have been read for the front."""
+        part = min((self._before + self._size) / self._whole, 1.0)
+        self._progress(EVALUATED * part, f"{self._what}front of {number:,} of {tables:,} tables")
 
 
 def _evaluated(
-    place: SweepFolder,
-    study: Study,
-    tasks: Sequence[Task],
-    workers: Workers,
-    progress: Progress,
-    before: int,
-    total: int,
+    place: SweepFolder, standing: Standing, tasks: Sequence[Task], workers: Workers, bar: "_Bar"
 ) -> None:
-    missing = [task for task in tasks if not place.has(task.name)]
-    done = before + (len(tasks) - len(missing)) * study.batch
-    for task, content in workers.done(Source.of(study), missing) if missing else ():
-        place.store(task.name, content)
-        done += study.batch
-        progress(EVALUATED * min(done / total, 1.0), f"{min(done, total):,} of {total:,} designs")
+    study = place.study
+    missing = without_tables(place, tasks)
+    before = sum(task.size(study) for task in tasks) - sum(task.size(study) for task in missing)
+    schedule = Schedule(place, standing, missing, workers.count)
+    bar.say(before + schedule.saved)
+    for task, found in workers.done(Source.of(study), schedule) if missing else ():
+        schedule.put(task, found)
+        bar.say(before + schedule.finished + schedule.saved)
+
+
+def _taken(
+    place: SweepFolder, study: Study, tasks: Sequence[Task], front: Front, counts: Counts, bar: _Bar
+) -> Counts:
+    """The counts with those of some tables, whose designs the front has taken."""
+    for number, task in enumerate(tasks):
+        bar.read(number, len(tasks))
+        counts = counts.plus(place.counts(task.name))
+        if study.objectives:
+            front.take(_allowed(study, place.table(task.name)))
+    return counts
 
 
 def _allowed(study: Study, path: Path) -> dict[str, NDArray[Any]]:
@@ -133,33 +175,6 @@ def _around(study: Study, front: Front, number: int, first: int) -> list[Task]:
     ]
 
 
-def _chosen(study: Study, front: Front, host: Host, progress: Progress) -> list[Chosen]:
-    """Designs of the front that build up to their programs, and those that were tried for them."""
-    wanted = study.asked.front
-    found: list[Chosen] = []
-    built = 0
-    for place in spread(front.costs, TRIES * wanted) if len(front) else []:
-        if built == wanted:
-            break
-        progress(EVALUATED + (1 - EVALUATED) * built / wanted, f"checking design {built + 1} of the front")
-        name = check_name(f"{study.name}-{built + 1:0{len(str(wanted))}}", "name of a design")
-        figures = {column: front.columns[column][place].item() for column in study.units}
-        number = int(front.columns[NUMBER][place])
-        said = errors(_mechanism(study, front, place, name, host).check())
-        if said:
-            found.append(Chosen(number, "", figures, f"[{said[0].code}] {said[0].message}"))
-        else:
-            built += 1
-            found.append(Chosen(number, name, figures))
-    return found
-
-
-def _mechanism(study: Study, front: Front, place: int, name: str, host: Host) -> Mechanism:
-    change = {f"parameters.{key}": value for key, value in front.design(place).items()}
-    content = changed({"parameters": dict(study.content)}, change)["parameters"]
-    return Mechanism(design_of(study, name, study.family.Params.model_validate(content), host), host)
-
-
 def _written(
     place: SweepFolder,
     study: Study,
@@ -173,7 +188,7 @@ def _written(
     for one in picked:
         if one.name:
             number = front.columns[NUMBER].tolist().index(one.design)
-            mechanism = _mechanism(study, front, number, one.name, place.host)
+            mechanism = mechanism_of(study, front, number, one.name, place.host)
             output.add(f"{one.name}.toml", mechanism.toml)
             pictures[one.name] = moving(mechanism)
     if len(front):

@@ -48,7 +48,11 @@ class Counts:
 
 def shard_of(study: Study, batch: Batch[Any], first: int) -> bytes:
     """Evaluate a batch, and write the designs that are kept; ``first`` is the number of its first design."""
-    found = study.family.evaluate(batch, study.measured, study.stage)
+    return table_of(study, batch, first, study.family.evaluate(batch, study.measured, study.stage))
+
+
+def table_of(study: Study, batch: Batch[Any], first: int, found: Columns) -> bytes:
+    """The table of a batch that is evaluated."""
     values = {**{name: batch[name] for name in batch.varied}, **found.values}
     forbidden, codes = _constrained(study, found, values)
     feasible = forbidden == 0
@@ -103,31 +107,37 @@ def counts_of(study: Study, path: Path) -> Counts:
 
     No more is unpacked than its frame, which tells how much the rest is.
     """
-    with _telling(path):
-        frame = optional("pyarrow.parquet").read_metadata(io.BytesIO(_content(study, path)))
-        _require(_COUNTS in (frame.metadata or {}), "it has no counts")
+    with telling(path):
+        frame = frame_of(study, path)
+        require(_COUNTS in (frame.metadata or {}), "it has no counts")
         said = json.loads(frame.metadata[_COUNTS])
         counts = Counts(said["designs"], said["feasible"], dict(said["forbidden"]))
         numbers = (counts.designs, counts.feasible, *counts.forbidden.values())
-        _require(all(type(one) is int and one >= 0 for one in numbers), "its counts are no whole numbers")
-        _require(counts.feasible <= counts.designs <= study.batch, "its counts are those of no batch")
+        require(all(type(one) is int and one >= 0 for one in numbers), "its counts are no whole numbers")
+        require(counts.feasible <= counts.designs <= study.batch, "its counts are those of no batch")
         every = study.asked.keep == "all"
         rows = counts.designs if every else counts.feasible
-        _require(frame.num_rows == rows, f"it has {frame.num_rows:,} designs, and counts {rows:,}")
+        require(frame.num_rows == rows, f"it has {frame.num_rows:,} designs, and counts {rows:,}")
         schema = frame.schema.to_arrow_schema()
         expected = [NUMBER, *study.units, *([FORBIDDEN] if every else ())]
-        _require(schema.names == expected, "it has other columns")
+        require(schema.names == expected, "it has other columns")
         for name in (NUMBER, *study.objectives):
             kind = np.dtype(schema.field(name).type.to_pandas_dtype()).kind
-            _require(kind in "biuf", f"its column {name} holds no numbers")
-        size = sum(frame.row_group(number).total_byte_size for number in range(frame.num_row_groups))
-        _require(0 <= size <= _most_bytes(study), "it is too large when it is unpacked")
+            require(kind in "biuf", f"its column {name} holds no numbers")
         return counts
+
+
+def frame_of(study: Study, path: Path) -> Any:
+    """Metadata of a file; raises ValueError where it is too large for a batch."""
+    frame = optional("pyarrow.parquet").read_metadata(io.BytesIO(_content(study, path)))
+    size = sum(frame.row_group(number).total_byte_size for number in range(frame.num_row_groups))
+    require(0 <= size <= _most_bytes(study), "it is too large when it is unpacked")
+    return frame
 
 
 def read_file(study: Study, path: Path, columns: Sequence[str] | None = None) -> dict[str, NDArray[Any]]:
     """Columns by name of the file of a batch; raises OutputError where it cannot be read."""
-    with _telling(path):
+    with telling(path):
         return read(_content(study, path), columns)
 
 
@@ -137,16 +147,17 @@ def _content(study: Study, path: Path) -> bytes:
 
 def _most_bytes(study: Study) -> int:
     """Of the table of a batch."""
-    return FRAME_BYTES + WIDEST * study.batch * (len(study.units) + 2)
+    return FRAME_BYTES + WIDEST * study.batch * (len(study.units) + 4)
 
 
-def _require(kept: bool, what: str) -> None:
+def require(kept: bool, what: str) -> None:
+    """Raise ValueError with ``what`` is wrong unless it is kept."""
     if not kept:
         raise ValueError(what)
 
 
 @contextlib.contextmanager
-def _telling(path: Path) -> Iterator[None]:
+def telling(path: Path) -> Iterator[None]:
     """Errors of what reads Parquet as one line that names the file."""
     try:
         yield

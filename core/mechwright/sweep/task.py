@@ -19,6 +19,7 @@ from mechwright.errors import PluginError
 from mechwright.plugins.host import host
 from mechwright.scripting.heard import Heard, listen, taken
 from mechwright.sweep.draw import drawn
+from mechwright.sweep.portion import Order, Portion, portion, sliced
 from mechwright.sweep.shard import shard_of
 from mechwright.sweep.study import Study, study_of
 
@@ -40,19 +41,28 @@ class Task:
         Which batch of the study; None for one that is given.
     given
         Parameter to values (n,).
+    order
+        Which slice of it is done; None for all of it at once.
     """
 
     name: str
     first: int
     drawn: int | None
     given: Mapping[str, NDArray[Any]] = field(default_factory=dict, repr=False)
+    order: Order | None = None
+
+    def size(self, study: Study) -> int:
+        """How many designs it has."""
+        if self.drawn is None:
+            return len(next(iter(self.given.values())))
+        return min(study.batch, study.count - self.first)
 
 
-def done(study: Study, task: Task) -> bytes:
-    """The table of a task."""
+def batch_of(study: Study, task: Task) -> Batch[Any]:
+    """The designs of a task."""
     if task.drawn is not None:
-        return shard_of(study, drawn(study, task.drawn), task.first)
-    return shard_of(study, Batch(study.family.Params, study.content, task.given), task.first)
+        return drawn(study, task.drawn)
+    return Batch(study.family.Params, study.content, task.given)
 
 
 @dataclass(frozen=True)
@@ -70,16 +80,20 @@ class Source:
         said = {key: study.file[key] for key in kept if key in study.file}
         return cls(json.dumps(said), study.path.name, study.family.name)
 
-    def done(self, task: Task) -> bytes:
-        """The table of a task, by a worker that has only this."""
-        return done(_opened(self), task)
+    def done(self, task: Task) -> bytes | Portion:
+        """The table of a task, or what its order asks for, by a worker that has only this."""
+        study = _opened(self)
+        if task.order is None:
+            return shard_of(study, batch_of(study, task), task.first)
+        batch = sliced(batch_of(study, task)) if task.drawn is None else _drawn(self, task.drawn)
+        return portion(study, batch, task.first, task.order)
 
-    def told(self, task: Task) -> tuple[bytes, list[Heard]]:
+    def told(self, task: Task) -> tuple[bytes | Portion, list[Heard]]:
         """The same by a worker without a terminal, and the warnings that came of it."""
         listen()
         return self.done(task), taken()
 
-    def alike(self, own: str, task: Task) -> tuple[bytes, list[Heard]]:
+    def alike(self, own: str, task: Task) -> tuple[bytes | Portion, list[Heard]]:
         """The same by a worker that may have come after the others were asked what they have.
 
         It takes one core: a worker has as many threads for tasks as cores are meant for it.
@@ -98,6 +112,12 @@ class Source:
 @lru_cache(maxsize=4)
 def _opened(source: Source) -> Study:
     return study_of(json.loads(source.text), Path(source.name), host())
+
+
+@lru_cache(maxsize=2)
+def _drawn(source: Source, number: int) -> Batch[Any]:
+    """A batch that a worker is at: slices of it follow each other."""
+    return sliced(drawn(_opened(source), number))
 
 
 def unlike(said: str, own: str) -> str:

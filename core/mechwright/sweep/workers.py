@@ -1,26 +1,31 @@
 """Who does the work of a sweep: processes of this machine, or the workers of a Dask cluster."""
 
 import contextlib
-import itertools
 import multiprocessing
+import signal
 import time
+from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
 
 from mechwright.beside import end_with_parent
-from mechwright.cores import keep_to
-from mechwright.errors import PluginError
+from mechwright.cores import cores, keep_to
+from mechwright.errors import MechwrightError, PluginError
 from mechwright.extras import optional
 from mechwright.scripting.heard import Heard, Teller
+from mechwright.sweep.portion import Portion
 from mechwright.sweep.task import Source, Task, fingerprint, unlike
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
 
+Found = bytes | Portion
+"""The table of a task, or what came of a slice of it."""
+
 _AGAIN = 3
-"""Times that processes which were killed are started again."""
+"""Times that processes are killed without finishing anything until no others are started."""
 
 CONNECT = 10.0
 """Seconds until a scheduler has to answer."""
@@ -29,20 +34,67 @@ BACK = 60.0
 """Seconds that a scheduler which is gone is waited for."""
 
 
-class Workers(Protocol):
-    """Does tasks of a study, in any order."""
+class Queue(Protocol):
+    """Tasks that workers take."""
 
-    def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
-        """Each task with its table, as soon as it is there."""
+    def take(self) -> Task | None:
+        """The next task; None where there is none before another one is back, or none at all."""
+        ...
+
+    def again(self, task: Task) -> None:
+        """Take back a task that nobody does any more."""
+        ...
+
+
+class _Listed:
+    """Tasks that are all there from the beginning."""
+
+    def __init__(self, tasks: Sequence[Task]) -> None:
+        self._tasks = deque(tasks)
+
+    def take(self) -> Task | None:
+        return self._tasks.popleft() if self._tasks else None
+
+    def again(self, task: Task) -> None:
+        self._tasks.appendleft(task)
+
+
+def queue_of(tasks: Queue | Sequence[Task]) -> Queue:
+    """Tasks as they are taken one by one."""
+    return _Listed(tasks) if isinstance(tasks, Sequence) else tasks
+
+
+class Workers(Protocol):
+    """Does tasks of a study, in any order.
+
+    ``count`` of them work at once, 0 where nobody knows before; ``local`` are the cores of this machine for
+    work that only it can do.
+    """
+
+    @property
+    def count(self) -> int:
+        """How many tasks are done at once."""
+        ...
+
+    @property
+    def local(self) -> int:
+        """How many cores of this machine may be used besides."""
+        ...
+
+    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+        """Each task with what came of it, as soon as it is there; more tasks may be taken then."""
         ...
 
 
 class Alone:
     """No worker but the process that asks."""
 
-    def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
+    count = local = 1
+
+    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         """One after the other."""
-        for task in tasks:
+        queue = queue_of(tasks)
+        while (task := queue.take()) is not None:
             yield task, source.done(task)
 
 
@@ -56,40 +108,45 @@ class Processes:
     """
 
     def __init__(self, count: int) -> None:
-        self.count = count
+        self.count = self.local = count
         self._teller = Teller()
 
-    def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
+    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         """A few tasks each ahead; raises PluginError where processes are killed again and again."""
-        left = {task.name: task for task in tasks}
-        for _ in range(_AGAIN):
-            with contextlib.suppress(BrokenProcessPool):
-                for task, content in self._once(source, list(left.values())):
-                    del left[task.name]
-                    yield task, content
-            if not left:
+        queue, tries = queue_of(tasks), 0
+        while tries < _AGAIN:
+            try:
+                for one in self._once(source, queue):
+                    tries = 0
+                    yield one
                 return
+            except BrokenProcessPool:
+                tries += 1
         raise PluginError(
             "--workers: processes were killed again and again, mostly for want of memory; take fewer, or a "
-            "smaller study.batch; what is finished stays"
+            "smaller study.batch"
         )
 
-    def _once(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
-        context = multiprocessing.get_context("spawn")
-        waiting = iter(tasks)
-        running: dict[Future[tuple[bytes, list[Heard]]], Task] = {}
+    def _once(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+        context, queue = multiprocessing.get_context("spawn"), queue_of(tasks)
+        running: dict[Future[tuple[Found, list[Heard]]], Task] = {}
         pool, others = ProcessPoolExecutor(self.count, context, _begin), multiprocessing.active_children()
         try:
             while True:
-                for task in _some(waiting, AHEAD * self.count - len(running)):
-                    running[pool.submit(source.told, task)] = task
+                for task in _some(queue, AHEAD * self.count - len(running)):
+                    with _returned(queue, task):
+                        running[pool.submit(source.told, task)] = task
                 if not running:
                     return
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    task = running.pop(future)
                     content, heard = future.result()
+                    task = running.pop(future)
                     self._teller.tell(heard)
                     yield task, content
+        except BrokenProcessPool:
+            while running:  # the one that was given out first is taken first again
+                queue.again(running.popitem()[1])
+            raise
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
             if running:  # stopped: the interpreter would wait for what they are at, a minute or more
@@ -98,14 +155,30 @@ class Processes:
                         worker.terminate()
 
 
+@contextlib.contextmanager
+def _returned(queue: Queue, task: Task) -> Iterator[None]:
+    """Take back a task that could not be given out."""
+    try:
+        yield
+    except Exception:
+        queue.again(task)
+        raise
+
+
 def _begin() -> None:
     """A worker: it has one core, and nobody to wait for when whoever asked is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the keyboard stops who asked, who ends this one
     keep_to(1)
     end_with_parent()
 
 
-def _some(tasks: Iterator[Task], count: int) -> list[Task]:
-    return list(itertools.islice(tasks, max(count, 0)))
+def _some(queue: Queue, count: int) -> Iterator[Task]:
+    """So many tasks at most."""
+    for _ in range(count):
+        task = queue.take()
+        if task is None:
+            return
+        yield task
 
 
 class Cluster:
@@ -119,46 +192,54 @@ class Cluster:
     What a scheduler knows is gone when it ends: what is missing is then given to the one that comes after it.
     """
 
+    count = 0
+
     def __init__(self, address: str) -> None:
-        self.address = address
+        self.address, self.local = address, cores()
         self._teller = Teller()
 
-    def done(self, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
+    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         """A few tasks ahead for each thread; raises PluginError where the cluster cannot do them."""
-        left = {task.name: task for task in tasks}
-        client = self._connected(CONNECT)
-        while left:
+        queue, client = queue_of(tasks), self._connected(CONNECT)
+        while True:
+            running: dict[str, tuple[Any, Task]] = {}
             try:
                 self._check(client, source.family)
-                for task, content in self._once(client, source, list(left.values())):
-                    del left[task.name]
-                    yield task, content
+                yield from self._once(client, source, queue, running)
+                break
+            except MechwrightError:
+                raise  # of a disk that is full, which is an OSError as well
             except _lost() as error:
+                while running:
+                    queue.again(running.popitem()[1][1])
                 _closed(client)
                 client = self._connected(BACK, str(error))
         _closed(client)
 
-    def _once(self, client: Any, source: Source, tasks: Sequence[Task]) -> Iterator[tuple[Task, bytes]]:
+    def _once(
+        self, client: Any, source: Source, queue: Queue, running: dict[str, tuple[Any, Task]]
+    ) -> Iterator[tuple[Task, Found]]:
         distributed = optional("distributed")
         threads = max(sum(client.nthreads().values()), 1)
-        waiting, own = iter(tasks), fingerprint(source.family)
-        running: dict[str, tuple[Any, Task]] = {}
+        own = fingerprint(source.family)
         # With results it would fetch them by itself, and wait for ever if the scheduler ended meanwhile.
         ended = distributed.as_completed(loop=client.loop)
         while True:
-            for task in _some(waiting, AHEAD * threads - len(running)):
-                future = client.submit(source.alike, own, task, pure=False)
+            for task in _some(queue, AHEAD * threads - len(running)):
+                with _returned(queue, task):
+                    future = client.submit(source.alike, own, task, pure=False)
                 running[future.key] = future, task
                 ended.add(future)
             if not running:
                 return
             future = next(ended)
-            _, task = running.pop(future.key)
+            _, task = running[future.key]
             if future.status == "cancelled":
                 raise distributed.comm.CommClosedError("the scheduler has ended")
             if future.status == "error":
                 raise PluginError(f"--scheduler: a worker failed at {task.name}: {future.exception(BACK)}")
             content, heard = future.result(BACK)
+            del running[future.key]
             self._teller.tell(heard)
             yield task, content
 
@@ -175,8 +256,7 @@ class Cluster:
                 if time.monotonic() >= end:
                     said = f"; it had ended: {why}" if why else ""
                     raise PluginError(
-                        f"--scheduler: {self.address}: nobody answers within {seconds:g} s{said}; what is "
-                        "finished stays"
+                        f"--scheduler: {self.address}: nobody answers within {seconds:g} s{said}"
                     ) from error
                 time.sleep(0.5)
 
