@@ -10,6 +10,9 @@ from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.standards.table import table
 
+DIE_CAST = 110.0
+"""At which a thread strips in the die-cast face of a motor or gearbox, MPa; handbook, unchecked."""
+
 KG_MM = 9.80665e-3
 """A torque of one kilogram-force millimetre, N m."""
 
@@ -24,6 +27,7 @@ class MotorFace:
     holes: int
     spread: float
     thread: float
+    depth: float
     hole: float
     pilot: float
     pilot_height: float

@@ -117,7 +117,7 @@ def _own(part: Part) -> Iterator[_Own]:
             if step.start is None:
                 yield (0.0, 0.0), low, low + step.length, step.diameter, False, step.fit, False
         if turned.bore:
-            yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, False
+            yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, turned.tapped
         for thread in turned.threads:
             low = 0.0 if thread.end == "lower" else turned.length - thread.depth
             yield (0.0, 0.0), low, low + thread.depth, thread.diameter, True, None, True
