@@ -4,7 +4,7 @@ from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import BillOfMaterials
-from mechwright_cad.contacts.inspections import ScrewLengths
+from mechwright_cad.contacts.inspections import Contact, ScrewLengths
 from mechwright_cad.exporters import (
     DxfExporter,
     GlbExporter,
@@ -35,6 +35,7 @@ def mechwright_register() -> list[type[Plugin]]:
         AssemblyGuide,
         Interference,
         ScrewLengths,
+        Contact,
         PartSolid,
         PartPicture,
         Assembled,

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from mechwright.contracts.part import Part
 from mechwright.mechanics.strength.tightening import torque_text
+from mechwright_cad.bodies import is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
 
 LOCKER = "thread locker of medium strength"
@@ -47,11 +48,6 @@ def screwed(
         )
     where = {"thread": "in its thread", "head": "under the head"}[found.limit]
     return f"{tool}; tighten to {torque} N m ({screw.grade}, oiled): {name(weakest)} bears no more {where}."
-
-
-def is_coupling(part: Part) -> bool:
-    """Whether it is clamped on the ends of two shafts."""
-    return part.bought is not None and part.bought.designation.startswith("flexible coupling")
 
 
 def fitted(part: Part) -> str:

@@ -5,10 +5,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mechwright_cad.assembly_guide.columns import Columns
-from mechwright_cad.assembly_guide.tools import fitted, is_coupling, screwed
+from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_order.groups import is_bearing, rigid
 from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
+from mechwright_cad.bodies import is_coupling
 from mechwright_cad.contacts.rounds import Match, matches, rounds_of
 
 PRESS = "Press it in a vice or arbor press, with support right under the hole."

@@ -1,6 +1,6 @@
 """What speaks against the joints of an assembly; asked by every command that asks for its parts."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from mechwright.build import Build, Inspection
@@ -10,6 +10,10 @@ from mechwright.tolerances import TOLERANCES
 if TYPE_CHECKING:
     from mechwright_cad.bodies import Body
     from mechwright_cad.contacts.screw_joints import ScrewJoint
+    from mechwright_cad.contacts.touching import Gap
+
+CONTACT = 0.02
+"""Faces nearer to each other than this, mm, touch: half the play of a sliding fit, and a stack's rounding."""
 
 COMMANDS = frozenset({"check", "solve", "model", "cam", "build"})
 
@@ -86,3 +90,74 @@ def _fault(joint: "ScrewJoint", screw: str, holder: str) -> Finding | None:
             f"take a screw {short:.3g} mm longer than {length:g} mm, or a thinner plate",
         )
     return None
+
+
+class Contact(Inspection):
+    """Bodies of a machine or a chain that touch nothing, and gaps that no part declares."""
+
+    name = "contact"
+    commands = COMMANDS
+    stage = Stage.PARTS
+    order = 14
+    doing = "contacts"
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """Nothing of a mechanism alone, whose shafts and frame are somebody else's."""
+        from mechwright.machine.made import settings_of
+        from mechwright.mechanics.chain import Chain
+
+        if settings_of(build).frame == "none" and not isinstance(build.design.family, Chain):
+            return ()
+        from mechwright_cad.bodies import bodies_of
+        from mechwright_cad.contacts.screw_joints import joints_of
+        from mechwright_cad.contacts.touching import Touching
+        from mechwright_cad.contacts.vacant import vacancies
+
+        motion = build.design.solve(2)
+        bodies = bodies_of(build.parts, motion)
+        if len(bodies) < 2:
+            return ()
+        touching, joints = Touching(bodies, motion, 0), joints_of(bodies, 0)
+        found = [*touching.gaps(joints), *vacancies(touching, joints)]
+        return at_stage(self.stage, gap_findings(found))
+
+
+_SAID = {
+    "floating": "{one} touches nothing; the nearest body is {two}, {gap:.3f} mm away",
+    "end": "{one} stands {gap:.3f} mm out of {two}, which it is meant to end in",
+    "seat": "{two} leaves {gap:.3f} mm of its hole in {one} empty",
+    "empty": "a bore of {one} is empty over its {gap:.3f} mm, though something turns or sits in it",
+    "thread": "a thread in {one}, {gap:.3f} mm deep, has no screw",
+    "groove": "a groove of {one}, {gap:.3f} mm wide, has no circlip",
+    "column": "{one} and {two} turn as one on one pin, with a gap of {gap:.3f} mm between them",
+    "screw": "{one} clamps {two} over a gap of {gap:.3f} mm",
+}
+"""Kind of a gap to what is said of it."""
+
+_DONE = {
+    "floating": "make it touch what carries it",
+    "end": "let both end at one height",
+    "seat": "make both as long, or move them together",
+    "empty": "put in what it is made for",
+    "thread": "put in its screw, or leave the thread out",
+    "groove": "put in its circlip, or leave the groove out",
+    "column": "put a spacer of that length between them",
+    "screw": "close the gap, or put a spacer of that length in it",
+}
+"""The same to what is done about it."""
+
+
+def gap_findings(gaps: "Iterable[Gap]") -> Iterator[Finding]:
+    """An error for each."""
+    for one in gaps:
+        limit = CONTACT + one.play
+        said = _SAID[one.kind].format(one=one.body, two=one.other, gap=one.gap)
+        yield Finding.error(
+            f"contact.{one.kind}",
+            "",
+            f"{said}; up to {limit:.3g} mm count as contact",
+            float(one.gap),
+            limit,
+            "mm",
+            f"{_DONE[one.kind]}, or declare the clearance as the play of its part",
+        )

@@ -153,7 +153,7 @@ def joints_of(
     screws = {k: what for k, body in enumerate(bodies) if (what := screw_of(body.part)) is not None}
     if not screws:
         return []
-    holes = [hole for k, body in enumerate(bodies) for hole in _holes(k, body, sample)]
+    holes = [hole for k, body in enumerate(bodies) for hole in holes_of(k, body, sample)]
     rounds = [
         (k, one)
         for k, body in enumerate(bodies)
@@ -176,7 +176,8 @@ def joints_of(
     return found
 
 
-def _holes(k: int, body: Body, sample: int) -> Iterator[Hole]:
+def holes_of(k: int, body: Body, sample: int) -> Iterator[Hole]:
+    """The threaded holes of a body, by its number; of a thread that goes through, both mouths."""
     turn, place = body.poses.rotation[sample], body.poses.position[sample]
     part, up = body.part, turn[:, 2]
     shear = ALLOWED[part.material].shear if part.material in ALLOWED else 0.0

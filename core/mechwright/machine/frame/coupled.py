@@ -154,7 +154,10 @@ def add_motor(kit: Kit, coupled: Coupled, body: str) -> None:
     kit.places["motor"] = Place((*coupled.axis, 0.0), turned(coupled.angle))
     kit.places["motor-shaft"] = Place(on=body)
     kit.bought("motor", drilled(coupled.motor), "motor", coupled.face)
-    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low)
+    # Each shaft goes into half of the coupling, that of the motor as far as it is long enough.
+    inside = coupled.face + coupled.motor.face.shaft_length - coupled.coupling_low
+    empty = max(coupled.coupling.of.length / 2 - inside, 0.0)
+    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low, play=empty)
 
 
 def fasten_motor(kit: Kit, coupled: Coupled) -> None:

@@ -94,9 +94,18 @@ def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterat
         return
     lower = seat_of(place, plane, out.body)
     upper = seat_of(after, above, after.link.transmission.input.body)
-    if lower is None or upper is None:
-        return  # the shaft is that of the stage's own ground plate
+    if lower is None:
+        return
     number, low = place.link.number, lower.low
+    if isinstance(above.mounting, GroundPlate):
+        room = above.mounting.bare + after.level - lower.high
+        if room > _SAME:  # the shaft is that of the stage's own ground plate
+            bore = above.mounting.diameter
+            ring = tube(bore, COLLAR * bore, room)
+            yield lower.carries(f"spacer-{number}", lower.high, ring, SPACER_MATERIAL)
+        return
+    if upper is None:
+        return
     one, two, room = lower.hub.bore, upper.hub.bore, upper.low - lower.high
     tail = OUT * one if number == 1 else 0.0
     outside = COLLAR * max(one, two)
