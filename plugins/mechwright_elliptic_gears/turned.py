@@ -96,8 +96,7 @@ def round_parts(
     if phase_pin is not None:
         shank = Step(phase_pin.middle, high - low + t, phase_pin)
         pin = Turned((shank, Step(HEAD * layout.dowel, PIN_HEAD * layout.gap)))
-        out = pin.length - (high + layout.thickness - low)  # towards its keeper
-        parts.append(replace(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK), play=max(out, 0.0)))
+        parts.append(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK))
     elif dowelled:
         at = tuple(Instance(body, low) for body in DOWELS)
         parts.append(dowel_part("dowel", layout.dowel, high - low + t, at, _DARK))

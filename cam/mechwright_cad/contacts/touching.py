@@ -141,23 +141,25 @@ class Touching:
 
     def _ends(self) -> Iterator[Gap]:
         """Ends of upright turned pins that stand a little out of the outermost hole that turns with them."""
-        ends: dict[int, list[tuple[float, float, int]]] = {}
+        ends: dict[int, list[tuple[float, float, int, float]]] = {}
         for k, hole, pins in self.mates:
             if abs(hole.axis @ UP) > 1 - PARALLEL:
                 for m, _, _ in pins:
                     if self.heads[m] == self.heads[k]:
-                        ends.setdefault(m, []).append((*_heights(hole), k))
+                        ends.setdefault(m, []).append((*_heights(hole), k, hole.diameter))
         for m, holes in ends.items():
-            if self.bodies[m].part.turned is None:
+            turned = self.bodies[m].part.turned
+            if turned is None:
                 continue
-            (low, high), others = self._boxes[m][:, 2], [k for _, _, k in holes]
-            for out, k in (
-                (min(one[0] for one in holes) - low, min(holes)[2]),
-                (high - max(one[1] for one in holes), max(holes, key=lambda one: one[1])[2]),
-            ):
+            first, last = turned.steps[0].foot, turned.steps[-1].diameter
+            if self.bodies[m].poses.rotation[self.sample][2, 2] < 0:
+                first, last = last, first
+            (low, high), others = self._boxes[m][:, 2], [k for _, _, k, _ in holes]
+            under, over = min(holes, key=lambda one: one[0]), max(holes, key=lambda one: one[1])
+            for out, size, (_, _, k, bore) in ((under[0] - low, first, under), (high - over[1], last, over)):
                 play = self._play(m, *others)
-                if CONTACT + play < out <= PROUD:
-                    yield Gap("end", self.bodies[m].name, self.bodies[k].name, out, play)
+                if CONTACT + play < out <= PROUD and size < bore + ALIKE:  # else it is a head
+                    yield Gap("end", self.bodies[m].name, self.bodies[k].name, float(out), play)
 
     def _columns(self) -> Iterator[Gap]:
         """Bodies of one group on one upright pin with nothing between them."""
