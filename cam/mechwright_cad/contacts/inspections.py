@@ -12,9 +12,6 @@ if TYPE_CHECKING:
     from mechwright_cad.contacts.screw_joints import ScrewJoint
     from mechwright_cad.contacts.touching import Gap
 
-CONTACT = 0.02
-"""Faces nearer to each other than this, mm, touch: half the play of a sliding fit, and a stack's rounding."""
-
 COMMANDS = frozenset({"check", "solve", "model", "cam", "build"})
 
 
@@ -149,6 +146,8 @@ _DONE = {
 
 def gap_findings(gaps: "Iterable[Gap]") -> Iterator[Finding]:
     """An error for each."""
+    from mechwright_cad.contacts.rounds import CONTACT
+
     for one in gaps:
         limit = CONTACT + one.play
         said = _SAID[one.kind].format(one=one.body, two=one.other, gap=one.gap)

@@ -17,6 +17,9 @@ from mechwright_cad.bodies import Body
 NEAR = 0.05
 """How far apart axes of faces are that go into each other, mm, at most."""
 
+CONTACT = 0.02
+"""Faces nearer to each other than this, mm, touch: half the play of a sliding fit, and a stack's rounding."""
+
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
 

@@ -25,8 +25,7 @@ from mechwright.contracts.part import Bore
 from mechwright_cad.assembly_order.groups import Standing, rigid
 from mechwright_cad.assembly_order.layers import PARALLEL, UP, Layer
 from mechwright_cad.bodies import Body, is_coupling
-from mechwright_cad.contacts.inspections import CONTACT
-from mechwright_cad.contacts.rounds import ALIKE, NEAR, Round, rounds_of
+from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round, rounds_of
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 PROUD = 2.0

@@ -7,8 +7,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright_cad.assembly_order.layers import PARALLEL
-from mechwright_cad.contacts.inspections import CONTACT
-from mechwright_cad.contacts.rounds import ALIKE, NEAR, Round
+from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round
 from mechwright_cad.contacts.screw_joints import Hole, ScrewJoint, holes_of
 from mechwright_cad.contacts.touching import Gap, Touching
 
