@@ -8,6 +8,7 @@ import pytest
 
 from mechwright import Part
 from mechwright.build import Build, Wanted
+from mechwright.designs.design import design_of
 from mechwright.plugins.host import host
 from mechwright_cad.bodies import bodies_of
 from mechwright_cad.contacts.inspections import Contact, screw_findings
@@ -95,3 +96,17 @@ def test_a_spacer_that_is_shorter_leaves_a_gap():
 def test_a_mechanism_alone_has_its_shafts_elsewhere():
     with Build(EXAMPLES / "elliptic-pair.toml", host(), Wanted("check")) as build:
         assert Contact().findings(build) == ()
+
+
+def test_the_pilot_of_a_stepper_is_shorter_than_its_plate():
+    content = {
+        "format": 1,
+        "name": "stepper",
+        "family": "four-bar",
+        "parameters": {"screw_hole": 6},
+        "machine": {"frame": "base", "motor": "NEMA 17 - 40"},
+    }
+    with Build(design_of(content, Path("x.toml"), "", host()), host(), Wanted("check")) as build:
+        assert "motor" in {part.name for part in build.parts}
+        assert Contact().findings(build) == []
+        assert planted(build, "motor", -1.0)

@@ -28,6 +28,9 @@ from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round, rounds_of
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
+ROOM = 0.1
+"""A hole that is wider than its pin by more than this, mm, is room for it and no seat: a motor's pilot."""
+
 PROUD = 2.0
 """A pin that stands further out of a hole, mm, is meant to: it carries something there, or is held there."""
 
@@ -117,11 +120,21 @@ class Touching:
 
     def _seats(self) -> Iterator[Gap]:
         """Holes that their pins do not fill, and holes with a fit in which there is none."""
-        for k, hole, pins in self.mates:
+        for k, hole, around in self.mates:
+            pins = around
             name = self.bodies[k].name
             if not pins:
                 if hole.fit is not None and not self._vacant(k, hole):
                     yield Gap("empty", name, "", hole.high - hole.low, 0.0)
+                continue
+            among = {m for m, _, _ in pins}
+            pins = [
+                found
+                for m, pin in self.rounds
+                if m in among and not pin.inside and hole.diameter - pin.diameter <= ROOM
+                if (found := _filled(m, pin, hole)) is not None
+            ]
+            if not pins:
                 continue
             filled = sum(high - low for low, high in _joined([(low, high) for _, low, high in pins]))
             left, play = hole.high - hole.low - filled, self._play(k, *(m for m, _, _ in pins))
