@@ -24,6 +24,11 @@ class Body:
         return self.part.outline is not None
 
 
+def is_coupling(part: Part) -> bool:
+    """Whether it is clamped on the ends of two shafts."""
+    return part.bought is not None and part.bought.designation.startswith("flexible coupling")
+
+
 def label_of(body: Body) -> str:
     """What a picture calls it: the part, and of a part with several copies the body as well.
 

@@ -4,6 +4,7 @@ from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import BillOfMaterials
+from mechwright_cad.contacts.inspections import Contact, ScrewLengths
 from mechwright_cad.exporters import (
     DxfExporter,
     GlbExporter,
@@ -33,6 +34,8 @@ def mechwright_register() -> list[type[Plugin]]:
         TurnedDrawings,
         AssemblyGuide,
         Interference,
+        ScrewLengths,
+        Contact,
         PartSolid,
         PartPicture,
         Assembled,

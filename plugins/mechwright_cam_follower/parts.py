@@ -234,6 +234,7 @@ def _rail(params: CamParams) -> Part:
         tuple(Instance(body, follower_foot(params)) for body in RAILS),
         colour,
         tuple(chain(features, [Profile("outside", outer, "outside", 0, depth)])),
+        play=params.guide_clearance,
     )
 
 

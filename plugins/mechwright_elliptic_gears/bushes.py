@@ -57,10 +57,12 @@ def bush_parts(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]:
     if base is not None:
         places.setdefault(layout.base, []).extend((body, -base.length) for body in turning_axes(params))
     by_length: dict[float, list[Instance]] = {}
+    shorter: dict[float, float] = {}
     for thickness, where in places.items():
         bush = bush_of(params, thickness)
         if bush is not None:
             by_length.setdefault(bush.length, []).extend(Instance(body, z) for body, z in where)
+            shorter[bush.length] = max(shorter.get(bush.length, 0.0), thickness - bush.length)
     return tuple(
         Part(
             f"bush-{params.bore:g}x{length:g}".replace(".", "_"),
@@ -70,6 +72,7 @@ def bush_parts(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]:
             tuple(at),
             _BRONZE,
             bought=bush_for(params.bore, length).bought,
+            play=shorter[length],
         )
         for length, at in by_length.items()
     )

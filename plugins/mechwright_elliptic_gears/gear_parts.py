@@ -190,6 +190,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         machined=tuple(features),
         details=gear.details,
         marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
+        vacant=tuple(hole.name for hole in gear.holes) if params.phase_joint == "pins" else (),
     )
 
 

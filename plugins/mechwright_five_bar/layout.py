@@ -82,6 +82,8 @@ def laid_out(params: FiveBarParams) -> Layout:
     outlines |= _gears(params, bores, hub)
     up = raised(params)
     heights = {name: found.bottom(name) + up.get(name, 0.0) for name in outlines}
+    if hub is not None:  # it lies on the gear that it clamps, and leaves its layer by the gap
+        heights["clamp"] = heights["wheel"] - params.gear_thickness
     return Layout(outlines, found, posts, heights)
 
 

@@ -83,6 +83,8 @@ def spans_of(params: FiveBarParams, layout: Layout) -> dict[str, tuple[float, fl
     found = dict(layout.stack.spans)
     low, high = found["shaft-a0"]
     found["shaft-a0"] = low - SHAFT * params.pin_diameter, high
+    if "clamp" in layout.heights:
+        found["shaft-b0"] = layout.heights["clamp"], found["shaft-b0"][1]
     height = head_of(params)[1]
     for name in ("pin-a", "pin-c"):
         if slotted(params, name[-1].upper()):

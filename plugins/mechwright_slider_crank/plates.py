@@ -313,7 +313,10 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
     at: dict[str, tuple[Instance, ...]] = {
         name: (Instance(name, heights.bottom(name)),) for name in ("base", "crank", "rod", "slider")
     }
-    at["rail"] = tuple(Instance(name, heights.bottom(name)) for name in ("rail-1", "rail-2"))
+    under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
+    lowest = heights.layer["rail-1"] == 1  # rails of the first layer lie on the base, others on spacers
+    foot = under if lowest else over
+    at["rail"] = tuple(Instance(name, foot) for name in ("rail-1", "rail-2"))
     parts = [
         Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
         for name in ("base", "rail", "crank", "rod", "slider")
@@ -326,9 +329,8 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
         parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
     low, high = spans["dowel-1"]
     dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
-    parts.append(dowel_part("dowel", sizes.dowel, high - low, dowels))
-    under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
-    if heights.layer["rail-1"] > 1:
+    parts.append(dowel_part("dowel", sizes.dowel, round(high - low - (over - foot), 6), dowels))
+    if not lowest:
         spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
         parts.append(
             bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)

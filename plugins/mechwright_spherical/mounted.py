@@ -37,7 +37,7 @@ def axis_parts(params: SphericalParams) -> Iterator[Part]:
         spacer = spacer_form(params, name)
         if spacer is not None:
             at = (Instance(axle, spacer_room(params, name)[0] + AIR / 2),)
-            yield Part(f"spacer-{name}", None, 0.0, "brass", at, BRONZE, turned=spacer)
+            yield Part(f"spacer-{name}", None, 0.0, "brass", at, BRONZE, turned=spacer, play=AIR / 2)
 
 
 def axis_frames(params: SphericalParams) -> dict[str, tuple[str, Array]]:

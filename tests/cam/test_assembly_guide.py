@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import ezdxf
@@ -29,7 +30,6 @@ from mechwright.standards.couplings import coupling_for
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_guide.balloons import APART, balloons
 from mechwright_cad.assembly_guide.exploded import Boxes, exploded, lifted
-from mechwright_cad.assembly_guide.fits import matches, rounds_of
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.assembly_guide.tools import fitted, screwed
@@ -40,6 +40,8 @@ from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.plan import Plan, plan_of
 from mechwright_cad.bill.page import order_of
 from mechwright_cad.bodies import bodies_of
+from mechwright_cad.contacts.rounds import matches, rounds_of
+from mechwright_cad.contacts.screw_joints import joints_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -144,9 +146,11 @@ def test_fits_say_whether_a_pin_is_pressed_pushed_or_runs():
 
 
 def test_screws_have_their_key_and_torque_and_circlips_their_pliers():
-    bolt = Part("bolt", None, 0.0, "steel", bought=screw(4, 12).bought)
-    assert "hexagon key 3 mm" in screwed(bolt)
-    assert "2.8 N m" in screwed(bolt)
+    bolt = Part("bolt", None, 0.0, "steel", (Instance("a", 10.0),), bought=screw(4, 12).bought)
+    assert screwed(bolt) == "Tool: hexagon key 3 mm.", "no torque without the thread that it is in"
+    pillar = turned("pillar", Turned((Length(12.0, 10.0),), threads=(EndThread("upper", 4.0, 0.7, 6.0),)))
+    (joint,) = joints_of(standing(replace(bolt, instances=(Instance("a", 16.0),)), pillar), 0)
+    assert screwed(bolt, joint) == "Tool: hexagon key 3 mm; tighten to 2.7 N m (8.8, oiled)."
     grub = Part("grub", None, 0.0, "steel", bought=screw(4, 6, "set").bought)
     assert "hexagon key 2 mm" in screwed(grub)
     assert "N m" not in screwed(grub)

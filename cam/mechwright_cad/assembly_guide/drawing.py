@@ -9,7 +9,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Part
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.pictures import Pictures
-from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
+from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame, ratio
 from mechwright_cad.sheet.sheet import HEIGHT, Fill, Sheet, Stroke, Text
 
 SCALES = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
@@ -31,9 +31,11 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], desi
     x0, y0, x1, y1 = shapely.union_all(list(lines.values())).bounds
     column = 4 * APART * HEIGHT
     listed = {number: those for number, those in items.items() if any(part.instances for part in those)}
+    torques = pictures.plan.torques
+    notes = [f"{name}: {torques[name]}" for name in sorted(torques)]
     for paper in SHEETS:
         wide = paper[0] - 2 * (MARGIN + EDGE) - sum(COLUMNS) - column
-        high = paper[1] - 2 * (MARGIN + EDGE)
+        high = paper[1] - 2 * (MARGIN + EDGE) - LINE * len(notes)
         fitting = [one for one in SCALES if one * (x1 - x0) <= wide and one * (y1 - y0) <= high]
         holds = ROW * (len(listed) + 2) + TITLE[1] + 2 * MARGIN <= paper[1]
         if holds and fitting and (fitting[0] >= SCALES[3] or paper is SHEETS[-1]):
@@ -71,6 +73,9 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], desi
         (("Items", f"{len(listed)}"), ("Bodies", f"{bodies}")),
     )
     frame(sheet, rows, ())
+    # Above the view, which may reach down beside the title block.
+    for k, line in enumerate(notes, start=1):
+        sheet.add(Text((MARGIN + EDGE, sheet.height - MARGIN - LINE * k), line, height=2.5))
     return sheet
 
 

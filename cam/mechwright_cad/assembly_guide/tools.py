@@ -1,43 +1,53 @@
 """What bought parts take to be fitted: tool, torque, compound."""
 
-import re
+from collections.abc import Callable
 
 from mechwright.contracts.part import Part
-from mechwright.errors import DesignError
-from mechwright.mechanics.strength.bolts import PROOF, preload, stress_area, tightening_torque
-from mechwright.standards.screws import screw_size
+from mechwright.mechanics.strength.tightening import torque_text
+from mechwright_cad.bodies import is_coupling
+from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
 
-_SCREW = re.compile(r"ISO (4762|10642|4026) - M([\d.]+) x [\d.]+ - (\S+)")
+LOCKER = "thread locker of medium strength"
 
 
-def screwed(part: Part, later: int | None = None) -> str:
+def screwed(
+    part: Part,
+    joint: ScrewJoint | None = None,
+    name: Callable[[int], str] = str,
+    later: int | None = None,
+) -> str:
     """Tool and torque of a screw; empty for what is none that is known.
 
-    ``later``: the number of the step in which it is drawn tight, where that is not its own.
+    Parameters
+    ----------
+    joint
+        The thread that it is in, from which its torque follows.
+    name
+        Gives the words for a body by its number.
+    later
+        The number of the step in which it is drawn tight, where that is not its own.
     """
-    found = _SCREW.fullmatch(part.bought.designation) if part.bought is not None else None
-    if found is None:
+    screw = screw_of(part)
+    if screw is None:
         return ""
-    standard, size, grade = found[1], float(found[2]), found[3]
-    try:
-        of = screw_size(size)
-    except DesignError:
-        return ""
-    if standard == "4026":
-        return f"Tool: hexagon key {of.set_hexagon:g} mm. Thread locker of medium strength."
-    key, head = (of.hexagon, of.head) if standard == "4762" else (of.sunk_hexagon, of.sunk_head)
-    if grade not in PROOF:
-        return f"Tool: hexagon key {key:g} mm."
-    force = preload(stress_area(size, of.pitch), PROOF[grade])
-    torque = tightening_torque(force, size, of.pitch, head, of.clearance())
+    tool = f"Tool: hexagon key {screw.key:g} mm"
+    if not screw.head:
+        return f"{tool}. {LOCKER.capitalize()}."
+    found = None if joint is None else joint.tightening
+    if joint is None or found is None:
+        return f"{tool}."
     if later is not None:
-        return f"Tool: hexagon key {key:g} mm; only until its head rests: step {later} draws it tight."
-    return f"Tool: hexagon key {key:g} mm; tighten to {torque:.2g} N m ({grade}, oiled; half of it in POM)."
-
-
-def is_coupling(part: Part) -> bool:
-    """Whether it is clamped on the ends of two shafts."""
-    return part.bought is not None and part.bought.designation.startswith("flexible coupling")
+        return f"{tool}; only until its head rests: step {later} draws it tight."
+    torque, weakest = torque_text(found.torque), joint.weakest
+    if weakest is None:
+        return f"{tool}; tighten to {torque} N m ({screw.grade}, oiled)."
+    if found.limit == "holder":
+        return (
+            f"{tool}; tighten by hand to {torque} N m at most: the rubber of {name(weakest)} bears no more. "
+            f"Hold that by its metal face, and secure the screw with {LOCKER}."
+        )
+    where = {"thread": "in its thread", "head": "under the head"}[found.limit]
+    return f"{tool}; tighten to {torque} N m ({screw.grade}, oiled): {name(weakest)} bears no more {where}."
 
 
 def fitted(part: Part) -> str:

@@ -5,11 +5,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mechwright_cad.assembly_guide.columns import Columns
-from mechwright_cad.assembly_guide.fits import Match, matches, rounds_of
-from mechwright_cad.assembly_guide.tools import fitted, is_coupling, screwed
+from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_order.groups import is_bearing, rigid
 from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
+from mechwright_cad.bodies import is_coupling
+from mechwright_cad.contacts.rounds import Match, matches, rounds_of
 
 PRESS = "Press it in a vice or arbor press, with support right under the hole."
 """How a press fit is made on the bench."""
@@ -84,9 +85,7 @@ class Words:
         press = PRESS if bench else IN_PLACE
         said += dict.fromkeys(self._tight(match, press) for match in found if self._fast(match))
         new = [k for k in step.moved if self._first[k] is step]
-        said += dict.fromkeys(
-            filter(None, (screwed(plan.bodies[k].part, self._columns.later(k)) for k in new))
-        )
+        said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k)) for k in new)))
         said += self._drawn_tight(step)
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
@@ -98,12 +97,18 @@ class Words:
         said += dict.fromkeys(self._tries(step, found))
         return said
 
+    def _screwed(self, k: int, later: int | None = None) -> str:
+        joint = self.plan.joint(k)
+        return screwed(self.plan.bodies[k].part, joint, self.name, later)
+
     def _drawn_tight(self, step: Step) -> Iterator[str]:
         """The screws of a column that stands now."""
         waiting = self._columns.waiting(self.plan.steps.index(step) + 1)
-        for part in dict.fromkeys(self.plan.bodies[k].part.name for k in waiting):
-            those = [k for k in waiting if self.plan.bodies[k].part.name == part]
-            how = screwed(self.plan.bodies[those[0]].part).removeprefix("Tool: ")
+        alike: dict[tuple[str, str], list[int]] = {}
+        for k in waiting:
+            alike.setdefault((self.plan.bodies[k].part.name, self._screwed(k)), []).append(k)
+        for (_, sentence), those in alike.items():
+            how = sentence.removeprefix("Tool: ")
             when = " and ".join(str(one) for one in sorted({self._columns.put[k] for k in those}))
             yield (
                 f"Stand it on a flat plate, turn the shafts by hand, and draw {self.names(those)} of step "

@@ -54,8 +54,20 @@ class Standing:
         """Whether two bodies, by number, are nearer than ``TOUCHING``; each pair is looked at once."""
         pair = (min(one, two), max(one, two))
         if pair not in self._known:
-            self._known[pair] = self._look(*pair)
+            self._known[pair] = self._look(*pair, TOUCHING)
         return self._known[pair]
+
+    def layered(self, number: int) -> bool:
+        """Whether a body has layers of its own; else its only one is its box."""
+        return number not in self._meshes
+
+    def layers(self, number: int) -> Sequence[Layer]:
+        """Of a body, by number."""
+        return self._layers[number]
+
+    def within(self, one: int, two: int, gap: float) -> bool:
+        """Whether bodies are nearer than a gap, mm; of meshes ``TOUCHING`` at least, by their chords."""
+        return self._look(one, two, gap)
 
     def _mesh(self, number: int) -> Manifold:
         known = self._meshes.get(number)
@@ -65,17 +77,19 @@ class Standing:
                 self._meshes[number] = known
         return known
 
-    def _look(self, one: int, two: int) -> bool:
+    def _look(self, one: int, two: int, gap: float) -> bool:
         a, b = self.box(one), self.box(two)
-        if (a[0] > b[1] + TOUCHING).any() or (b[0] > a[1] + TOUCHING).any():
+        if one in self._meshes or two in self._meshes:
+            gap = max(gap, TOUCHING)
+        if (a[0] > b[1] + gap).any() or (b[0] > a[1] + gap).any():
             return False
         if one in self._meshes or two in self._meshes:
             first, second = self._mesh(one), self._mesh(two)
-            return bool(first.min_gap(second, 2 * TOUCHING) < TOUCHING)
+            return bool(first.min_gap(second, 2 * gap) < gap)
         return any(
-            first.low <= second.high + TOUCHING
-            and second.low <= first.high + TOUCHING
-            and shapely.dwithin(first.shape, second.shape, TOUCHING)
+            first.low <= second.high + gap
+            and second.low <= first.high + gap
+            and shapely.dwithin(first.shape, second.shape, gap)
             for first in self._layers[one]
             for second in self._layers[two]
         )

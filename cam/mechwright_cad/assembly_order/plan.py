@@ -2,13 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from mechwright.build import Build
 from mechwright.contracts.motion import Motion
+from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.order import Order, Step
 from mechwright_cad.bodies import Body, bodies_of
+from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
 
 LOOKS = 13
 """Positions of the input that are tried, both ends of its way included."""
@@ -23,6 +26,32 @@ class Plan:
     motion: Motion
     sample: int
     order: Order
+
+    @cached_property
+    def joints(self) -> tuple[ScrewJoint, ...]:
+        """All screwed joints."""
+        return tuple(joints_of(self.bodies, self.sample, self.order.standing.touch))
+
+    def joint(self, number: int) -> ScrewJoint | None:
+        """That of a screw, by its number; None of what is none, or is in no thread."""
+        return next((one for one in self.joints if one.screw == number), None)
+
+    @property
+    def torques(self) -> dict[str, str]:
+        """Names of screws that are tightened to a torque, and to which, in which parts."""
+        found: dict[str, dict[str, list[str]]] = {}
+        for one in self.joints:
+            if one.tightening is not None:
+                where = found.setdefault(self.bodies[one.screw].part.name, {})
+                holders = where.setdefault(torque_text(one.tightening.torque), [])
+                holders.append(self.bodies[one.holder].part.name)
+        return {
+            name: "tighten to "
+            + "; ".join(
+                f"{torque} N m in {', '.join(dict.fromkeys(those))}" for torque, those in where.items()
+            )
+            for name, where in found.items()
+        }
 
     @property
     def turned(self) -> bool:

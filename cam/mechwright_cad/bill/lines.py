@@ -12,6 +12,7 @@ supply
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 
 from mechwright.build import Blank
 from mechwright.contracts.part import Part
@@ -53,6 +54,7 @@ def lines_of(
     blanks: Sequence[Blank],
     drawings: Mapping[str, Sequence[str]],
     order: Sequence[str] = (),
+    notes: Mapping[str, str] = MappingProxyType({}),
 ) -> list[Line]:
     """The whole bill.
 
@@ -68,12 +70,14 @@ def lines_of(
         Names of files by name of part.
     order
         Names of parts in the order of assembly, in which items are counted.
+    notes
+        What there is to say of a part besides, by its name: the torque of a screw.
     """
     numbered = items(parts, order)
     numbers = {part.name: number for number, those in numbered.items() for part in those}
     made = [part for those in numbered.values() for part in those if part.bought is None]
     return [
-        *(_body(number, those, masses, drawings) for number, those in numbered.items()),
+        *(_body(number, those, masses, drawings, notes) for number, those in numbered.items()),
         *_stock(made, blanks, numbers),
         *_supply(parts),
     ]
@@ -84,12 +88,14 @@ def _body(
     those: Sequence[Part],
     masses: Mapping[str, float],
     drawings: Mapping[str, Sequence[str]],
+    more: Mapping[str, str],
 ) -> Line:
     """One line for equal parts, whatever they are called."""
     first = those[0]
     qty = sum(count(part) for part in those)
     bought = first.bought
     notes = [bought.note] if bought is not None and bought.note else []
+    notes += dict.fromkeys(more[part.name] for part in those if part.name in more)
     if not all(part.instances for part in those):
         notes.append(ABSENT)
     return Line(

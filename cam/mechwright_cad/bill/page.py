@@ -36,6 +36,7 @@ class BillOfMaterials(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """Both files; none for a mechanism without parts."""
+        from mechwright_cad.assembly_order.plan import plan_of
         from mechwright_cad.bill.lines import lines_of
         from mechwright_cad.making import Solids
 
@@ -48,8 +49,9 @@ class BillOfMaterials(Page):
             if command in one.commands
             for blank in one.blanks(build)
         ]
+        torques = build.made(plan_of).torques
         masses = build.made(Solids).masses()
-        lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build))
+        lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build), torques)
         return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 
 

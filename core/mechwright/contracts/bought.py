@@ -4,6 +4,35 @@ from dataclasses import dataclass
 
 from mechwright.contracts.shape import Shape
 from mechwright.errors import DesignError
+from mechwright.geometry.segments import Point
+
+
+@dataclass(frozen=True)
+class BlindThread:
+    """A threaded blind hole of a bought part, which opens upwards along the part's own z.
+
+    Parameters
+    ----------
+    place
+        Of its axis, mm.
+    mouth
+        Height at which it opens, mm.
+    diameter
+        Nominal, mm; the pitch is that of the coarse thread.
+    depth
+        How far a screw may go into it, mm.
+    shear
+        At which the thread's turns strip, MPa.
+    torque
+        That its holder bears while a screw is tightened, N m, where rubber holds it; None: any screw's.
+    """
+
+    place: Point
+    mouth: float
+    diameter: float
+    depth: float
+    shear: float
+    torque: float | None = None
 
 
 @dataclass(frozen=True)
@@ -23,6 +52,8 @@ class Bought:
         Its envelope at nominal sizes; None where the part gives its solid itself.
     note
         What a buyer or fitter has to know besides.
+    threads
+        Its threaded holes, into which screws of the machine go.
     """
 
     designation: str
@@ -30,6 +61,7 @@ class Bought:
     mass: float | None = None
     shape: Shape | None = None
     note: str = ""
+    threads: tuple[BlindThread, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.designation.strip():

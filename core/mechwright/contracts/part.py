@@ -228,6 +228,11 @@ class Part:
     marks
         Signs that show how the part stands to its neighbours; the page of the assembly tells of them, and
         they are engraved on request.
+    play
+        By how much its copies may miss what they touch, or fill less of a hole than its length, mm: the
+        clearance with which they are made to stand.
+    vacant
+        Names of its holes with a fit that may stay empty: places of a pin that is in one of them.
 
     Raises
     ------
@@ -247,6 +252,8 @@ class Part:
     turned: Turned | None = None
     bought: Bought | None = None
     marks: tuple[FittingMark, ...] = ()
+    play: float = 0.0
+    vacant: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")

@@ -109,6 +109,8 @@ class Turned:
         Diameter of the hole all through, mm; 0 for none.
     bore_fit
         Of that hole.
+    tapped
+        Whether that hole is a thread of its diameter, all through.
     chamfer
         At 45° on the outer edges of both ends, mm.
     grooves, seats
@@ -139,6 +141,7 @@ class Turned:
     seats: tuple[KeySeat, ...] = ()
     note: str = ""
     threads: tuple[EndThread, ...] = ()
+    tapped: bool = False
 
     def __post_init__(self) -> None:
         if not self.steps or not all(step.diameter > 0 and step.length > 0 for step in self.steps):

@@ -12,6 +12,8 @@ from mechwright.standards.table import table
 
 NOMINAL_VOLTAGE = 12.0
 """At which the gear motors of the table have their speeds and torques, V."""
+DIE_CAST = 110.0
+"""At which a thread strips in the die-cast face of a motor or gearbox, MPa; handbook, unchecked."""
 
 KG_MM = 9.80665e-3
 """A torque of one kilogram-force millimetre, N m."""
@@ -27,6 +29,7 @@ class MotorFace:
     holes: int
     spread: float
     thread: float
+    depth: float
     hole: float
     pilot: float
     pilot_height: float

@@ -3,14 +3,19 @@
 import math
 from collections.abc import Sequence
 
-from mechwright.contracts.bought import Bought
+from mechwright.contracts.bought import BlindThread, Bought
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
 from mechwright.contracts.turned import EndThread, Step, Turned
+from mechwright.errors import DesignError
+from mechwright.geometry.segments import Point
+from mechwright.machine.frame.fixing import fixing, put_fixing
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
 from mechwright.machine.frame.plates import Hole, add_plate, stock_for
 from mechwright.machine.frame.standing import Standing
+from mechwright.mechanics.strength.allowed import allowed
+from mechwright.mechanics.strength.tightening import bond_torque
 from mechwright.standards.screws import Screw, screw
 
 MARGIN = 16.0
@@ -24,7 +29,7 @@ UNDER = 10.0
 """Between the motor and the base plate, mm: its cable, and air."""
 
 FOOT = (20.0, 15.0, 6.0)
-"""Diameter and height of a foot and the depth of the thread in it, mm: higher than a screw's head."""
+"""Diameter and height of a foot and the depth of its thread, mm: higher than a screw's head."""
 
 HOLE = 6.0
 """Of the base plate's screws, mm: a drill, for mills of the clearance's size do not reach through."""
@@ -32,22 +37,36 @@ HOLE = 6.0
 RUBBER = 1.2e-3
 """Density, g/mm³; handbook."""
 
-IN_FOOT = 4.0
-"""How far a screw goes into a foot at least, mm."""
-
 
 def foot() -> Bought:
     """A rubber foot with a thread in its upper end; it stands on z = 0."""
     wide, high, deep = FOOT
     words = f"rubber buffer {wide:g} x {high:g} with thread M{SCREW:g} x {deep:g} inside"
     shape = Shape((ring(0.0, wide, high),), (ring(0.0, SCREW, deep, high - deep),))
+    thread = BlindThread((0.0, 0.0), high, SCREW, deep, allowed("steel").shear, bond_torque(wide))
     return Bought(
         words,
         "",
         round(RUBBER * math.pi / 4 * wide**2 * high, 1),
         shape,
         "no standard fixes it; compare with the maker's sheet",
+        (thread,),
     )
+
+
+def add_foot(kit: Kit, name: str, point: Point, top: float, thickness: float) -> None:
+    """A foot under a plate whose upper face is at ``top``, mm, and the screw that goes down into it.
+
+    Raises DesignError where no screw that is sold goes deep enough into the foot, and not too deep.
+    """
+    (thread,) = foot().threads
+    kit.places[name] = Place((*point, 0.0))
+    try:
+        found = fixing(thread.diameter, thickness, thread.depth)
+    except DesignError as error:
+        raise DesignError(f"machine.plates: {error}; leave it out") from error
+    put_fixing(kit, found, name, top)
+    kit.bought("foot", foot(), name, top - thickness - FOOT[1])
 
 
 def thickness_for(standing: Standing, in_hand: Sequence[float] = ()) -> float:
@@ -104,8 +123,6 @@ def add_base(
     for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
         point = (x + a * inset, y + b * inset)
         holes.append(Hole.through(f"foot-{k}", point, HOLE, thickness))
-        kit.places[f"foot-{k}"] = Place((*point, 0.0))
-        put_screw(kit, screw(SCREW, thickness + IN_FOOT), f"foot-{k}", top)
-        kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])
+        add_foot(kit, f"foot-{k}", point, top, thickness)
     kit.places["base-carrier"] = Place()
     add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)

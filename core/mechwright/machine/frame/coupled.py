@@ -6,16 +6,17 @@ from dataclasses import dataclass, replace
 import shapely
 from shapely import affinity
 
-from mechwright.contracts.bought import Bought
+from mechwright.contracts.bought import BlindThread, Bought
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.shape import Revolve, Shape, ring
 from mechwright.contracts.surroundings import OVER, Place, turned
 from mechwright.geometry.segments import Point
+from mechwright.machine.frame.fixing import Fixing, fixing, put_fixing
 from mechwright.machine.frame.kit import Kit
-from mechwright.machine.frame.pillars import SCREW, SPARE, put_screw
+from mechwright.machine.frame.pillars import SCREW, put_screw
 from mechwright.machine.frame.plates import Hole
 from mechwright.standards.couplings import Coupling
-from mechwright.standards.motors import GearMotor, MotorFace, Stepper
+from mechwright.standards.motors import DIE_CAST, GearMotor, MotorFace, Stepper
 from mechwright.standards.screws import screw, screw_size
 
 Motor = Stepper | GearMotor
@@ -32,8 +33,8 @@ FLANGE = 5.0
 PILOT = 0.2
 """By how much the plate's hole is larger than the motor's pilot, mm: the coupling takes what it is off."""
 
-REACH, GRIP = 4.0, 3.0
-"""How deep screws go into a motor with threaded holes, mm, at most, for they are 4.5 deep; and at least."""
+SUNK = 2.0
+"""How deep the heads of the motor's screws may be sunk into its plate, mm: so much longer they reach."""
 
 BESIDE = 2.0
 """Between a pillar and what is beside it, mm."""
@@ -111,8 +112,12 @@ def drilled(motor: Motor) -> Bought:
     """The motor with the holes of its screws; behind a flange with through holes their heads have room."""
     face, bought = motor.face, motor.bought
     assert bought.shape is not None  # noqa: S101 - the table's motors have one
+    threads: tuple[BlindThread, ...] = ()
     if face.thread:
-        holes = [ring(0.0, face.thread, REACH + SPARE, -REACH - SPARE)]
+        holes = [ring(0.0, face.thread, face.depth, -face.depth)]
+        threads = tuple(
+            BlindThread(place, 0.0, face.thread, face.depth, DIE_CAST) for place in screw_places(face)
+        )
     else:
         head = screw_size(SCREW).head + 1.0
         holes = [
@@ -120,15 +125,27 @@ def drilled(motor: Motor) -> Bought:
             ring(0.0, head, motor.length - FLANGE, -motor.length),
         ]
     less = [Revolve(hole.profile, place) for place in screw_places(face) for hole in holes]
-    return replace(bought, shape=Shape(bought.shape.pieces, (*bought.shape.less, *less)))
+    shape = Shape(bought.shape.pieces, (*bought.shape.less, *less))
+    return replace(bought, shape=shape, threads=threads)
+
+
+def motor_fixing(face: MotorFace) -> Fixing:
+    """A screw from above through the motor's plate into its thread; raises DesignError where none fits."""
+    return fixing(face.thread, PLATE, face.depth, SUNK)
 
 
 def motor_holes(face: MotorFace) -> list[Hole]:
     """Of the plate that carries a motor, from the motor's shaft: pilot and screws."""
-    hole = screw_size(face.thread).clearance() if face.thread else SCREW
+    steps: tuple[tuple[float, float, float], ...] = ((SCREW, 0.0, PLATE),)
+    if face.thread:
+        size, sunk = screw_size(face.thread), motor_fixing(face).sunk
+        steps = ((size.clearance(), 0.0, PLATE),)
+        if sunk:
+            steps = ((size.counterbore, 0.0, sunk), *steps)
+    places = enumerate(screw_places(face), start=1)
     return [
         Hole.through("pilot", (0.0, 0.0), face.pilot + PILOT, PLATE),
-        *(Hole.through(f"screw-{k}", p, hole, PLATE) for k, p in enumerate(screw_places(face), start=1)),
+        *(Hole(f"screw-{k}", place, steps) for k, place in places),
     ]
 
 
@@ -137,7 +154,10 @@ def add_motor(kit: Kit, coupled: Coupled, body: str) -> None:
     kit.places["motor"] = Place((*coupled.axis, 0.0), turned(coupled.angle))
     kit.places["motor-shaft"] = Place(on=body)
     kit.bought("motor", drilled(coupled.motor), "motor", coupled.face)
-    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low)
+    # Each shaft goes into half of the coupling, that of the motor as far as it is long enough.
+    inside = coupled.face + coupled.motor.face.shaft_length - coupled.coupling_low
+    empty = max(coupled.coupling.of.length / 2 - inside, 0.0)
+    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low, play=empty)
 
 
 def fasten_motor(kit: Kit, coupled: Coupled) -> None:
@@ -148,7 +168,7 @@ def fasten_motor(kit: Kit, coupled: Coupled) -> None:
         origin = (*coupled.at(place), 0.0)
         if face.thread:
             kit.places[body] = Place(origin)
-            put_screw(kit, screw(face.thread, PLATE + GRIP), body, coupled.top)
+            put_fixing(kit, motor_fixing(face), body, coupled.top)
         else:
             kit.parts["motor-plate"] = threaded(kit.parts["motor-plate"], f"screw-{k}", f"M{SCREW:g}")
             kit.places[body] = Place(origin, OVER)

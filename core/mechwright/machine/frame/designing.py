@@ -233,7 +233,8 @@ def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column
     for post in posts:
         name = "pillar" if post.spigot else "plain-pillar"
         foot = levels.lower - (REGISTER - SHORT if post.spigot else 0.0)
-        kit.turned(name, pillar(levels.height, below, deep, spigot=post.spigot), post.name, foot)
+        form = pillar(levels.height, below, deep, spigot=post.spigot)
+        kit.turned(name, form, post.name, foot, play=SHORT if post.spigot else 0.0)
         put_screw(kit, fixing, post.name, levels.upper + thickness)
         if joint is None:
             put_screw(kit, fixing, f"{post.name}-below", -frame.under)

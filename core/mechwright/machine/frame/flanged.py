@@ -17,7 +17,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Flange, Foot
 from mechwright.contracts.surroundings import OVER, Place, Surroundings, Turn
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import FOOT, HOLE, IN_FOOT, LEAST, MOST, SLENDER, foot
+from mechwright.machine.frame.base import FOOT, HOLE, LEAST, MOST, SLENDER, add_foot
 from mechwright.machine.frame.bracket import Bracket, add_bracket, least_half
 from mechwright.machine.frame.coupled import face_below, outline
 from mechwright.machine.frame.decided import Wanted
@@ -26,7 +26,7 @@ from mechwright.machine.frame.ground_refusals import GroundError, plate_key_faul
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.overload import overloaded
-from mechwright.machine.frame.pillars import EDGE, SCREW, put_screw
+from mechwright.machine.frame.pillars import EDGE, put_screw
 from mechwright.machine.frame.plates import Hole, add_plate, stock_for
 from mechwright.machine.frame.standing import CLEARANCE, Standing
 from mechwright.mechanics.strength.fastening import press_fit_torque
@@ -209,9 +209,7 @@ def _add_base(kit: Kit, flange: Flange, standing: Standing, keys: FrameKeys) -> 
         put_screw(kit, fixing, f"stand-{k}", -low)
     for k, (x, y) in enumerate(standing.corners, start=1):
         holes.append(Hole.through(f"foot-{k}", (x, y), HOLE, thickness))
-        kit.places[f"foot-{k}"] = Place((x, y, 0.0))
-        put_screw(kit, screw(SCREW, thickness + IN_FOOT), f"foot-{k}", top)
-        kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])
+        add_foot(kit, f"foot-{k}", (x, y), top, thickness)
     kit.places["base-carrier"] = Place()
     add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)
     held = _fixing(plate, plate.grip)

@@ -29,13 +29,13 @@ class Kit:
         known = self.parts.get(part.name, part)
         self.parts[part.name] = replace(known, instances=(*known.instances, Instance(body, z)))
 
-    def turned(self, name: str, form: Turned, body: str, z: float, material: str = STEEL) -> None:
-        """A copy of a turned part."""
-        self.put(Part(name, None, 0.0, material, colour=BRIGHT, turned=form), body, z)
+    def turned(self, name: str, form: Turned, body: str, z: float, *, play: float = 0.0) -> None:
+        """A copy of a turned part of steel; ``play`` as :attr:`Part.play`."""
+        self.put(Part(name, None, 0.0, STEEL, colour=BRIGHT, turned=form, play=play), body, z)
 
-    def bought(self, name: str, what: Bought, body: str, z: float, colour: Colour = BLACK) -> None:
-        """A copy of a part that is bought."""
-        self.put(Part(name, None, 0.0, STEEL, colour=colour, bought=what), body, z)
+    def bought(self, name: str, what: Bought, body: str, z: float, *, play: float = 0.0) -> None:
+        """A copy of a part that is bought; ``play`` as :attr:`Part.play`."""
+        self.put(Part(name, None, 0.0, STEEL, colour=BLACK, bought=what, play=play), body, z)
 
     def plate(
         self,

@@ -31,12 +31,15 @@ class Plane:
         As its family says; None where it says nothing.
     bottom
         Of what comes over the stage before: a shaft of its own, which stands out into it, does not count.
+    origins
+        Heights of the origins of its bodies, mm, in the stage's own coordinates.
     """
 
     low: float
     high: float
     mounting: Mounting | GroundPlate | None
     bottom: float
+    origins: Mapping[str, float]
 
     def hub(self, body: str) -> Hub | None:
         """The hub on the shaft of a body; None where no shaft goes through it."""
@@ -86,7 +89,7 @@ def plane_of(
                 bottom = min(bottom, low + at)
     if plate is not None:
         bottom = min(bottom, plate.bare)
-    return Plane(min(lows), max(highs), mounting, bottom)
+    return Plane(min(lows), max(highs), mounting, bottom, dict(levels))
 
 
 def levels_of(links: tuple[Link, ...], planes: tuple[Plane, ...]) -> tuple[float, ...]:

@@ -31,10 +31,15 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Seat:
-    """What sits on a shaft: a hub between two heights of the chain, mm, and the key that sets its bore."""
+    """What sits on a shaft: a hub between two heights of the chain, mm, and the key that sets its bore.
+
+    ``body`` is the chain's name of the hub's body, whose origin stands at the height ``origin``, mm.
+    """
 
     hub: Hub
     key: str
+    body: str
+    origin: float
 
     @property
     def low(self) -> float:
@@ -46,6 +51,11 @@ class Seat:
         """Its upper end, mm."""
         return self.hub.high
 
+    def carries(self, name: str, low: float, form: Turned, material: str = MATERIAL) -> Part:
+        """A turned part that turns with the hub and whose lower end stands at a height of the chain, mm."""
+        at = Instance(self.body, low - self.origin)
+        return Part(name, None, 0.0, material, (at,), turned=form)
+
 
 def seat_of(place: Placed, plane: Plane, body: str) -> Seat | None:
     """The seat of a stage's body, at the heights of the chain; None without a hub."""
@@ -54,7 +64,8 @@ def seat_of(place: Placed, plane: Plane, body: str) -> Seat | None:
         return None
     raised = replace(hub, low=hub.low + place.level, high=hub.high + place.level)
     keys = {one.body: one.bore_key for one in plane.mounting.spindles} if plane.mounting else {}  # type: ignore[union-attr]
-    return Seat(raised, key_of(place.link.number, keys.get(body, "")))
+    key = key_of(place.link.number, keys.get(body, ""))
+    return Seat(raised, key, place.link.named(body), plane.origins[body] + place.level)
 
 
 def shafts_of(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> tuple[Part, ...]:
@@ -63,27 +74,18 @@ def shafts_of(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> tuple[Pa
     first, last = places[0], places[-1]
     begin = seat_of(first, planes[0], first.link.transmission.input.body)
     if begin is not None:
-        body = first.link.named(first.link.transmission.input.body)
         size = begin.hub.bore
-        parts.append(
-            _shaft("shaft-in", body, begin.low - OUT * size, (Step(size, OUT * size + begin.hub.length),))
-        )
+        whole = Turned((Step(size, OUT * size + begin.hub.length),))
+        parts.append(begin.carries("shaft-in", begin.low - OUT * size, whole))
     for place, plane, after, above in zip(places, planes, places[1:], planes[1:], strict=False):
         parts += _between(place, plane, after, above)
     out = last.link.transmission.output
     end = None if out is None else seat_of(last, planes[-1], out.body)
-    if end is not None and out is not None:
+    if end is not None:
         size = end.hub.bore
-        parts.append(
-            _shaft(
-                "shaft-out", last.link.named(out.body), end.low, (Step(size, end.hub.length + OUT * size),)
-            )
-        )
+        whole = Turned((Step(size, end.hub.length + OUT * size),))
+        parts.append(end.carries("shaft-out", end.low, whole))
     return tuple(parts)
-
-
-def _shaft(name: str, body: str, low: float, steps: tuple[Step, ...]) -> Part:
-    return Part(name, None, 0.0, MATERIAL, (Instance(body, low),), turned=Turned(steps))
 
 
 def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterator[Part]:
@@ -92,25 +94,28 @@ def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterat
         return
     lower = seat_of(place, plane, out.body)
     upper = seat_of(after, above, after.link.transmission.input.body)
-    if lower is None or upper is None:
-        return  # the shaft is that of the stage's own ground plate
-    number, body = place.link.number, place.link.named(out.body)
+    if lower is None:
+        return
+    number, low = place.link.number, lower.low
+    if isinstance(above.mounting, GroundPlate):
+        room = above.mounting.bare + after.level - lower.high
+        if room > _SAME:  # the shaft is that of the stage's own ground plate
+            bore = above.mounting.diameter
+            ring = tube(bore, COLLAR * bore, room)
+            yield lower.carries(f"spacer-{number}", lower.high, ring, SPACER_MATERIAL)
+        return
+    if upper is None:
+        return
     one, two, room = lower.hub.bore, upper.hub.bore, upper.low - lower.high
     tail = OUT * one if number == 1 else 0.0
     outside = COLLAR * max(one, two)
     if abs(one - two) <= _SAME:
-        yield _shaft(f"shaft-{number}", body, lower.low - tail, (Step(one, tail + upper.high - lower.low),))
-        yield Part(
-            f"spacer-{number}",
-            None,
-            0.0,
-            SPACER_MATERIAL,
-            (Instance(body, lower.high),),
-            turned=tube(one, outside, room),
-        )
+        whole = Turned((Step(one, tail + upper.high - low),))
+        yield lower.carries(f"shaft-{number}", low - tail, whole)
+        yield lower.carries(f"spacer-{number}", lower.high, tube(one, outside, room), SPACER_MATERIAL)
         return
     steps = (Step(one, tail + lower.hub.length), Step(outside, room), Step(two, upper.hub.length))
-    yield _shaft(f"shaft-{number}", body, lower.low - tail, steps)
+    yield lower.carries(f"shaft-{number}", low - tail, Turned(steps))
 
 
 def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Iterator[Finding]:

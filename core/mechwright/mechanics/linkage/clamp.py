@@ -114,7 +114,8 @@ def stud_part(
     """A stud on its head (diameter and height, mm), threaded through; ``length`` is that over the head."""
     steps = (Step(head[0], head[1]), Step(diameter, length))
     size = clamp.size.size
-    turned = Turned(steps, bore=size, note=f"M{size:g} through, tapping drill {clamp.size.tap_drill:g} mm")
+    note = f"M{size:g} through, tapping drill {clamp.size.tap_drill:g} mm"
+    turned = Turned(steps, bore=size, note=note, tapped=True)
     return Part(name, None, 0.0, PIN_MATERIAL, (at,), STEEL, turned=turned)
 
 

@@ -26,6 +26,9 @@ class Allowed:
         Hertz pressure of what runs for long.
     head
         Pressure under the head of a screw; more wants a washer.
+    shear
+        At which the turns of a thread strip: 0.6 of the tensile strength of the weakest usual grade (S235,
+        6082-T6, CuZn39Pb3).
     """
 
     endurance: float
@@ -33,14 +36,15 @@ class Allowed:
     root: float
     contact: float
     head: float
+    shear: float
 
 
 ALLOWED = {
-    "steel": Allowed(300.0, 100.0, 160.0, 600.0, 355.0),
-    "aluminium": Allowed(95.0, 80.0, 60.0, 200.0, 200.0),
-    "brass": Allowed(100.0, 50.0, 60.0, 250.0, 250.0),
-    "pom": Allowed(25.0, 20.0, 20.0, 60.0, 40.0),
-    "polycarbonate": Allowed(8.0, 15.0, 8.0, 30.0, 30.0),
+    "steel": Allowed(300.0, 100.0, 160.0, 600.0, 355.0, 216.0),
+    "aluminium": Allowed(95.0, 80.0, 60.0, 200.0, 200.0, 188.5),
+    "brass": Allowed(100.0, 50.0, 60.0, 250.0, 250.0, 258.0),
+    "pom": Allowed(25.0, 20.0, 20.0, 60.0, 40.0, 39.0),
+    "polycarbonate": Allowed(8.0, 15.0, 8.0, 30.0, 30.0, 39.0),
 }
 """By material."""
 

@@ -17,6 +17,9 @@ from mechwright_cad.bodies import Body
 NEAR = 0.05
 """How far apart axes of faces are that go into each other, mm, at most."""
 
+CONTACT = 0.02
+"""Faces nearer to each other than this, mm, touch: half the play of a sliding fit, and a stack's rounding."""
+
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
 
@@ -117,7 +120,7 @@ def _own(part: Part) -> Iterator[_Own]:
             if step.start is None:
                 yield (0.0, 0.0), low, low + step.length, step.diameter, False, step.fit, False
         if turned.bore:
-            yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, False
+            yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, turned.tapped
         for thread in turned.threads:
             low = 0.0 if thread.end == "lower" else turned.length - thread.depth
             yield (0.0, 0.0), low, low + thread.depth, thread.diameter, True, None, True

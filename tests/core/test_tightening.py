@@ -1,0 +1,85 @@
+"""The torque of a screwed joint, and the screw for a blind thread of a bought part."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from mechwright import DesignError
+from mechwright.contracts.threads import COARSE
+from mechwright.machine.frame.base import foot
+from mechwright.machine.frame.coupled import motor_fixing
+from mechwright.machine.frame.fixing import WASHERS, fixing
+from mechwright.machine.frame.pillars import SPARE
+from mechwright.machine.frame.plates import STOCK
+from mechwright.mechanics.strength.allowed import ALLOWED
+from mechwright.mechanics.strength.tightening import (
+    LEAST_ENGAGED,
+    SCREW_SHEAR,
+    Clamped,
+    bond_torque,
+    strip_force,
+    tightening,
+)
+from mechwright.standards.motors import motor_faces
+
+DATA = json.loads((Path(__file__).parents[1] / "data" / "thread-strip.json").read_text(encoding="utf-8"))
+M5 = (5.0, 0.8, 8.5, 5.5)
+
+
+@pytest.mark.parametrize("case", DATA["cases"], ids=lambda one: f"{one['thread']} in {one['into']}")
+def test_threads_strip_where_the_reference_has_it(case):
+    """The reference counts the nut's turns alone; in a hard part the screw's own strip first."""
+    size, shear = float(case["thread"][1:]), DATA["shear"][case["into"]]
+    pitch = COARSE[size]
+    grade = case["class"] if case["class"] in SCREW_SHEAR else "8.8"
+    found = strip_force(size, pitch, case["engaged"], shear, grade)
+    if shear < 300:
+        assert found == pytest.approx(case["strips_at"], rel=1e-4)
+    else:
+        assert found <= case["strips_at"] * (1 + 1e-4)
+
+
+def test_what_bears_least_sets_the_torque():
+    strong = strip_force(5, 0.8, 10, ALLOWED["steel"].shear)
+    assert tightening(M5, "8.8", strong).torque == pytest.approx(5.45, abs=0.01)
+    short = tightening(M5, "8.8", strip_force(5, 0.8, 2, ALLOWED["aluminium"].shear))
+    assert short.limit == "thread"
+    pom = tightening(M5, "8.8", strong, [Clamped(10, 5.5, ALLOWED["pom"].head)])
+    assert pom.limit == "head"
+    assert pom.torque == pytest.approx(1.88, abs=0.01), "under a washer on POM"
+    rubber = tightening(M5, "8.8", strong, most=bond_torque(20))
+    assert rubber.limit == "holder"
+    assert rubber.torque == pytest.approx(0.785, abs=0.001)
+    assert rubber.force < 1000
+
+
+@pytest.mark.parametrize("thickness", [*STOCK[:-1], 9.525, 12.7, 19.05])
+def test_the_screw_of_a_foot_neither_bottoms_out_nor_hangs_on_a_turn(thickness):
+    """A plate of 10 mm took a screw of 16 into a thread of 6: its point stood on the bottom."""
+    (thread,) = foot().threads
+    if thickness > 45:
+        with pytest.raises(DesignError):
+            fixing(thread.diameter, thickness, thread.depth)
+        return
+    found = fixing(thread.diameter, thickness, thread.depth)
+    deep = found.screw.length - thickness - found.washers * 1.0
+    assert LEAST_ENGAGED * 5 - 1e-9 <= deep <= thread.depth - SPARE + 1e-9
+    assert found.washers <= WASHERS
+
+
+@pytest.mark.parametrize("face", [one for one in motor_faces() if one.thread], ids=lambda one: one.name)
+def test_the_screws_of_a_motor_fit_its_thread(face):
+    """A gear motor whose thread is 3 mm deep took the screws of one with 4.5."""
+    found = motor_fixing(face)
+    deep = found.screw.length - 6.0 + found.sunk
+    assert LEAST_ENGAGED * face.thread <= deep <= face.depth - SPARE + 1e-9
+
+
+def test_a_plate_for_which_no_screw_is_sold_is_refused():
+    with pytest.raises(
+        DesignError, match=r"no screw M5 that is sold goes 4 to 5\.5 mm into a thread 6 mm deep"
+    ):
+        fixing(5, 16.6, 6)
+    assert math.isclose(fixing(3, 6, 3, 2).sunk, 0.5)
