@@ -39,24 +39,33 @@ def motor_findings(
         choice.cover,
     )
     if choice.ratio is not None and choice.ratio > INERTIA_RATIO:
-        gear = math.ceil(10 * settings.gear * math.sqrt(choice.ratio / INERTIA_RATIO)) / 10
-        heavier = [
-            one for one in stronger(drive, settings) if one.ratio is None or one.ratio <= INERTIA_RATIO
-        ]
-        proposed: list[Change] = [{"machine.gear": gear}]
-        proposed += [{"machine.motor": one.motor.name} for one in heavier[:1]]
-        yield Finding.warning(
-            "machine.inertia",
-            "machine.motor",
-            f"{name} feels {choice.ratio:.3g} times the inertia of its rotor; steppers lose steps above "
-            f"{INERTIA_RATIO:g}",
-            choice.ratio,
-            INERTIA_RATIO,
-            remedy=f"gear it down to {gear:g}, or take a motor with a heavier rotor",
-            proposed=tuple(proposed),
-        )
+        yield _inertia(drive, settings, choice, choice.ratio)
     yield from _speeds(build, drive, settings, choice)
     yield from _manners(drive, choice)
+
+
+def _inertia(drive: Drive, settings: MachineSettings, choice: Choice, ratio: float) -> Finding:
+    """A stepper that feels too much inertia, with a gear and a motor that were judged."""
+    words: list[str] = []
+    proposed: list[Change] = []
+    geared = geared_down(drive, settings)
+    if geared is not None:
+        words.append(f"gear it down to {geared:g}")
+        proposed.append({"machine.gear": geared})
+    better = more_even(drive, settings)
+    if better is not None:
+        words.append(f"take {better.motor.name}")
+        proposed.append({"machine.motor": better.motor.name})
+    return Finding.warning(
+        "machine.inertia",
+        "machine.motor",
+        f"{choice.motor.name} feels {ratio:.3g} times the inertia of its rotor; steppers lose steps above "
+        f"{INERTIA_RATIO:g}",
+        ratio,
+        INERTIA_RATIO,
+        remedy=", or ".join(words) or "lighten what it turns",
+        proposed=tuple(proposed),
+    )
 
 
 def speed_said(choice: Choice) -> str:
@@ -92,7 +101,7 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
     if better is not None:
         words.append(f"take {better.motor.name}")
         proposed.append({"machine.motor": better.motor.name})
-    elif settings.frame in {"none", "plates"} and (geared := geared_down(drive, settings)) is not None:
+    elif (geared := geared_down(drive, settings)) is not None:
         words.append(f"gear it down to {geared:g}")
         proposed.append({"machine.gear": geared})
     if better is None:
@@ -171,8 +180,10 @@ def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Cho
     elif (part := carried(drive, settings, choice.motor)) is not None:
         load = _below(part * settings.load)
         advise(f"load it by no more than {load:g} N·m", {"machine.load": load})
-    for one in stronger(drive, settings)[:1]:  # the motor that is named is at hand
-        advise(f"take {one.motor.name}", {"machine.motor": one.motor.name})
+    # The motor that is named is at hand, so another one comes last: one that turns evenly if there is any.
+    other = more_even(drive, settings) or next(iter(stronger(drive, settings)), None)
+    if other is not None:
+        advise(f"take {other.motor.name}", {"machine.motor": other.motor.name})
     if not words:
         words.append("lighten what it carries, or take a motor that is not in these tables")
     return Finding.error(

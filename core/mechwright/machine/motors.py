@@ -195,7 +195,12 @@ GEARS = (1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 
 
 
 def geared_down(drive: Drive, settings: MachineSettings) -> float | None:
-    """The least ratio above the present one with which the design's motor is enough and turns evenly."""
+    """The least ratio above the present one with which the design's motor is enough and turns evenly.
+
+    None if there is no such ratio, or the frame leaves no place for a gear.
+    """
+    if settings.couples:
+        return None
     for gear in GEARS:
         if gear > settings.gear:
             choice = motor_of(drive, settings.model_copy(update={"gear": gear}))
