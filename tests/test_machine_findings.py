@@ -325,3 +325,22 @@ def test_a_motor_on_a_flange_has_no_axial_gap(tmp_path: Path, gap: int) -> None:
     path.write_text(said.replace("[machine]\n", f"[machine]\naxial_gap = {gap}\n", 1), encoding="utf-8")
     warned = [one for one in Build(path, host()).design.check() if one.code == "machine.key"]
     assert [one.parameter for one in warned] == (["machine.axial_gap"] if gap == 4 else [])
+
+
+@pytest.mark.parametrize("name", ["37D 50:1", "NEMA 17 - 34"])
+def test_no_motor_is_proposed_that_its_flange_has_no_room_for(tmp_path: Path, name: str) -> None:
+    """Of the motors that turn 0.6 N m evenly the only one is a NEMA 23, and the pillars stand too near."""
+    path = tmp_path / "design.toml"
+    said = (ROOT / "examples" / "spherical-machine.toml").read_text(encoding="utf-8")
+    table = said.replace('motor = "auto"\nload = 0.2', f'motor = "{name}"\nload = 0.6')
+    path.write_text(table, encoding="utf-8")
+    build = Build(path, host())
+    (fault,) = (
+        one
+        for one in MachineDrive().findings(build)
+        if one.code in {"machine.speed", "machine.motor"} and one.proposed
+    )
+    assert "NEMA 23" not in fault.remedy
+    assert fault.proposed
+    for change in fault.proposed:
+        assert not [one for one in build.design.changed(change).check() if one.severity is Severity.ERROR]

@@ -4,12 +4,14 @@ import math
 from collections.abc import Callable, Iterator
 
 from mechwright.build.build import Build
-from mechwright.contracts.finding import Change, Finding
+from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.errors import MechwrightError
 from mechwright.machine.drive import Drive
 from mechwright.machine.motors import (
     DEVIATION,
     SHARES,
     Choice,
+    Motor,
     able_at,
     carried,
     even_on,
@@ -39,12 +41,12 @@ def motor_findings(
         choice.cover,
     )
     if choice.ratio is not None and choice.ratio > INERTIA_RATIO:
-        yield _inertia(drive, settings, choice, choice.ratio)
+        yield _inertia(build, drive, settings, choice.ratio, choice.motor.name)
     yield from _speeds(build, drive, settings, choice)
     yield from _manners(drive, choice)
 
 
-def _inertia(drive: Drive, settings: MachineSettings, choice: Choice, ratio: float) -> Finding:
+def _inertia(build: Build, drive: Drive, settings: MachineSettings, ratio: float, name: str) -> Finding:
     """A stepper that feels too much inertia, with a gear and a motor that were judged."""
     words: list[str] = []
     proposed: list[Change] = []
@@ -52,14 +54,14 @@ def _inertia(drive: Drive, settings: MachineSettings, choice: Choice, ratio: flo
     if geared is not None:
         words.append(f"gear it down to {geared:g}")
         proposed.append({"machine.gear": geared})
-    better = more_even(drive, settings)
+    better = more_even(drive, settings, _fits(build, settings))
     if better is not None:
         words.append(f"take {better.motor.name}")
         proposed.append({"machine.motor": better.motor.name})
     return Finding.warning(
         "machine.inertia",
         "machine.motor",
-        f"{choice.motor.name} feels {ratio:.3g} times the inertia of its rotor; steppers lose steps above "
+        f"{name} feels {ratio:.3g} times the inertia of its rotor; steppers lose steps above "
         f"{INERTIA_RATIO:g}",
         ratio,
         INERTIA_RATIO,
@@ -97,7 +99,7 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
         return
     words: list[str] = []
     proposed: list[Change] = []
-    better = more_even(drive, settings)
+    better = more_even(drive, settings, _fits(build, settings))
     if better is not None:
         words.append(f"take {better.motor.name}")
         proposed.append({"machine.motor": better.motor.name})
@@ -130,6 +132,19 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
         "but [machine] has no key for one",
         proposed=tuple(proposed),
     )
+
+
+def _fits(build: Build, settings: MachineSettings) -> Callable[[Motor], bool]:
+    """Whether the frame takes a motor; each does where no frame carries one."""
+
+    def fits(one: Motor) -> bool:
+        try:
+            around = build.design.changed({"machine.motor": one.name}).surroundings
+        except MechwrightError:
+            return False
+        return not any(said.severity is Severity.ERROR for some in around for said in some.findings)
+
+    return fits if settings.couples else lambda _: True
 
 
 def _shares(now: float, passes: Callable[[float], bool]) -> float | None:
@@ -181,7 +196,9 @@ def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Cho
         load = _below(part * settings.load)
         advise(f"load it by no more than {load:g} N·m", {"machine.load": load})
     # The motor that is named is at hand, so another one comes last: one that turns evenly if there is any.
-    other = more_even(drive, settings) or next(iter(stronger(drive, settings)), None)
+    fits = _fits(build, settings)
+    able = (one for one in stronger(drive, settings) if fits(one.motor))
+    other = more_even(drive, settings, fits) or next(able, None)
     if other is not None:
         advise(f"take {other.motor.name}", {"machine.motor": other.motor.name})
     if not words:

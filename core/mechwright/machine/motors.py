@@ -240,10 +240,12 @@ def stronger(drive: Drive, settings: MachineSettings) -> Sequence[Choice]:
     return [one for one in (judged(drive, settings, each) for each in motors()) if one.enough]
 
 
-def more_even(drive: Drive, settings: MachineSettings) -> Choice | None:
-    """The lightest motor that is enough and turns evenly; None if none does."""
+def more_even(
+    drive: Drive, settings: MachineSettings, fits: Callable[[Motor], bool] = lambda _: True
+) -> Choice | None:
+    """The lightest motor that is enough, turns evenly and fits; None if none does."""
     seen = (with_speed(drive, settings, one) for one in stronger(drive, settings) if _steady(one))
-    return next((one for one in seen if one.even), None)
+    return next((one for one in seen if one.even and fits(one.motor)), None)
 
 
 SHARES = (0.8, 0.63, 0.5, 0.4, 0.315, 0.25, 0.2, 0.16, 0.125, 0.1)
