@@ -56,7 +56,7 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
         "machine.torque",
         f"the drive needs up to {peak:.4g} N·m, {run} at {math.degrees(at):.1f} degrees of the input, "
         f"{drive.rms:.4g} N·m rms at {drive.speed * 60 / math.tau:.4g} rev/min; power up to {most:.4g} W, "
-        f"{mean if abs(mean) > _NOTHING * most else 0:.4g} W in the mean",
+        f"{mean:.4g} W in the mean",
         abs(peak),
         "N*m",
     )
@@ -75,9 +75,6 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
 
 DISC = 0.1
 """Thickness of a flywheel over its diameter."""
-
-_NOTHING = 1e-6
-"""Share of the greatest power below which the mean is rounding."""
 
 
 def disc_of(inertia: float) -> float:

@@ -78,14 +78,14 @@ def speed_said(choice: Choice) -> str:
     mean = seen.requested * 60 / math.tau
     if not isinstance(choice.motor, GearMotor):
         return (
-            f"at {seen.voltage:g} V {name} keeps its steps: {mean:.4g} rev/min of the input all over the turn"
+            f"{name} at {seen.voltage:g} V keeps its steps: the input turns at a constant {mean:.4g} rev/min"
         )
     if seen.stalls:
         return f"{name} stalls within the turn, {seen.run}: no voltage gives it a mean of {mean:.4g} rev/min"
     least, most = (one * 60 / math.tau for one in (seen.least, seen.greatest))
     return (
-        f"at {seen.voltage:.3g} V of its {NOMINAL_VOLTAGE:g} V {name} turns the input at {least:.4g} to "
-        f"{most:.4g} rev/min over the turn, {seen.run}, {mean:.4g} rev/min in the mean"
+        f"{name} at {seen.voltage:.3g} V (nominal {NOMINAL_VOLTAGE:g} V) turns the input at {least:.4g} to "
+        f"{most:.4g} rev/min, {seen.run}; the mean is {mean:.4g} rev/min"
     )
 
 
@@ -121,11 +121,11 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
             proposed.append({"machine.load": lighter})
     if not words:
         words.append("lessen the load or what swings")
-    off = "" if seen.stalls else f", {100 * seen.deviation:.3g} % off"
+    off = f"; it is up to {100 * seen.deviation:.3g} % off the mean, the limit is {100 * DEVIATION:g} %"
     yield Finding.warning(
         "machine.speed",
         "machine.motor",
-        f"{speed_said(choice)}{off}; the limit is {100 * DEVIATION:g} %",
+        speed_said(choice) + ("" if seen.stalls else off),
         None if seen.stalls else seen.deviation,
         DEVIATION,
         remedy=f"{', or '.join(words)}; a motor whose speed is controlled by an encoder keeps it as well, "
