@@ -52,7 +52,7 @@ def motion_of(params: CamParams, samples: Samples) -> Motion:
     """
     refuse_unclosed(params)
     theta = travelled(math.tau, samples)
-    cam = Turning.of(params.sense * theta, params.sense * params.omega)
+    cam = Turning.of(params.sense * theta + 0.0, params.sense * params.omega)  # never -0
     return driven_by(params, cam, theta / params.omega)
 
 

@@ -293,7 +293,9 @@ def test_every_angle_of_a_figure_lies_in_the_column_of_a_cam_that_turns_clockwis
     motion, _ = solved("cam-follower", {"turning": "cw", "offset": 3.0})
     angles = [one.value for name, one in motion.scalars.items() if name.endswith(".theta")]
     assert len(angles) == 4
-    assert not any(math.copysign(1.0, one) < 0 for one in [*angles, *motion["torque"]] if one == 0)
+    assert not any(
+        math.copysign(1.0, one) < 0 for one in [*angles, *motion["theta"], *motion["torque"]] if one == 0
+    )
     assert all(-math.tau <= one <= 0.0 for one in angles)
 
 

@@ -132,11 +132,10 @@ class Drive:
 
     @property
     def power(self) -> tuple[float, float]:
-        """Greatest and mean power, W, of the run where each is greater."""
-        return (
-            max(float(run.power.max()) for run in self.runs),
-            max(self.mean_of(run.power) for run in self.runs),
-        )
+        """Greatest and mean power, W, of the run where each is greater; a mean that is rounding is 0."""
+        most = max(float(run.power.max()) for run in self.runs)
+        mean = max(self.mean_of(run.power) for run in self.runs)
+        return most, mean if abs(mean) > _NOTHING * most else 0.0
 
     @property
     def speed(self) -> float:
@@ -172,6 +171,9 @@ class Drive:
         """Inertia at the input, kg m², that keeps the speed within that share of its mean; None as swing."""
         return None if self.swing is None else flywheel(self.swing, irregularity, self.mean_speed)
 
+
+_NOTHING = 1e-6
+"""Share of the greatest power below which the mean is rounding."""
 
 _SAME = 1e-6
 """Share by which speeds at both ends of a period may differ, and peaks that are equally high."""

@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.mounting import Flange, GroundPlate, MountingError
+from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.mounting import Flange, GroundPlate, Mounting, MountingError
 from mechwright.contracts.parameters import Parameters, kept
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
@@ -36,6 +37,8 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
             'leave frame out, or set frame = "none"'
         )
         return Surroundings(findings=(refusal("frame.mounting", "machine.frame", said),))
+    if settings.couples and settings.gear != 1:
+        return Surroundings(findings=(_geared(settings, mounting),))
     parts = family.parts(params)
     try:
         drive = drive_of(family.solve(params, SAMPLES), parts, settings)
@@ -68,6 +71,21 @@ def _set_space(family: Family[Any], params: Parameters) -> Space:
         with suppress(DesignError):
             pieces += space_of(family.parts(other), family.solve(other, LOOKS)).pieces
     return Space(tuple(pieces))
+
+
+def _geared(settings: MachineSettings, mounting: object) -> Finding:
+    """The frame couples the motor to the input, so a gear between them has no place."""
+    free = "plates" if isinstance(mounting, Mounting) else "none"
+    return Finding.error(
+        "frame.gear",
+        "machine.gear",
+        f'frame = "{settings.frame}" couples the motor straight to the input, and gear is {settings.gear:g}',
+        settings.gear,
+        1.0,
+        remedy=f'leave gear out, or set frame = "{free}" and build gear and motor yourself',
+        stage=Stage.PARTS,
+        proposed=({"machine.gear": None}, {"machine.frame": free}),
+    )
 
 
 def _refused(code: str, error: DesignError) -> Surroundings:

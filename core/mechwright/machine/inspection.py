@@ -9,6 +9,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
 from mechwright.contracts.materials import material
 from mechwright.errors import DesignError
 from mechwright.machine.drive import Drive
+from mechwright.machine.ineffective_keys import ineffective_keys
 from mechwright.machine.made import drive_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motor_findings import motor_findings
 from mechwright.machine.settings import MachineSettings
@@ -42,7 +43,7 @@ class MachineDrive(Inspection):
             return [Finding(KEYS, Severity.ERROR, key, message, remedy=remedy, stage=self.stage)]
         settings = settings_of(build)
         motor = motor_findings(build, drive, settings, build.made(motor_for))
-        found = [*_torque(drive, settings), *motor]
+        found = [*_torque(drive, settings), *motor, *ineffective_keys(build, drive, settings)]
         if settings.frame == "none":  # the frame judges its own shafts
             found += shaft_findings(build, drive, settings, build.made(motor_for))
         return at_stage(self.stage, found)
@@ -55,7 +56,7 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
         "machine.torque",
         f"the drive needs up to {peak:.4g} N·m, {run} at {math.degrees(at):.1f} degrees of the input, "
         f"{drive.rms:.4g} N·m rms at {drive.speed * 60 / math.tau:.4g} rev/min; power up to {most:.4g} W, "
-        f"{mean if abs(mean) > _NOTHING * most else 0:.4g} W in the mean",
+        f"{mean:.4g} W in the mean",
         abs(peak),
         "N*m",
     )
@@ -74,9 +75,6 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
 
 DISC = 0.1
 """Thickness of a flywheel over its diameter."""
-
-_NOTHING = 1e-6
-"""Share of the greatest power below which the mean is rounding."""
 
 
 def disc_of(inertia: float) -> float:

@@ -4,12 +4,14 @@ import math
 from collections.abc import Callable, Iterator
 
 from mechwright.build.build import Build
-from mechwright.contracts.finding import Change, Finding
+from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.errors import MechwrightError
 from mechwright.machine.drive import Drive
 from mechwright.machine.motors import (
     DEVIATION,
     SHARES,
     Choice,
+    Motor,
     able_at,
     carried,
     even_on,
@@ -39,24 +41,33 @@ def motor_findings(
         choice.cover,
     )
     if choice.ratio is not None and choice.ratio > INERTIA_RATIO:
-        gear = math.ceil(10 * settings.gear * math.sqrt(choice.ratio / INERTIA_RATIO)) / 10
-        heavier = [
-            one for one in stronger(drive, settings) if one.ratio is None or one.ratio <= INERTIA_RATIO
-        ]
-        proposed: list[Change] = [{"machine.gear": gear}]
-        proposed += [{"machine.motor": one.motor.name} for one in heavier[:1]]
-        yield Finding.warning(
-            "machine.inertia",
-            "machine.motor",
-            f"{name} feels {choice.ratio:.3g} times the inertia of its rotor; steppers lose steps above "
-            f"{INERTIA_RATIO:g}",
-            choice.ratio,
-            INERTIA_RATIO,
-            remedy=f"gear it down to {gear:g}, or take a motor with a heavier rotor",
-            proposed=tuple(proposed),
-        )
+        yield _inertia(build, drive, settings, choice.ratio, choice.motor.name)
     yield from _speeds(build, drive, settings, choice)
     yield from _manners(drive, choice)
+
+
+def _inertia(build: Build, drive: Drive, settings: MachineSettings, ratio: float, name: str) -> Finding:
+    """A stepper that feels too much inertia, with a gear and a motor that were judged."""
+    words: list[str] = []
+    proposed: list[Change] = []
+    geared = geared_down(drive, settings)
+    if geared is not None:
+        words.append(f"gear it down to {geared:g}")
+        proposed.append({"machine.gear": geared})
+    better = more_even(drive, settings, _fits(build, settings))
+    if better is not None:
+        words.append(f"take {better.motor.name}")
+        proposed.append({"machine.motor": better.motor.name})
+    return Finding.warning(
+        "machine.inertia",
+        "machine.motor",
+        f"{name} feels {ratio:.3g} times the inertia of its rotor; steppers lose steps above "
+        f"{INERTIA_RATIO:g}",
+        ratio,
+        INERTIA_RATIO,
+        remedy=", or ".join(words) or "lighten what it turns",
+        proposed=tuple(proposed),
+    )
 
 
 def speed_said(choice: Choice) -> str:
@@ -67,14 +78,14 @@ def speed_said(choice: Choice) -> str:
     mean = seen.requested * 60 / math.tau
     if not isinstance(choice.motor, GearMotor):
         return (
-            f"at {seen.voltage:g} V {name} keeps its steps: {mean:.4g} rev/min of the input all over the turn"
+            f"{name} at {seen.voltage:g} V keeps its steps: the input turns at a constant {mean:.4g} rev/min"
         )
     if seen.stalls:
         return f"{name} stalls within the turn, {seen.run}: no voltage gives it a mean of {mean:.4g} rev/min"
     least, most = (one * 60 / math.tau for one in (seen.least, seen.greatest))
     return (
-        f"at {seen.voltage:.3g} V of its {NOMINAL_VOLTAGE:g} V {name} turns the input at {least:.4g} to "
-        f"{most:.4g} rev/min over the turn, {seen.run}, {mean:.4g} rev/min in the mean"
+        f"{name} at {seen.voltage:.3g} V (nominal {NOMINAL_VOLTAGE:g} V) turns the input at {least:.4g} to "
+        f"{most:.4g} rev/min, {seen.run}; the mean is {mean:.4g} rev/min"
     )
 
 
@@ -88,11 +99,11 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
         return
     words: list[str] = []
     proposed: list[Change] = []
-    better = more_even(drive, settings)
+    better = more_even(drive, settings, _fits(build, settings))
     if better is not None:
         words.append(f"take {better.motor.name}")
         proposed.append({"machine.motor": better.motor.name})
-    elif settings.frame in {"none", "plates"} and (geared := geared_down(drive, settings)) is not None:
+    elif (geared := geared_down(drive, settings)) is not None:
         words.append(f"gear it down to {geared:g}")
         proposed.append({"machine.gear": geared})
     if better is None:
@@ -110,17 +121,30 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
             proposed.append({"machine.load": lighter})
     if not words:
         words.append("lessen the load or what swings")
-    off = "" if seen.stalls else f", {100 * seen.deviation:.3g} % off"
+    off = f"; it is up to {100 * seen.deviation:.3g} % off the mean, the limit is {100 * DEVIATION:g} %"
     yield Finding.warning(
         "machine.speed",
         "machine.motor",
-        f"{speed_said(choice)}{off}; the limit is {100 * DEVIATION:g} %",
+        speed_said(choice) + ("" if seen.stalls else off),
         None if seen.stalls else seen.deviation,
         DEVIATION,
         remedy=f"{', or '.join(words)}; a motor whose speed is controlled by an encoder keeps it as well, "
         "but [machine] has no key for one",
         proposed=tuple(proposed),
     )
+
+
+def _fits(build: Build, settings: MachineSettings) -> Callable[[Motor], bool]:
+    """Whether the frame takes a motor; each does where no frame carries one."""
+
+    def fits(one: Motor) -> bool:
+        try:
+            around = build.design.changed({"machine.motor": one.name}).surroundings
+        except MechwrightError:
+            return False
+        return not any(said.severity is Severity.ERROR for some in around for said in some.findings)
+
+    return fits if settings.couples else lambda _: True
 
 
 def _shares(now: float, passes: Callable[[float], bool]) -> float | None:
@@ -171,8 +195,12 @@ def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Cho
     elif (part := carried(drive, settings, choice.motor)) is not None:
         load = _below(part * settings.load)
         advise(f"load it by no more than {load:g} N·m", {"machine.load": load})
-    for one in stronger(drive, settings)[:1]:  # the motor that is named is at hand
-        advise(f"take {one.motor.name}", {"machine.motor": one.motor.name})
+    # The motor that is named is at hand, so another one comes last: one that turns evenly if there is any.
+    fits = _fits(build, settings)
+    able = (one for one in stronger(drive, settings) if fits(one.motor))
+    other = more_even(drive, settings, fits) or next(able, None)
+    if other is not None:
+        advise(f"take {other.motor.name}", {"machine.motor": other.motor.name})
     if not words:
         words.append("lighten what it carries, or take a motor that is not in these tables")
     return Finding.error(

@@ -195,7 +195,12 @@ GEARS = (1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 
 
 
 def geared_down(drive: Drive, settings: MachineSettings) -> float | None:
-    """The least ratio above the present one with which the design's motor is enough and turns evenly."""
+    """The least ratio above the present one with which the design's motor is enough and turns evenly.
+
+    None if there is no such ratio, or the frame leaves no place for a gear.
+    """
+    if settings.couples:
+        return None
     for gear in GEARS:
         if gear > settings.gear:
             choice = motor_of(drive, settings.model_copy(update={"gear": gear}))
@@ -235,10 +240,12 @@ def stronger(drive: Drive, settings: MachineSettings) -> Sequence[Choice]:
     return [one for one in (judged(drive, settings, each) for each in motors()) if one.enough]
 
 
-def more_even(drive: Drive, settings: MachineSettings) -> Choice | None:
-    """The lightest motor that is enough and turns evenly; None if none does."""
+def more_even(
+    drive: Drive, settings: MachineSettings, fits: Callable[[Motor], bool] = lambda _: True
+) -> Choice | None:
+    """The lightest motor that is enough, turns evenly and fits; None if none does."""
     seen = (with_speed(drive, settings, one) for one in stronger(drive, settings) if _steady(one))
-    return next((one for one in seen if one.even), None)
+    return next((one for one in seen if one.even and fits(one.motor)), None)
 
 
 SHARES = (0.8, 0.63, 0.5, 0.4, 0.315, 0.25, 0.2, 0.16, 0.125, 0.1)

@@ -59,3 +59,8 @@ class MachineSettings(FrameKeys):
     margin: Annotated[float, Field(ge=1, le=10), Unit("")] = Field(
         1.5, description="Factor on all torques before a motor is judged, for friction and starting."
     )
+
+    @property
+    def couples(self) -> bool:
+        """Whether the frame carries the motor, coupled straight to the input: no gear goes between."""
+        return self.motor != "none" and self.frame in {"plate", "base"}

@@ -20,7 +20,8 @@ class InputSpeed:
     run
         ``"forwards"`` or ``"backwards"``.
     angle, speed
-        (n,) rad of the course and rad/s, in the order of the running; of a motor that stalls empty.
+        (n,) rad of the course and rad/s, in the order of the running, both ends of the period included; empty
+        if the motor stalls.
     requested
         Mean over time, rad/s: that of the drive.
     voltage
@@ -90,4 +91,9 @@ def _of_run(drive: Drive, number: int, line: Line) -> InputSpeed:
     found = steady_run(inertia, load, step, drive.mean_speed, line)
     if found is None:
         return InputSpeed(run.name, places[:0], places[:0], drive.mean_speed, math.nan)
-    return InputSpeed(run.name, places, found.speed, drive.mean_speed, found.share * NOMINAL_VOLTAGE)
+    # The start comes back at the end: in front where the run goes back from there.
+    if run.name == "backwards":
+        places, speed = np.append(angle[-1], places), np.append(found.speed[-1], found.speed)
+    else:
+        places, speed = np.append(places, angle[-1]), np.append(found.speed, found.speed[0])
+    return InputSpeed(run.name, places, speed, drive.mean_speed, found.share * NOMINAL_VOLTAGE)

@@ -65,7 +65,18 @@ def on_flange(keys: FrameKeys, flange: Flange, motion: Motion, wanted: Wanted) -
     for part in askew.parts.values():
         for at in part.instances:
             upright.put(replace(part, instances=()), at.body, at.z)
-    return Surroundings(tuple(upright.parts.values()), places, tuple(said))
+    return Surroundings(tuple(upright.parts.values()), places, (*said, *_gap_unused(keys)))
+
+
+def _gap_unused(keys: FrameKeys) -> list[Finding]:
+    """A warning of a gap between what moves and bearing plates, of which there are none here."""
+    key = "axial_gap"
+    if keys.axial_gap == FrameKeys.model_fields[key].default:
+        return []
+    said = f"{key} changes nothing: a motor on a flange has no bearing plates to keep clear of"
+    remedy, change = f"leave {key} out", {f"machine.{key}": None}
+    where = f"machine.{key}"
+    return [Finding.warning("machine.key", where, said, remedy=remedy, stage=Stage.PARTS, proposed=(change,))]
 
 
 def _carried(places: Mapping[str, Place], body: str, turn: Turn) -> dict[str, Place]:
