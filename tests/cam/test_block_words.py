@@ -103,7 +103,8 @@ def test_grbl_uses_each_axis_word_once(lines: str, said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "lines", ["G49\nZ4", "G80\nG0\nG10 L2 P1 X0", "G43.1 Z0", "G2 X3 I1", "T255", "G28", "X1." + "0" * 76, *LONG]
+    "lines",
+    ["G49\nZ4", "G80\nG0\nG10 L2 P1 X0", "G43.1 Z0", "G2 X3 I1", "T255", "G28", "X1." + "0" * 76, *LONG],
 )
 def test_grbl_takes_what_it_uses(lines: str) -> None:
     assert BY_NAME["grbl"].read(f"{START}{lines}\nM2\n").ended

@@ -15,7 +15,6 @@ from mechwright_cam.controls.reading.blocks import check_comments, fail
 from mechwright_cam.controls.reading.expressions import Reader
 from mechwright_cam.controls.reading.o_words import (
     BRANCHES,
-    ENDIF,
     ENDREPEAT,
     ENDSUB,
     ENDWHILE,
