@@ -29,15 +29,27 @@ GRBL_REFUSES = (
     ("G18\nG2 Y2 I1", "takes no arc without Z or X"),
     ("G2 X3 Y0 I1 J0\nG28 I1", "means nothing in this line"),
     ("T256", "takes up to T255"),
-    ("G2 X1.0001 Y0 I0 J-300", "goes all the way round below 1e-06"),
-    ("G18\nG2 X1.0001 Z5 I0 K300", "goes all the way round below 1e-06"),
+    ("G2 X1.0001 Y0 I0 J-300", "below 1e-06 rad for a full circle"),
+    ("G18\nG2 X1.0001 Z5 I0 K300", "below 1e-06 rad for a full circle"),
     ("M7 M8", "wants a line for each"),
     ("G10 L2 P7 X0", "has P0 to P6"),
     ("G10 L2 P1", "G10 L2 without a value"),
     ("G10 L20 P1 X0 R1", "R means nothing in this line"),
     ("X1." + "0" * 77, "reads at most 79"),
+    ("X0000000012", "drops the others: it reads X0000000000"),
+    ("X0000 0000.5", "drops the others: it reads X00000000.0"),
+    ("X0000000.12345", "drops the others: it reads X0000000.10000"),
+    ("G0000000001 X2", "drops the others: it reads G0000000000"),
+    ("X2 F0.000000005", "drops the others: it reads F0.000000000"),
+    ("M0000000003 S10", "drops the others: it reads M0000000000"),
+    ("T000000256", "drops the others: it reads T000000250"),
+    ("G3 X1.001 Y0 R.0005", "just half the distance between the ends"),
+    ("G2 X1.2 Y0 R-0.1", "just half the distance between the ends"),
 )
-"""Lines that Grbl 1.1 refuses, or whose axis words it drops (gcode.c), and what is said of them."""
+"""Lines that Grbl 1.1 refuses, or whose numbers or axis words it drops (gcode.c), and what is said of them."""
+
+LONG = ("X123.456789", "X1.12345678", "X000000000", "X2 (0000000012)", "G2 X1.2 Y0 R0.1002", "T0000001")
+"""Numbers of many digits that Grbl reads as they are, and an R that its rounding does not make too small."""
 
 LINUXCNC_KEEPS = (
     ("G0 X#100", "#100 is read before the program sets it"),
@@ -68,6 +80,17 @@ LINUXCNC_REFUSES = (
     ("G1 G41.1 D1", "goes nowhere in X and Y"),
     ("G64 P0.01 G41.1 D1", "G64 while compensation is on"),
     ("G98 G42.1 D2", "G98 while compensation is on"),
+    ("G42.1 D4\nG1 X9 Y3\nY2 Z4", "does not fit into the inner corner"),
+    ("G41.1 D4\nG1 X9 Y3\nX8.5", "does not fit into the inner corner"),
+    ("O6 if 1\nG0 X3\nO6 endif", "in brackets, [...]; found '1'"),
+    ("#1=0\nO6 while #1\nO6 endwhile", "in brackets, [...]; found '#1'"),
+    ("O6 repeat 2\nO6 endrepeat", "in brackets, [...]; found '2'"),
+    ("O1 sub\nO1 endsub 4\nO1 call", "in brackets, [...]; found '4'"),
+    ("O6 if [0]\nO6 elseif 1\nO6 endif", "line 6: an O-word takes its value in brackets"),
+    ("O6 if [1]\nO6 elseif [1/0]\nO6 endif", "line 6: 1 / 0 has no value"),
+    ("O6 if [1]\nO6 elseif [1]\nO6 elseif [1 E7]\nO6 endif", "line 7: ] expected at 'e7]'"),
+    ("O8 continue", "O8 continue stands in no while or do"),
+    ("O8 break", "O8 break stands in no while or do"),
 )
 """Lines that LinuxCNC refuses, as its interpreter shows."""
 
@@ -80,7 +103,8 @@ def test_grbl_uses_each_axis_word_once(lines: str, said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "lines", ["G49\nZ4", "G80\nG0\nG10 L2 P1 X0", "G43.1 Z0", "G2 X3 I1", "T255", "G28", "X1." + "0" * 76]
+    "lines",
+    ["G49\nZ4", "G80\nG0\nG10 L2 P1 X0", "G43.1 Z0", "G2 X3 I1", "T255", "G28", "X1." + "0" * 76, *LONG],
 )
 def test_grbl_takes_what_it_uses(lines: str) -> None:
     assert BY_NAME["grbl"].read(f"{START}{lines}\nM2\n").ended

@@ -171,3 +171,12 @@ def test_where_the_lower_end_is_known_the_upper_one_is(control: str) -> None:
     ):
         text = at_the_end(text_of(control), f"G53 G0 {words}")[0]
         assert judged(travel, control, text, job).passed == good, words
+
+
+def test_an_end_that_inches_round_is_within_the_travel() -> None:
+    job = job_of("linuxcnc")
+    machine = job.settings.machine.model_copy(update={"low_x": -500.0})
+    job = replace(job, settings=job.settings.model_copy(update={"machine": machine}))
+    for place, good in (("-19.68504", True), ("-19.6852", False)):  # -500.00002 and -500.004 mm
+        text = at_the_end(text_of("linuxcnc"), f"G20\nG53 G0 X{place}\nG21")[0]
+        assert judged(travel, "linuxcnc", text, job).passed == good

@@ -66,6 +66,8 @@ def test_they_are_proven(control: str, units: str) -> None:
     ("old", "new", "why"),
     [
         ("G53 G0 Z-2\nG54", "G54", "goes sideways|changes the tool"),
+        ("G53 G0 Z-2\nG54", "G53 G0 Z300\nG54", "machine Z 300, and Z travels from -400 to 0"),
+        ("G53 G0 X-30 Y-300", "G53 G0 X-30 Y-500", "machine Y -500, and Y travels from -400 to 400"),
         ("G53 G0 X-30 Y-300\n", "", "touches elsewhere than over the setter"),
         ("G53 G0 X-30 Y-300", "G53 G0 X-31 Y-300", "1.000 mm beside the setter"),
         ("G53 G0 X-30 Y-300", "G0 X-30 Y-300", "none of what a program that measures tools does"),
@@ -94,6 +96,20 @@ def test_a_planted_fault_is_refused_in_its_line(control: str, old: str, new: str
     assert count == 1
     with pytest.raises(ProofError, match=rf"^{name}(?:: line \d+)?.*(?:{why})"):
         prove_lengths(made | {name: changed}, of, BY_NAME[control], numbers)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"x": -501.0}, "x is -501, and X travels from -500 to 500"),
+        ({"y": 401.0}, "y is 401, and Y travels from -400 to 400"),
+        ({"start": -401.0}, "start is -401, and Z travels from -400 to 0"),
+    ],
+)
+def test_a_setter_outside_of_the_travel_is_refused_before_any_program(
+    changes: dict[str, float], said: str
+) -> None:
+    assert unmeasured(measured_job(setter=SETTER | changes)) == said
 
 
 def test_the_setter_is_clear_of_the_stock_where_both_are_known() -> None:

@@ -116,13 +116,16 @@ class Dialect:
     arc_least_turn: float = 0.0
     """The control takes an arc that turns by less for a full circle, rad."""
     arc_chord: float | None = None
-    """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``."""
+    """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``. Below 0
+    where the control's rounding may find R too small for a half circle."""
     arc_turns: bool = False
     """Whether P of an arc is the number of its turns."""
     arc_entry: bool = True
     """Whether cutter compensation may be turned on along an arc."""
     idle_most: float = math.inf
     """Blocks in a row without X and Y past which the control sees the next move beside compensation."""
+    digits: int | None = None
+    """So many digits of a number the control reads, zeros at its front included; None for all."""
     line_length: int = 255
     """Longest line, characters."""
     ascii_comments: bool = False

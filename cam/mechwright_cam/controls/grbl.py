@@ -53,7 +53,8 @@ class Grbl(Measuring, GcodeControl):
         ),
         arc_absolute=0.005,
         arc_most=0.5,
-        arc_chord=0.0,
+        arc_chord=-1e-4,  # single precision, at machine coordinates of up to 1 m
+        digits=8,  # MAX_INT_DIGITS
         arc_least_turn=1e-6,  # ARC_ANGULAR_TRAVEL_EPSILON is 5e-7, in single precision
         line_length=79,  # the buffer has 80 bytes, and the last of them ends the line
         counts_code=True,

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from mechwright.designs.inches import FACTORS
 from mechwright.errors import ProofError
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.proof.scene import ROUNDED
 from mechwright_cam.setup.job import Job
 
 MODES = frozenset({"G17", "G20", "G21", "G40", "G49", "G61", "G80", "G90", "G91", "G91.1", "G94", "M5", "M9"})
@@ -36,6 +37,12 @@ class ByWords(ABC):
             if code:
                 self.obey(code)
         self.finish()
+
+    def check_ends(self, axis: str, value: float) -> None:
+        """Refuse a machine coordinate of an axis, mm, that lies outside of its travel."""
+        low, high = self.job.settings.machine.ends(axis.lower())
+        if not low - ROUNDED <= value <= high + ROUNDED:
+            raise self.bad(f"goes to machine {axis} {value:g}, and {axis} travels from {low:g} to {high:g}")
 
     def bad(self, why: str) -> ProofError:
         """The error of the line that is read."""

@@ -27,8 +27,12 @@ FIRST_ASKED = 500
 """So many pieces are asked first, and all others if these have not settled it."""
 THROUGH = 1e6
 """A cut through the plate counts as so deep, mm: only its width says how far it goes into the part."""
-COARSE, FINEST = 0.5, 0.001
-"""Distance of the places along an axis inside of the part, mm: of all moves, and of the deepest one."""
+COARSE, FINE, FINEST = 0.5, 0.1, 0.001
+"""Distance of the places along an axis inside of the part, mm: of all moves, of slices, of the deepest."""
+SLICE = 0.05
+"""Fall of a slice, mm: a sloping move is as deep as its lowest place all along, its slices are not."""
+MOST_SLICES = 100_000
+"""So many slices at most; beyond it they fall by more, and a cut is given with more than its depth."""
 MOST_PLACES = 50_000
 """So many such places of one line at most."""
 MOST_CORNERS = 1_000_000
@@ -54,12 +58,41 @@ def deepest_cut(paths: Paths, keep: Shape, top: float, underside: float = -np.in
 
     A cut down to ``underside`` goes through: its depth is how far it goes into the wall. No other cut is
     deeper than the tip goes below ``top``. So the lowest moves are asked first, and others only as long as
-    they may be deeper: a program that gouges all over takes no longer than any.
+    they may be deeper: a program that gouges all over takes no longer than any. If the deepest move slopes,
+    it and all others that may be deeper are looked at again, slice by slice.
     """
     if keep.is_empty:
         return None
-    pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
-    edge, floor = Boundary(keep), underside + NEAR
+    every, edge = _about(paths, paths.below(top - NEAR), keep), Boundary(keep)
+    worst, piece = _deepest(paths, distinct(paths, every), edge, top, underside)
+    if worst is None or worst.depth <= SLICE or fall(paths, piece).max() <= SLICE:
+        return worst
+    least = _sliced(paths, piece, edge, top, underside)
+    near = near_ones(keep, paths.lines(every), paths.radius_at(every, top))
+    return worst_of([least, _sliced(paths, every.only(near), edge, top, underside, least)])
+
+
+def _sliced(
+    paths: Paths, pieces: Pieces, edge: Boundary, top: float, underside: float, least: Gouge | None = None
+) -> Gouge | None:
+    """The deepest cut of any piece, each taken slice by slice; what of it goes through is taken as it is.
+
+    Pieces that cannot be deeper than a known cut, ``least``, are left out.
+    """
+    low = paths.below(underside + NEAR, steps=np.unique(pieces.step))
+    through, _ = _deepest(paths, distinct(paths, low), edge, top, underside, FINE)
+    worst, above = worst_of([least, through]), underside + 2 * NEAR
+    deep = top - np.maximum(pieces.low, above)
+    some = slices(paths, pieces.only(deep > (worst.depth if worst else 0.0)))
+    some = Pieces(some.step, some.first, some.last, np.maximum(some.low, above))
+    return worst_of([worst, _deepest(paths, distinct(paths, some), edge, top, underside, FINE)[0]])
+
+
+def _deepest(
+    paths: Paths, pieces: Pieces, edge: Boundary, top: float, underside: float, spacing: float = COARSE
+) -> tuple[Gouge | None, Pieces]:
+    """The deepest cut of any piece, each taken at its lowest all along, and the piece that makes it."""
+    floor = underside + NEAR
     most = np.round(np.where(pieces.low <= floor, THROUGH, top - pieces.low) / NEAR)
     order: Ints = np.lexsort((pieces.step, -most))
     worst, deepest = -1, 0.0
@@ -70,7 +103,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float, underside: float = -np.in
             now = now[deeper | alike & (pieces.step[now] < pieces.step[worst])]
         if not now.size:
             continue
-        depth = _depths(paths, pieces.only(now), edge, top, floor)
+        depth = _depths(paths, pieces.only(now), edge, top, floor, spacing)
         alike = now[depth >= max(depth.max(), deepest) - NEAR]
         if depth.max() > 0 and alike.size:
             first = int(alike[np.argmin(pieces.step[alike])])  # of those that cut equally deep
@@ -78,11 +111,31 @@ def deepest_cut(paths: Paths, keep: Shape, top: float, underside: float = -np.in
                 worst = first
             deepest = max(deepest, float(depth.max()))
     if worst < 0:
-        return None
+        return None, pieces.only(order[:0])
     one = pieces.only(np.array([worst]))
     x, y = edge.nearest(paths.lines(one)[0])
     depth = _depths(paths, one, edge, top, floor, FINEST)
-    return Gouge(float(depth[0]), int(one.step[0]), (x, y, float(one.low[0])))
+    return Gouge(float(depth[0]), int(one.step[0]), (x, y, float(one.low[0]))), one
+
+
+def fall(paths: Paths, pieces: Pieces) -> Array:
+    """(m,) by how much each piece rises or falls, mm."""
+    height: Array = np.abs(paths.end[pieces.step, 2] - paths.start[pieces.step, 2])
+    return height * (pieces.last - pieces.first)
+
+
+def slices(paths: Paths, pieces: Pieces) -> Pieces:
+    """The same pieces, cut where they rise or fall by :data:`SLICE`."""
+    falls = fall(paths, pieces)
+    count = np.maximum(np.ceil(falls / max(SLICE, float(falls.sum()) / MOST_SLICES)), 1).astype(np.int64)
+    owner = np.repeat(np.arange(len(pieces)), count)
+    number = np.arange(owner.size) - np.repeat(np.cumsum(count) - count, count)
+    step, width = pieces.step[owner], ((pieces.last - pieces.first) / count)[owner]
+    first = pieces.first[owner] + width * number
+    last = np.where(number == count[owner] - 1, pieces.last[owner], first + width)
+    z0, z1 = paths.start[step, 2], paths.end[step, 2]
+    low = np.minimum(z0 + (z1 - z0) * first, z0 + (z1 - z0) * last)
+    return Pieces(step, first, last, np.maximum(low, pieces.low[owner]))
 
 
 def lots(paths: Paths, pieces: Pieces) -> Iterator[Ints]:
@@ -94,9 +147,7 @@ def lots(paths: Paths, pieces: Pieces) -> Iterator[Ints]:
     yield from np.split(np.arange(len(pieces)), np.flatnonzero(np.diff(lot)) + 1)
 
 
-def _depths(
-    paths: Paths, pieces: Pieces, edge: Boundary, top: float, floor: float, spacing: float = COARSE
-) -> Array:
+def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float, floor: float, spacing: float) -> Array:
     """How deep each piece cuts into a shape below a height, mm; 0 or less where it does not.
 
     Places of an axis that goes inside of the shape are ``spacing`` mm apart.
@@ -109,7 +160,8 @@ def _depths(
     # Where a cutter is wider than it goes deep it does not matter how far inside its axis is.
     inner = inside[radius[inside] < deep[inside]]
     if inner.size:
-        gap[inner] = -_depth_inside(paths, pieces.only(inner), edge, spacing)
+        some = radius[inner], deep[inner]
+        gap[inner] = -_depth_inside(paths, pieces.only(inner), edge, *some, spacing)
     beside = np.setdiff1d(near_ones(edge.shape, lines, radius), inside, assume_unique=True)
     if beside.size:
         gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
@@ -165,24 +217,46 @@ def kinds(paths: Paths, pieces: Pieces) -> tuple[Ints, Ints]:
     return first_of_each(np.round(table / NEAR).astype(np.int64))
 
 
-def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary, spacing: float) -> Array:
-    """How far each piece goes inside the shape, mm: too little by at most half of ``spacing``, mm.
+def _depth_inside(
+    paths: Paths, pieces: Pieces, edge: Boundary, radius: Array, deep: Array, spacing: float
+) -> Array:
+    """How far each piece goes inside the shape, mm, where it may be the deepest cut; elsewhere at least.
 
-    Of a long piece so many places are looked at that it may be a hundredth of its length.
+    Too little by at most half of ``spacing``, mm, or of a :data:`MOST_PLACES` part of a long piece. No place
+    between two is deeper than half of the sum of their depths and of their distance, so halves of a line are
+    left alone that cannot reach what is found already. A piece is left alone as well where its width
+    ``radius`` (m,) is more than it goes ``deep`` (m,).
     """
     points, owner = paths.points(pieces)
-    length = np.hypot(*np.diff(points, axis=0).T) * (owner[1:] == owner[:-1])
-    count = np.append(np.clip(np.ceil(length / spacing), 1, MOST_PLACES), 1).astype(np.int64)
-    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
-    line = np.repeat(np.arange(len(points)), count)
-    way = np.vstack((np.diff(points, axis=0), np.zeros((1, 2))))
-    points, owner = points[line] + way[line] * share[:, None], owner[line]
-    spots = shapely.points(points)
-    within = shapely.intersects(edge.shape, spots)
-    deep = np.where(within, edge.distance(spots), 0.0)
+    joined = np.flatnonzero(owner[1:] == owner[:-1])
+    owner, start, end = owner[joined], points[joined], points[joined + 1]
+    length = np.hypot(*(end - start).T)
+    slack = np.maximum(spacing, np.bincount(owner, length, len(pieces)) / MOST_PLACES) / 2
     out = np.zeros(len(pieces))
-    np.maximum.at(out, owner, deep)
+    first, last = _signed(edge, start), _signed(edge, end)
+    np.maximum.at(out, owner, np.maximum(first, last))
+    while owner.size:
+        most, found = (first + last + length) / 2, out[owner]
+        best = np.minimum(radius + out, deep).max() - NEAR
+        kept = (most > found + slack[owner]) & (radius[owner] + found < deep[owner])
+        kept &= np.minimum(radius[owner] + most, deep[owner]) > best
+        owner, start, end, first, last = (each[kept] for each in (owner, start, end, first, last))
+        length = length[kept] / 2
+        middle = (start + end) / 2
+        between = _signed(edge, middle)
+        np.maximum.at(out, owner, between)
+        owner, length = np.tile(owner, 2), np.tile(length, 2)
+        start, end = np.concatenate((start, middle)), np.concatenate((middle, end))
+        first, last = np.concatenate((first, between)), np.concatenate((between, last))
     return out
+
+
+def _signed(edge: Boundary, points: Array) -> Array:
+    """How far places (k, 2) lie inside a shape, mm; below 0 outside of it."""
+    spots = shapely.points(points)
+    away = edge.distance(spots)
+    depth: Array = np.where(shapely.intersects(edge.shape, spots), away, -away)
+    return depth
 
 
 RAMP_SPACING = 0.005

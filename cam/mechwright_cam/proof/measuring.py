@@ -73,6 +73,8 @@ class _Reading(ByWords):
 
     def _machine_place(self, values: dict[str, float]) -> None:
         self.check_modes([word for word in NEEDED if word not in self.said])
+        for axis in values.keys() & {"X", "Y", "Z"}:
+            self.check_ends(axis, values[axis] * self.scale)
         if set(values) == {"G", "Z"}:
             z = values["Z"] * self.scale
             self.up = z >= self.top - NEAR

@@ -9,7 +9,7 @@ from mechwright_cam.proof.bands import run_out
 from mechwright_cam.proof.machine_rules import retract
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
-from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.scene import ROUNDED, Scene
 from mechwright_cam.setup.views import inside_of
 
 
@@ -55,12 +55,14 @@ def _outside(scene: Scene) -> Check | None:
     for place in scene.run.machine_places:
         for axis, value in place.axes.items():
             low, high = ends[axis]
-            if not low - NEAR <= value <= high + NEAR:
+            if not low - ROUNDED <= value <= high + ROUNDED:
                 limit = high if value > high else low
                 known = getattr(machine, f"low_{axis.lower()}") is not None
                 remedy = retract(scene) if axis == "Z" else "write a place between them"
                 if not known:
-                    remedy += f", or set cam.machine.low_{axis.lower()} to the lower end of its travel"
+                    remedy += (
+                        f", or, if these ends are wrong, set cam.machine.low_{axis.lower()} to the lower one"
+                    )
                 message = (
                     f"goes to machine {axis} {value:g}, and {axis} travels from {low:g} to {high:g}; {remedy}"
                 )

@@ -113,6 +113,7 @@ class _Reading(ByWords):
             raise self.bad(
                 f"goes to machine Z{z:g}, and not to its upper end, {self.top:g}, in absolute coordinates"
             )
+        self.check_ends("Z", z)
         self.at["Z"], self.touched, self.meets = (math.inf, math.inf), None, False
 
     def _target(self, axis: str, word: str) -> Span:

@@ -22,6 +22,10 @@ def unmeasured(job: Job) -> str:
             f"{wide[0].name} is wider than the setter ({setter.diameter:g} mm) and would touch beside it; "
             "measure by hand"
         )
+    for axis, key in (("x", "x"), ("y", "y"), ("z", "start")):
+        place, (low, high) = getattr(setter, key), machine.ends(axis)
+        if place is not None and not low <= place <= high:
+            return f"{key} is {place:g}, and {axis.upper()} travels from {low:g} to {high:g}"
     if setter.start is not None and setter.start > machine.retract_z:
         return f"start {setter.start:g} is above the retract, machine Z {machine.retract_z:g}"
     return ""

@@ -38,7 +38,8 @@ def centre_of(
     Raises
     ------
     ValueError
-        The ends coincide, or are further apart than the diameter by more than ``slack``; the text says which.
+        The ends coincide, or half their distance is more than the radius and ``slack``, mm; the text says
+        which. A control whose rounding may find R too small has a ``slack`` below 0.
 
     Examples
     --------
@@ -49,8 +50,13 @@ def centre_of(
     chord = math.hypot(dx, dy)
     if chord == 0:
         raise ValueError("an arc with R ends where it starts; write I and J for a full circle")
-    if chord / 2 > abs(radius) + slack:
+    if chord / 2 > abs(radius) + max(slack, 0.0):
         raise ValueError(f"R{radius:g} is less than half the distance of {chord:.4f} mm between the ends")
+    if chord / 2 > abs(radius) + slack:
+        raise ValueError(
+            f"R{radius:g} is just half the distance between the ends, and the control may round it to less "
+            "and refuse the arc; write I and J"
+        )
     height = math.sqrt(max(radius * radius - chord * chord / 4, 0.0))
     left = ccw == (radius > 0)
     side = height / chord if left else -height / chord

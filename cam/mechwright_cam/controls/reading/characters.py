@@ -7,6 +7,7 @@ another script, a no-break space, a form feed) looks like a word to some readers
 import re
 import unicodedata
 from collections.abc import Sequence
+from string import ascii_letters
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
@@ -18,6 +19,9 @@ _ODD = re.compile(r"[^\t\n -~]")
 _CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f-\x9f\u2028\u2029]")
 _IN_BRACKETS = re.compile(r"\([^()]*\)?")
 _COMMENT = re.compile(r"\([^()]*\)?|;.*")
+_BLANKS = {ord(" "): None, ord("\t"): None}
+_DIGIT = r"[0-9][ \t]*\.?[ \t]*"
+_NUMBER = re.compile(r"[A-Za-z]?[-+]?[0-9.]+")
 
 
 class Faults:
@@ -30,7 +34,8 @@ class Faults:
         self.at, self.reason = len(lines), ""
         self.dialect = dialect
         most = len(text) if dialect.counts_code else dialect.line_length
-        if _ODD.search(text) is None and max(map(len, lines), default=0) <= most:
+        long = dialect.digits is not None and re.search(f"(?:{_DIGIT}){{{dialect.digits + 1}}}", text)
+        if not long and _ODD.search(text) is None and max(map(len, lines), default=0) <= most:
             return
         for index, line in enumerate(lines):
             self.reason = self._fault(line, most)
@@ -54,7 +59,40 @@ class Faults:
             odd = (_ODD if self.dialect.ascii_comments else _CONTROL).search(line)
             if odd is not None:
                 return f"{_spelt(odd[0])} stands in a comment, and {name} does not take it there"
-        return f"{len(line)} characters; {name} reads at most {most}" if len(line) > most else ""
+        if len(line) > most:
+            return f"{len(line)} characters; {name} reads at most {most}"
+        return "" if self.dialect.digits is None else self._dropped(line, self.dialect.digits)
+
+    def _dropped(self, line: str, most: int) -> str:
+        """What is wrong with a number whose digits behind the first ones count, as the control drops them.
+
+        A tenth of the last decimal that the control keeps does not count, unless nothing else is left.
+        """
+        for word in _NUMBER.findall(_COMMENT.sub("", line).translate(_BLANKS)):
+            kept = cut_digits(word, most)
+            try:
+                said, read = (float(text.lstrip(ascii_letters)) for text in (word, kept))
+            except ValueError:  # two points: no number, and told as such
+                continue
+            if abs(said - read) > 10.0 ** -(self.dialect.decimals + 1) or bool(read) != bool(said):
+                return (
+                    f"{word} has more than {most} digits, and {self.dialect.name} drops the others: it reads "
+                    f"{kept}; write fewer digits, without zeros at the front"
+                )
+        return ""
+
+
+def cut_digits(number: str, most: int) -> str:
+    """A number, or a word, as it is read where digits behind the first ones count as 0.
+
+    >>> cut_digits("X-0000000012.5", 8), cut_digits("1.123456789", 8)
+    ('X-0000000000.0', '1.123456700')
+    """
+    count, kept = 0, ""
+    for character in number:
+        count += character.isdigit()
+        kept += "0" if character.isdigit() and count > most else character
+    return kept
 
 
 def _spelt(character: str) -> str:

@@ -86,9 +86,14 @@ class Compensation(Recorder):
     def end_compensation(self, line: int) -> None:
         """G40: the next move leads from the tool's centre to the contour, in axes that it does not name."""
         if self.side and not self.fresh and self.offset > ONE_PLACE:
-            self._check_forward(line)
+            self.check_last_move(line)
             self.left = self.contour
         self.side = 0
+
+    def check_last_move(self, line: int) -> None:
+        """Raise ProgramError if no move follows, and the last one does not fit into the corner before it."""
+        if self.side and not self.fresh and self.offset > ONE_PLACE:
+            self._check_forward(line)
 
     def look_anew(self) -> None:
         """A subroutine has ended; between G40 and the move that leaves the contour that is ambiguous."""

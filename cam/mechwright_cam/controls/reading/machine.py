@@ -272,5 +272,6 @@ class Machine(Moving):
                     self._lose_place(block.line, f"M{code}")
                     self.z = math.nan
             elif code in {2, 30}:
+                self.check_last_move(block.line)
                 self._row(Kind.END, block.line, self.x, self.y, self.z)
                 self.ended = True

@@ -15,7 +15,6 @@ from mechwright_cam.controls.reading.blocks import check_comments, fail
 from mechwright_cam.controls.reading.expressions import Reader
 from mechwright_cam.controls.reading.o_words import (
     BRANCHES,
-    ENDIF,
     ENDREPEAT,
     ENDSUB,
     ENDWHILE,
@@ -155,7 +154,7 @@ class Macros(Values):
             case "if":
                 self._branch(index, rest)
             case "elseif" | "else":
-                self.at = o_words.find(index, ENDIF) + 1
+                self.at = self._end_of_if(index) + 1
             case "while":
                 self._while(index, rest)
             case "endwhile":
@@ -252,9 +251,23 @@ class Macros(Values):
         while not taken:
             self.done += 1
             index = self.o_words.find(index, BRANCHES)
-            _, word, condition = self.words[index]
-            taken = word != "elseif" or self.condition(condition)
+            taken = self.words[index][1] != "elseif" or self._condition(index)
         self.at = index + 1
+
+    def _condition(self, index: int) -> bool:
+        """The condition of a line that is not the one which is run, but is worked out with it."""
+        try:
+            return self.condition(self.words[index][2])
+        except (ValueError, OverflowError) as error:
+            raise fail(index + 1, str(error)) from None
+
+    def _end_of_if(self, index: int) -> int:
+        """The end of an if whose branch has been run: the control works out the conditions on the way."""
+        while (word := self.words[index][1]) != "endif":
+            if word == "elseif":
+                self._condition(index)
+            index = self.o_words.find(index, BRANCHES)
+        return index
 
     def _while(self, index: int, rest: str) -> None:
         if self.o_words.ends_do(index):

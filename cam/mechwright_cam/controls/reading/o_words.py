@@ -151,7 +151,7 @@ class OWords:
 
     def _find(self, index: int, wanted: frozenset[str]) -> int:
         label = self.words[index][0]
-        places = self._places[label]
+        places = self._places.get(label, [])
         for at in range(bisect_left(places, index + 1), len(places)):
             word = self.words[places[at]][1]
             if word in wanted:
@@ -172,7 +172,7 @@ class OWords:
     def _before(self, index: int, wanted: frozenset[str]) -> int | None:
         """The last line before another, of the same label, that has one of the words."""
         if (index, wanted) not in self._behind:
-            places = self._places[self.words[index][0]]
+            places = self._places.get(self.words[index][0], [])
             before = (places[at] for at in range(bisect_left(places, index) - 1, -1, -1))
             self._behind[index, wanted] = next((k for k in before if self.words[k][1] in wanted), None)
         return self._behind[index, wanted]

@@ -166,8 +166,8 @@ class Recorder:
         if abs(sweep) < self.dialect.arc_least_turn:
             raise fail(
                 line,
-                f"the arc turns by {abs(sweep):.1g} rad, and {self.dialect.name} goes all the way round "
-                f"below {self.dialect.arc_least_turn:g}; write a line (G1)",
+                f"the arc turns by {abs(sweep):.1g} rad; {self.dialect.name} takes an arc below "
+                f"{self.dialect.arc_least_turn:g} rad for a full circle; write a line (G1)",
             )
         return sweep
 

@@ -202,8 +202,10 @@ class Values(Lines):
         return " ".join(words) + comments
 
     def alone(self, rest: str) -> float:
-        """The value of an expression that has nothing behind it."""
+        """The value of an expression in brackets that has nothing behind it."""
         reader = Reader(rest, self._value)
+        if reader.text[:1] != "[":
+            raise ValueError(f"an O-word takes its value in brackets, [...]; found {rest[:12]!r}")
         value = reader.real()
         if reader.at < len(reader.text):
             raise ValueError(f"{reader.text[reader.at :][:12]!r} stands behind the value of an O-word")
