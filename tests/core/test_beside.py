@@ -203,6 +203,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
         monkeypatch.setattr(f"mechwright_cam.{module}.Machining", lambda build: Programs())
     for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets"):
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.files", nothing)
+        monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.names", lambda self, build, wanted: [])
     monkeypatch.setattr(Solids, "warm", lambda self: None)
     monkeypatch.setattr(Solids, "begin", lambda self: None)
     monkeypatch.setattr(Solids, "beside", True)
@@ -220,7 +221,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     monkeypatch.setattr(Solids, "page", lambda self: {"motion.html": b"x"})
     monkeypatch.setattr(Solids, "masses", lambda self: {"gear": 1.0})
     code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
-    assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0)
+    assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0), said
     assert fault is None or str(fault) in said
     assert (tmp_path / "out" / "x.step").exists() is (fault is None)
 

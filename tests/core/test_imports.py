@@ -18,6 +18,8 @@ ON_DEMAND = (
     "mechwright.geometry.prepared",
     "mechwright.machine.frame.",
     "mechwright.machine.framed",
+    "mechwright.machine.speeds",
+    "mechwright.mechanics.strength.motor_speed",
     "mechwright.drawings",
 )
 """What only those import who use it, with what it needs."""

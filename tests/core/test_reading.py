@@ -22,8 +22,10 @@ READS_ITSELF = {
     "core/mechwright/reading.py",
     # Files of the program itself, or of what is installed.
     "core/mechwright/cli/demo.py",
+    "core/mechwright/extras.py",
     "core/mechwright/plugins/host.py",
     "core/mechwright/standards/table.py",
+    "core/mechwright/sweep/checks.py",
     "core/mechwright/sweep/task.py",
     "cam/mechwright_cad/live/server.py",
 }
