@@ -28,7 +28,7 @@ _AGAIN = 3
 """Times that processes are killed without finishing anything until no others are started."""
 
 LOOK = 5.0
-"""Seconds between two looks at workers: the pool does not notice one that is killed while it writes a result."""
+"""Seconds between two looks at workers: the pool overlooks one that is killed while it writes a result."""
 
 CONNECT = 10.0
 """Seconds until a scheduler has to answer."""
