@@ -143,6 +143,12 @@ def test_a_name_that_no_file_has_everywhere_is_refused_with_one_that_has(tmp_pat
     assert load(written(tmp_path, file.read_text().replace(name, other)), host()).name == other
 
 
+def test_a_name_of_any_length_is_refused_in_a_short_line():
+    with pytest.raises(DesignError, match=r"name 'a{64}'\.\.\. \(1,000,000 characters\) cannot be") as told:
+        check_name("a" * 1_000_000)
+    assert len(str(told.value)) < 300
+
+
 class Listing(Page):
     name = "listing-of-a-test"
     commands = frozenset({"model"})

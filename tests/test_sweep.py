@@ -34,7 +34,7 @@ def test_a_sweep_that_was_stopped_goes_on_to_the_same_bytes(tmp_path):
     assert bytes_of(tmp_path / "one") == before
     other = swept(tmp_path / "one", text="seed = 2")
     assert other.exit_code == 1
-    assert "holds the sweep of another study (study)" in str(other.exception)
+    assert "holds a sweep that was begun with another study;" in str(other.exception)
 
 
 def test_a_full_disk_is_one_line_and_the_sweep_goes_on_from_there(tmp_path, monkeypatch):

@@ -31,6 +31,9 @@ _INCH_MARKS = frozenset('"″”')
 _TWO_MEANINGS = {"grad", "Grad"}
 """A degree to some and a hundredth of a right angle to others (``gon``)."""
 
+LONGEST = 200
+"""Characters of a quantity: the patterns that read one take the square of its length."""
+
 _SIGNIFICANT = 15
 """Digits a converted value keeps: every decimal of 15 digits survives, the rounding of a factor does not."""
 
@@ -75,7 +78,7 @@ def convert(text: str, unit: str) -> float:
     """Read a quantity, such as ``"2 in"`` or ``"3 1/2 in"``, and give its magnitude in ``unit``.
 
     A number alone is taken to be in ``unit``, which is spelled as pint does; ``""`` is a pure number. Raises
-    ValueError for a text that is no quantity, or of another kind than ``unit``.
+    ValueError for a text that is no quantity, of another kind than ``unit``, or longer than ``LONGEST``.
 
     >>> convert("2 in", "mm"), convert("1/4 in", "mm"), convert('1/4"', "mm"), convert("40", "mm")
     (50.8, 6.35, 6.35, 40.0)
@@ -84,6 +87,8 @@ def convert(text: str, unit: str) -> float:
     ...
     ValueError: '2 kg' cannot be read in mm
     """
+    if len(text) > LONGEST:
+        raise ValueError(f"{text[:20]!r}... has {len(text):,} characters, and a quantity at most {LONGEST}")
     wrong = ValueError(f"{text!r} cannot be read in {unit or 'a plain number'}")
     try:
         value = float(text)
@@ -140,7 +145,7 @@ class Unit:
         try:
             return convert(value, self.symbol)
         except ValueError as error:
-            if re.match(r"\s*[+-]?\d+,\d", value):
+            if len(value) <= LONGEST and re.match(r"\s*[+-]?\d+,\d", value):
                 raise PydanticCustomError(
                     "unit",
                     "{reason}; write a point for the decimal comma: '{meant}'",

@@ -183,3 +183,16 @@ def test_pint_is_not_imported_without_unit_strings():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    "text", ["1" * 1_000_000 + " mm", "1e" + "9" * 1_000_000 + " mm", "1," + "1" * 1_000_000]
+)
+def test_a_long_text_is_refused_before_it_is_read(text):
+    """The patterns would read it for hours."""
+    with pytest.raises(
+        ValidationError, match=r"'1.{19}'\.\.\. has 1,0.* characters, and a quantity at most 200"
+    ) as told:
+        Table(length=text)
+    assert len(told.value.errors()[0]["msg"]) < 200
+    assert Table(length=f"{'0' * 190}12 mm").length == 12

@@ -44,8 +44,11 @@ def check_name(name: str, what: str = "name") -> str:
     'gear-2'
     """
     if not _NAME.fullmatch(name):
+        shown = (
+            repr(name) if len(name) <= 2 * _LONGEST else f"{name[:_LONGEST]!r}... ({len(name):,} characters)"
+        )
         raise DesignError(
-            f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
+            f"{what} {shown} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
             f'a letter or digit at both ends, such as "{name_from(name, "design")}"'
         )
     if name in DEVICES:

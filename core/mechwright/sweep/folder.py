@@ -57,10 +57,10 @@ class SweepFolder:
         if found is None:
             self.write(Output({BEGUN: _said(own)}))
         elif found != own:
-            differs = ", ".join(key for key in own if found.get(key) != own[key])
+            differs = " and another ".join(key for key in own if found.get(key) != own[key])
             raise OutputError(
-                f"{path}: holds the sweep of another study ({differs}); give a new folder with -o, or go on "
-                "with the study and the program that began it"
+                f"{path}: holds a sweep that was begun with another {differs}; give a new folder with -o, or "
+                "go on with the study and the program that began it"
             )
         try:
             (path / SHARDS).mkdir(exist_ok=True)

@@ -164,7 +164,7 @@ def telling(path: Path) -> Iterator[None]:
     except MechwrightError:
         raise
     except (OSError, ValueError, LookupError, TypeError, RecursionError, NotImplementedError) as error:
-        said = str(error).partition("\n")[0]
+        said = str(error).partition("\n")[0].rstrip(".")
         raise OutputError(
             f"{path}: is no table of this sweep: {said}; move it away, and the same command makes it again"
         ) from error

@@ -27,6 +27,9 @@ Found = bytes | Portion
 _AGAIN = 3
 """Times that processes are killed without finishing anything until no others are started."""
 
+LOOK = 5.0
+"""Seconds between two looks at workers: the pool overlooks one that is killed while it writes a result."""
+
 CONNECT = 10.0
 """Seconds until a scheduler has to answer."""
 
@@ -130,15 +133,24 @@ class Processes:
     def _once(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         context, queue = multiprocessing.get_context("spawn"), queue_of(tasks)
         running: dict[Future[tuple[Found, list[Heard]]], Task] = {}
-        pool, others = ProcessPoolExecutor(self.count, context, _begin), multiprocessing.active_children()
+        pool, others = (
+            ProcessPoolExecutor(self.count, context, _begin),
+            set(multiprocessing.active_children()),
+        )
+        workers, results, ended = set[Any](), getattr(pool, "_result_queue", None), False
         try:
             while True:
                 for task in _some(queue, AHEAD * self.count - len(running)):
                     with _returned(queue, task):
                         running[pool.submit(source.told, task)] = task
                 if not running:
+                    ended = True
                     return
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                workers |= {*multiprocessing.active_children()} - others
+                done = wait(running, LOOK, return_when=FIRST_COMPLETED).done
+                if not done and not all(worker.is_alive() for worker in workers):
+                    raise BrokenProcessPool("a worker was killed while it wrote")
+                for future in done:
                     content, heard = future.result()
                     task = running.pop(future)
                     self._teller.tell(heard)
@@ -149,10 +161,21 @@ class Processes:
             raise
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
-            if running:  # stopped: the interpreter would wait for what they are at, a minute or more
+            if not ended:  # the interpreter would wait for what workers are at, a minute or more
                 for worker in multiprocessing.active_children():
                     if worker not in others:  # whoever calls from Python may have processes of their own
                         worker.terminate()
+                _end_results(results)
+
+
+def _end_results(results: Any) -> None:
+    """Have the results of a pool end with its workers.
+
+    A worker that is killed while it writes leaves a part of a result. The pool waits for the rest as long as
+    anybody could write it, and the interpreter waits for the pool. This process could: it has the queue.
+    """
+    with contextlib.suppress(AttributeError, OSError):
+        results._writer.close()
 
 
 @contextlib.contextmanager
