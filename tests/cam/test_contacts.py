@@ -151,3 +151,10 @@ def test_a_floating_body_names_the_nearest_by_its_true_distance():
 def test_a_vacancy_is_no_distance():
     (found,) = gap_findings([Gap("thread", "leg", "", 8.0, 0.0)])
     assert found.message == "a thread of leg, 8.000 mm deep, has no screw"
+
+
+def test_a_spacer_ends_below_the_neck_of_a_slider_crank_with_a_circlip():
+    content = {"format": 1, "name": "x", "stage": [{"family": "elliptic-gears"}, {"family": "slider-crank"}]}
+    with Build(design_of(content, Path("x.toml"), "", host()), host(), Wanted("check")) as build:
+        assert "2-circlip-6" in {part.name for part in build.parts}
+        assert Contact().findings(build) == []
