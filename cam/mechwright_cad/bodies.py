@@ -29,6 +29,11 @@ def is_coupling(part: Part) -> bool:
     return part.bought is not None and part.bought.designation.startswith("flexible coupling")
 
 
+def is_motor(part: Part) -> bool:
+    """Whether it is a motor of the standard tables, whose shaft needs a coupling."""
+    return part.bought is not None and part.bought.designation.startswith(("stepper ", "gear motor "))
+
+
 def label_of(body: Body) -> str:
     """What a picture calls it: the part, and of a part with several copies the body as well.
 

@@ -8,7 +8,7 @@ import pytest
 
 from mechwright import DesignError
 from mechwright.contracts.threads import COARSE
-from mechwright.machine.frame.base import foot
+from mechwright.machine.frame.base import base_stock, foot
 from mechwright.machine.frame.coupled import motor_fixing
 from mechwright.machine.frame.fixing import WASHERS, fixing
 from mechwright.machine.frame.pillars import SPARE
@@ -83,3 +83,9 @@ def test_a_plate_for_which_no_screw_is_sold_is_refused():
     ):
         fixing(5, 16.6, 6)
     assert math.isclose(fixing(3, 6, 3, 2).sunk, 0.5)
+
+
+def test_a_plate_in_hand_without_a_screw_for_its_feet_is_no_base_plate():
+    """The design was refused, though a plate of 19 mm lay beside that of 16.6."""
+    assert base_stock(12, (16.6, 19)) == 19
+    assert base_stock(12, (16.6,)) == 12, "as they are sold"

@@ -102,6 +102,7 @@ def assembly_html(
         .render(
             design=design,
             steps=steps,
+            torques=bool(plan.torques),
             parts=parts,
             exploded=pictures.exploded(),
             bill=BILL,

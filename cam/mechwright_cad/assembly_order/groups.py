@@ -1,5 +1,6 @@
 """Bodies that belong together: those that move as one and touch."""
 
+import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
@@ -68,6 +69,18 @@ class Standing:
     def within(self, one: int, two: int, gap: float) -> bool:
         """Whether bodies are nearer than a gap, mm; of meshes ``TOUCHING`` at least, by their chords."""
         return self._look(one, two, gap)
+
+    def distance(self, one: int, two: int) -> float:
+        """Of two bodies, mm, by their meshes where one has no layers."""
+        if one in self._meshes or two in self._meshes:
+            corners = np.concatenate([self.box(one), self.box(two)])
+            reach = float(np.linalg.norm(np.ptp(corners, axis=0)))
+            return float(self._mesh(one).min_gap(self._mesh(two), reach))
+        return min(
+            math.hypot(max(a.low - b.high, b.low - a.high, 0.0), shapely.distance(a.shape, b.shape))
+            for a in self._layers[one]
+            for b in self._layers[two]
+        )
 
     def _mesh(self, number: int) -> Manifold:
         known = self._meshes.get(number)

@@ -106,6 +106,7 @@ class Contact(Inspection):
         if settings_of(build).frame == "none" and not isinstance(build.design.family, Chain):
             return ()
         from mechwright_cad.bodies import bodies_of
+        from mechwright_cad.contacts.engaged import disengaged
         from mechwright_cad.contacts.screw_joints import joints_of
         from mechwright_cad.contacts.touching import Touching
         from mechwright_cad.contacts.vacant import vacancies
@@ -115,33 +116,55 @@ class Contact(Inspection):
         if len(bodies) < 2:
             return ()
         touching, joints = Touching(bodies, motion, 0), joints_of(bodies, 0)
-        found = [*touching.gaps(joints), *vacancies(touching, joints)]
+        found = [*touching.gaps(joints), *vacancies(touching, joints), *disengaged(touching)]
         return at_stage(self.stage, gap_findings(found))
 
 
-_SAID = {
-    "floating": "{one} touches nothing; the nearest body is {two}, {gap:.3f} mm away",
-    "end": "{one} stands {gap:.3f} mm out of {two}, which it is meant to end in",
-    "seat": "{two} leaves {gap:.3f} mm of its hole in {one} empty",
-    "empty": "a bore of {one} is empty over its {gap:.3f} mm, though something turns or sits in it",
-    "thread": "a thread in {one}, {gap:.3f} mm deep, has no screw",
-    "groove": "a groove of {one}, {gap:.3f} mm wide, has no circlip",
-    "column": "{one} and {two} turn as one on one pin, with a gap of {gap:.3f} mm between them",
-    "screw": "{one} clamps {two} over a gap of {gap:.3f} mm",
+_DISTANCES = {
+    "floating": (
+        "{one} touches no other body: the nearest, {two}, is {gap:.3f} mm away",
+        "make it touch what carries it",
+    ),
+    "end": ("{one} stands {gap:.3f} mm out of {two}, in which it ends", "let both end at one height"),
+    "seat": (
+        "{two} leaves {gap:.3f} mm of its hole in {one} empty",
+        "make both as long, or move them together",
+    ),
+    "column": (
+        "{one} and {two} turn as one on one pin, with a gap of {gap:.3f} mm between them",
+        "put a spacer of that length between them",
+    ),
+    "screw": (
+        "{one} clamps {two} over a gap of {gap:.3f} mm",
+        "close the gap, or put a spacer of that length in it",
+    ),
+    "driving": (
+        "{one} and {two} drive each other, and {gap:.3f} mm of the thinner one faces nothing",
+        "move both to one height",
+    ),
 }
-"""Kind of a gap to what is said of it."""
+"""Kind of a gap, where it is a distance, to what is wrong and what is done about it."""
 
-_DONE = {
-    "floating": "make it touch what carries it",
-    "end": "let both end at one height",
-    "seat": "make both as long, or move them together",
-    "empty": "put in what it is made for",
-    "thread": "put in its screw, or leave the thread out",
-    "groove": "put in its circlip, or leave the groove out",
-    "column": "put a spacer of that length between them",
-    "screw": "close the gap, or put a spacer of that length in it",
+_VACANCIES = {
+    "empty": (
+        "a bore of {one}, {gap:.3f} mm long, has no pin",
+        "put in its pin, or declare the bore as vacant in its part",
+    ),
+    "thread": (
+        "a thread of {one}, {gap:.3f} mm deep, has no screw",
+        "put in its screw, or leave the thread out",
+    ),
+    "groove": (
+        "a groove of {one}, {gap:.3f} mm wide, has no circlip",
+        "put in its circlip, or leave the groove out",
+    ),
+    "missing": (
+        "{one} has no plate, and {two}, {gap:.3f} mm thick, drives it or is driven by it",
+        "add the plate to the parts",
+    ),
+    "motor": ("the shaft of {one} is in no coupling", "put a coupling on it"),
 }
-"""The same to what is done about it."""
+"""Kind of a place without its part to the same."""
 
 
 def gap_findings(gaps: "Iterable[Gap]") -> Iterator[Finding]:
@@ -149,14 +172,19 @@ def gap_findings(gaps: "Iterable[Gap]") -> Iterator[Finding]:
     from mechwright_cad.contacts.rounds import CONTACT
 
     for one in gaps:
-        limit = CONTACT + one.play
-        said = _SAID[one.kind].format(one=one.body, two=one.other, gap=one.gap)
+        code, limit = f"contact.{one.kind}", CONTACT + one.play
+        names = {"one": one.body, "two": one.other, "gap": one.gap}
+        if one.kind in _VACANCIES:
+            said, done = _VACANCIES[one.kind]
+            yield Finding.error(code, "", said.format(**names), remedy=done)
+            continue
+        said, done = _DISTANCES[one.kind]
         yield Finding.error(
-            f"contact.{one.kind}",
+            code,
             "",
-            f"{said}; up to {limit:.3g} mm count as contact",
+            f"{said.format(**names)}; up to {limit:.3g} mm count as contact",
             float(one.gap),
             limit,
             "mm",
-            f"{_DONE[one.kind]}, or declare the clearance as the play of its part",
+            f"{done}, or declare the clearance as the play of its part",
         )

@@ -78,18 +78,21 @@ class Touching:
                 continue
             order = sorted((m for m in range(count) if m != k), key=lambda m: self._far(k, m))
             for m in order:
-                if self._far(k, m) > CONTACT + self._play(k, m):
-                    break
                 if self.standing.within(k, m, CONTACT + self._play(k, m)):
                     touched |= {k, m}
                     break
             else:
-                order = order[:1]
-            if k not in touched and order:
-                m = order[0]
-                yield Gap(
-                    "floating", self.bodies[k].name, self.bodies[m].name, self._far(k, m), self._play(k, m)
-                )
+                gap, m = self._nearest(k, order)
+                yield Gap("floating", self.bodies[k].name, self.bodies[m].name, gap, self._play(k, m))
+
+    def _nearest(self, k: int, order: Sequence[int]) -> tuple[float, int]:
+        """Distance, mm, and number of the body nearest to one; ``order`` is by the distance of the boxes."""
+        nearest = math.inf, order[0]
+        for m in order:
+            if self._far(k, m) >= nearest[0]:
+                break
+            nearest = min(nearest, (self.standing.distance(k, m), m))
+        return nearest
 
     def _far(self, one: int, two: int) -> float:
         """Distance of the boxes of two bodies, mm."""
@@ -99,6 +102,11 @@ class Touching:
     @cached_property
     def _boxes(self) -> list[Array]:
         return [self.standing.box(k) for k in range(len(self.bodies))]
+
+    def heights(self, number: int) -> tuple[float, float]:
+        """The lowest and the highest point of a body, by number, mm."""
+        low, high = self._boxes[number][:, 2]
+        return float(low), float(high)
 
     def _play(self, *numbers: int) -> float:
         return max(self.bodies[k].part.play for k in numbers)

@@ -6,7 +6,10 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
+from mechwright.mechanics.linkage.fields import LOOSEST
+from mechwright.tolerances import TOLERANCES
 from mechwright_cad.assembly_order.layers import PARALLEL
+from mechwright_cad.bodies import is_coupling, is_motor
 from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round
 from mechwright_cad.contacts.screw_joints import Hole, ScrewJoint, holes_of
 from mechwright_cad.contacts.touching import Gap, Touching
@@ -20,6 +23,7 @@ def vacancies(touching: Touching, joints: Sequence[ScrewJoint]) -> Iterator[Gap]
     yield from _threads(touching, joints)
     yield from _grooves(touching)
     yield from _bores(touching)
+    yield from _couplings(touching)
 
 
 def _threads(touching: Touching, joints: Sequence[ScrewJoint]) -> Iterator[Gap]:
@@ -86,7 +90,7 @@ def _bores(touching: Touching) -> Iterator[Gap]:
     """
     axes = [_axis(touching, joint) for joint in touching.motion.joints.values() if joint.kind == "revolute"]
     for k, hole, pins in touching.mates:
-        if pins or hole.fit is not None:
+        if pins or hole.fit is not None or _loose(touching, k, hole):
             continue
         body = touching.bodies[k]
         seated = body.part.bought is not None and body.part.bought.standard in SEATED
@@ -98,6 +102,26 @@ def _bores(touching: Touching) -> Iterator[Gap]:
         )
         if seated or turns:
             yield Gap("empty", body.name, "", hole.high - hole.low, 0.0)
+
+
+def _loose(touching: Touching, k: int, hole: Round) -> bool:
+    """Whether a pin with more play than a seat has goes through a hole of a body, by its number."""
+    middle = hole.at + (hole.low + hole.high) / 2 * hole.axis
+    return any(
+        not one.inside
+        and m != k
+        and 0 <= hole.diameter - one.diameter <= LOOSEST + TOLERANCES.closure
+        and _passes(one, middle, hole.axis)
+        for m, one in touching.rounds
+    )
+
+
+def _couplings(touching: Touching) -> Iterator[Gap]:
+    """Motors whose shaft ends in no coupling."""
+    couplings = [k for k, body in enumerate(touching.bodies) if is_coupling(body.part)]
+    for k, body in enumerate(touching.bodies):
+        if is_motor(body.part) and not any(touching.standing.touch(k, m) for m in couplings):
+            yield Gap("motor", body.name, "", 0.0, 0.0)
 
 
 def _axis(touching: Touching, joint: Joint) -> tuple[Array, Array, set[str]]:

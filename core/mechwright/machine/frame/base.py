@@ -69,10 +69,28 @@ def add_foot(kit: Kit, name: str, point: Point, top: float, thickness: float) ->
     kit.bought("foot", foot(), name, top - thickness - FOOT[1])
 
 
+def base_stock(wanted: float, in_hand: Sequence[float] = ()) -> float:
+    """The least plate that is at least so thick, mm, and whose feet have a screw that is sold.
+
+    >>> base_stock(12, (16.6,)), base_stock(12, (16.6, 19))
+    (12.0, 19.0)
+    """
+    return stock_for(wanted, [one for one in in_hand if _has_foot_screw(one)])
+
+
+def _has_foot_screw(thickness: float) -> bool:
+    (thread,) = foot().threads
+    try:
+        fixing(thread.diameter, thickness, thread.depth)
+    except DesignError:
+        return False
+    return True
+
+
 def thickness_for(standing: Standing, in_hand: Sequence[float] = ()) -> float:
     """Of the base plate, mm; of the plates in hand, if there are any."""
     longer = standing.longer + 2 * (EDGE + MARGIN)
-    return stock_for(min(max(LEAST, longer / SLENDER), MOST), in_hand)
+    return base_stock(min(max(LEAST, longer / SLENDER), MOST), in_hand)
 
 
 def leg_screw(thickness: float) -> Screw:

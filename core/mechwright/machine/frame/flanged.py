@@ -17,7 +17,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Flange, Foot
 from mechwright.contracts.surroundings import OVER, Place, Surroundings, Turn
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import FOOT, HOLE, LEAST, MOST, SLENDER, add_foot
+from mechwright.machine.frame.base import FOOT, HOLE, LEAST, MOST, SLENDER, add_foot, base_stock
 from mechwright.machine.frame.bracket import Bracket, add_bracket, least_half
 from mechwright.machine.frame.coupled import face_below, outline
 from mechwright.machine.frame.decided import Wanted
@@ -27,7 +27,7 @@ from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import EDGE, put_screw
-from mechwright.machine.frame.plates import Hole, add_plate, stock_for
+from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import CLEARANCE, Standing
 from mechwright.mechanics.strength.fastening import press_fit_torque
 from mechwright.standards.couplings import OverloadError, coupling_for
@@ -208,7 +208,7 @@ def _add_base(kit: Kit, flange: Flange, standing: Standing, keys: FrameKeys) -> 
     """The base plate under the foot, and the screws that hold both; heights from the foot's upper face."""
     plate, edge = flange.foot, FOOT[0] / 2 + 2.0
     wanted = min(max(LEAST, (standing.longer + 2 * edge) / SLENDER), MOST)
-    thickness, material = stock_for(wanted, keys.plates), keys.plate_material
+    thickness, material = base_stock(wanted, keys.plates), keys.plate_material
     top = -plate.thickness
     low = top - thickness
     fixing = _fixing(plate, thickness)

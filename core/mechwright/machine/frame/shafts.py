@@ -99,7 +99,9 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     shaft = Turned(
         _merged(sections(seat, levels, stub)), chamfer=BREAK, grooves=(groove,), seats=seats, note=note
     )
-    kit.turned(f"shaft-{spindle.name}", shaft, body, foot)
+    # Above its seat the shaft is as thick as the circlip's size, and does not fill a larger bore.
+    empty = SHORT if ring.size < hub.bore else 0.0
+    kit.turned(f"shaft-{spindle.name}", shaft, body, foot, play=empty)
     kit.bought(f"circlip-{ring.size:g}", ring.bought, body, hub.high)
     name = f"bearing-{bearing.name.replace('/', '_')}"
     for z in (levels.lower - bearing.width, levels.upper):

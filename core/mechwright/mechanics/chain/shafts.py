@@ -102,7 +102,9 @@ def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterat
         if room > _SAME:  # the shaft is that of the stage's own ground plate
             bore = above.mounting.diameter
             ring = tube(bore, COLLAR * bore, room)
-            yield lower.carries(f"spacer-{number}", lower.high, ring, SPACER_MATERIAL)
+            part = lower.carries(f"spacer-{number}", lower.high, ring, SPACER_MATERIAL)
+            # It ends below the neck, whose circlip may stand higher than the neck's lower end.
+            yield replace(part, play=above.mounting.neck)
         return
     if upper is None:
         return

@@ -54,9 +54,12 @@ BushingWall = Annotated[
         json_schema_extra=FITTED,
     ),
 ]
+LOOSEST = 0.5
+"""Diameter by which a turning bore may be larger than its pin, mm, at most."""
+
 RunningFit = Annotated[
     Millimetres,
-    Field(ge=0.005, le=0.5, description="Diameter by which a turning bore is larger than its pin."),
+    Field(ge=0.005, le=LOOSEST, description="Diameter by which a turning bore is larger than its pin."),
 ]
 Rim = Annotated[
     Millimetres,
