@@ -22,7 +22,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
-from random_blocks import by_rs274, difference, ours, programs
+from random_blocks import SHIFTED, by_rs274, difference, ours, programs
 
 
 def by_grbl(texts: list[str], parser: str) -> list[tuple[bool, str]]:
@@ -48,7 +48,7 @@ def by_grbl(texts: list[str], parser: str) -> list[tuple[bool, str]]:
         ]
         why = (
             f"refused there: line {bad[0]} {answers[bad[0] - 1]}"
-            if bad
+            if bad and not SHIFTED.search(text)  # an arc may not fit where offsets have moved its ends
             else difference(text, run, np.array(ends).reshape(-1, 3))
         )
         found.append((True, why))

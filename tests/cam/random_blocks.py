@@ -213,7 +213,7 @@ def ours(text: str, control: str) -> Run | None:
         return None
 
 
-_SHIFTED = re.compile(r"^(?=.*(?:G53|G10|G43\.1|G28|G30|G52)).*[XYZ][-+.0]*[1-9\[#]", re.MULTILINE)
+SHIFTED = re.compile(r"^(?=.*(?:G53|G10|G43\.1|G28|G30|G52)).*[XYZ][-+.0]*[1-9\[#]", re.MULTILINE)
 """Places in machine coordinates and offsets other than 0: what they make of later moves our reader leaves open."""
 
 
@@ -221,7 +221,7 @@ def difference(text: str, run: Run, ends: np.ndarray) -> str:
     """How the ends (n, 3) of the control's moves differ from those of a run; empty if they do not."""
     moves = np.isin(run.kind, MOVES)
     still = moves & (run.kind != Kind.HOME)
-    if _SHIFTED.search(text) or not (
+    if SHIFTED.search(text) or not (
         np.isfinite(run.end[still]).all() and np.isfinite(run.start[moves]).all()
     ):
         return ""
@@ -241,7 +241,7 @@ def by_rs274(text: str) -> tuple[bool, str]:
         return False, ""
     with tempfile.TemporaryDirectory() as folder:
         canon = run_rs274(text, Path(folder), "T1 P1 Z0 D0.15748\nT2 P2 Z0 D0.0787\n")
-    if "Requested tool" in canon.error or (not canon.ok and _SHIFTED.search(text)):
+    if "Requested tool" in canon.error or (not canon.ok and SHIFTED.search(text)):
         return True, ""  # the table has two tools; an arc may not fit where offsets have moved its ends
     if not canon.ok:
         return True, "refused there: " + " / ".join(canon.error.splitlines()[-2:])
