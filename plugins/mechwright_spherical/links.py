@@ -89,9 +89,18 @@ def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq
     )
 
 
-def _arc(params: SphericalParams, u: Array, v: Array, span: Span, *, start: float = 0.0) -> cq.Solid:
-    make = shell_strip if params.hardware.section == "shell" else arc_body
-    return make(u, v, span, params.hardware.link_width, start=start)
+def _arc(
+    params: SphericalParams, u: Array, v: Array, span: Span, *, start: float = 0.0, meets: bool = False
+) -> cq.Solid:
+    """An arc of a link; ``meets`` says whether it meets another one of the same link.
+
+    The sides of true strips are cones about the centre. Of two cones that share their tip the kernel finds no
+    line in which they meet, and drops one strip; as a free-form solid it keeps both.
+    """
+    if params.hardware.section != "shell":
+        return arc_body(u, v, span, params.hardware.link_width, start=start)
+    strip = shell_strip(u, v, span, params.hardware.link_width, start=start)
+    return cq.Solid(strip.toNURBS().wrapped) if meets else strip
 
 
 def bore(params: SphericalParams, at: Array, span: Span) -> cq.Solid:
@@ -131,9 +140,9 @@ def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Sol
     pins = [place for seat in seats for place in seat.own]
     for seat, start in zip(seats, first, strict=True):
         if seat.name not in slotted_of(params):
-            bodies += [_arc(params, start, place, arcs) for place in seat.own[1:]]
+            bodies += [_arc(params, start, place, arcs, meets=True) for place in seat.own[1:]]
     nearest = min(pins, key=lambda pin: float(arc(pin, point)))
-    bodies.append(_arc(params, nearest, point, arcs))
+    bodies.append(_arc(params, nearest, point, arcs, meets=True))
     return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
 
 
@@ -193,8 +202,8 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
             axes.insert(0, -near)
     if train is not None and train.idler_axis is not None:
         axes.append(_in_ground(linkage, train.idler_axis))
-        bodies.append(_arc(params, axes[0], axes[2], arcs))
-        bodies.append(_arc(params, axes[1], axes[2], arcs))
+        bodies.append(_arc(params, axes[0], axes[2], arcs, meets=True))
+        bodies.append(_arc(params, axes[1], axes[2], arcs, meets=True))
     over = bracket_of(params)
     if over is not None:
         # The arc with the motor's flange goes from the post over the gears.

@@ -250,6 +250,23 @@ def test_the_shell_section_changes_the_links():
     assert volumes[0] == pytest.approx(volumes[1], rel=5e-3)
 
 
+@pytest.mark.parametrize(
+    ("name", "body"),
+    [
+        ("spherical-machine", "coupler"),
+        ("spherical-double-crank-machine", "coupler"),
+        ("spherical-five-bar-machine", "ground"),
+    ],
+)
+def test_no_arc_of_a_link_with_several_is_lost_in_the_shell_section(name, body):
+    """The sides of two strips are cones with one tip: the kernel kept one of the strips alone."""
+    params = example(name)
+    shell = params.model_copy(update={"hardware": params.hardware.model_copy(update={"section": "shell"})})
+    flat, true = (links.solid(one, body) for one in (params, shell))
+    assert true.isValid()
+    assert true.Volume() == pytest.approx(flat.Volume(), rel=3e-3)
+
+
 def test_gears_end_on_their_cones():
     params = example(NAMES[1])
     train = train_of(linkage_of(params), params.drive)
