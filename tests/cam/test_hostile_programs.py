@@ -115,7 +115,7 @@ def test_what_stands_behind_a_percent_sign_is_not_run(control: str) -> None:
     assert said("\n".join(lines), control, "pocket-contour").startswith("line 23: this stands behind")
 
 
-BESIDE_ARCS = ["G4 P0.5 G3 X2 Y0 I1 J0", "G3 X2 Y0 R1 G4 P1", "G3 X2 Y0 I1 J0\nG4 P1 X0 Y0 I-1 J0"]
+BESIDE_ARCS = ["G4 P0.5 G3 X2 Y0 I1 J0", "G3 X2 Y0 R1.5 G4 P1", "G3 X2 Y0 I1 J0\nG4 P1 X0 Y0 I-1 J0"]
 
 
 @pytest.mark.parametrize("lines", BESIDE_ARCS)
