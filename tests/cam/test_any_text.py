@@ -130,7 +130,7 @@ def test_hostile_lines_end_in_one_line(lines: str, said: str | None) -> None:
 
 @pytest.mark.parametrize(
     "lines",
-    ["O1 while [1]\n#1=[#1+1]\nO1 endwhile", "M98 P9 L99999999\nM2\nO9\n#1=1\nM99", "O1 do\nO1 while [1]", "O1 repeat [99999999]\nO1 endrepeat"],
+    ["#1=0\nO1 while [1]\n#1=[#1+1]\nO1 endwhile", "M98 P9 L99999999\nM2\nO9\n#1=1\nM99", "O1 do\nO1 while [1]", "O1 repeat [99999999]\nO1 endrepeat"],
 )  # fmt: skip
 def test_endless_programs_end(lines: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 20_000)
