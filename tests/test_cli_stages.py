@@ -188,7 +188,8 @@ def test_where_parts_fail_though_no_finding_says_so_the_motion_is_written(run, t
     status, _, err = run("solve", design(tmp_path, "geneva", {}), "-o", tmp_path / "o")
     assert status == 0
     assert err.count("the wheel crosses itself") == 1
-    assert err.endswith(": interference is not looked for, motion.html shows joints and lines, no bodies\n")
+    left = "interference is not looked for, screw engagement is not looked for"
+    assert err.endswith(f": {left}, motion.html shows joints and lines, no bodies\n")
 
 
 def finding(stage: Stage, severity: Severity = Severity.ERROR) -> Finding:

@@ -212,7 +212,10 @@ class Weights:
     def _dowel(self) -> Any:
         """Bought where one of its length is sold, with its chamfers."""
         size = np.broadcast_to(self._sizes.dowel, len(self.designs)).astype(float)
-        length = self.stand.slider * self._high + self.designs["thickness"]
+        lies = np.where(
+            self.stand.slider == 1, self.designs["gap"], 0.0
+        )  # rails of the first layer on the base
+        length = np.round(self.stand.slider * self._high + self.designs["thickness"] - lies, 6)
         found = np.array(self._steel * circle_area(size) * length)
         sold = {float(one) for each in dowels() for name in _STANDARDS for one in each.lengths(name)}
         for long in sold & set(np.unique(length).tolist()):

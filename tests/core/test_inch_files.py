@@ -10,6 +10,7 @@ from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import converted, units_of, written
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
+from mechwright.sweep.study import load_study
 
 INCH = """
 format = 1
@@ -114,7 +115,7 @@ def test_tables_lie_over_each_other():
     assert laid_over({"a": {"b": 1}}, {"a": 3, "c": 4}) == {"a": {"b": 1}, "c": 4}
 
 
-def test_requirements_in_inches_and_studies_that_refuse_them(tmp_path, command_line):
+def test_requirements_in_inches_and_studies_that_refuse_them(tmp_path):
     from mechwright.designs.requirement import load_requirement
 
     path = tmp_path / "stroke.toml"
@@ -126,6 +127,5 @@ def test_requirements_in_inches_and_studies_that_refuse_them(tmp_path, command_l
     study.write_text(
         'format = 1\nfamily = "slider-crank"\nunits = "inch"\n[study.ranges]\ncrank = {low = 1, high = 2}\n'
     )
-    code, _, err = command_line("sweep", study, "-o", tmp_path / "out")
-    assert code == 2
-    assert "a study is in mm" in err
+    with pytest.raises(DesignError, match="a study is in mm"):
+        load_study(study, host())

@@ -4,7 +4,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from mechwright.contracts import by_arrays
+from mechwright.contracts import singly
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
 
@@ -31,12 +31,12 @@ class Many:
     def same(self, batch, columns, stage):
         """The answers at once, held against those of each."""
         self.alone = 0
-        with patch.object(by_arrays, "one_by_one", self._counted):
+        with patch.object(singly, "one_by_one", self._counted):
             found = self.family.evaluate(batch, columns, stage)
         alone = one_by_one(self.family.judge, self.family.solve, batch, columns, stage, self.family.parts)
         assert_same(found, alone)
         return found
 
-    def _counted(self, judge, solve, batch, columns, stage, parts):
+    def _counted(self, judge, solve, batch, columns, stage, parts, until):
         self.alone += len(batch)
-        return one_by_one(judge, solve, batch, columns, stage, parts)
+        return one_by_one(judge, solve, batch, columns, stage, parts, until)

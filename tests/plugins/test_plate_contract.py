@@ -12,6 +12,9 @@ from hypothesis import strategies as st
 
 import mechwright as mw
 from mechwright.designs.files import INPUT_LIMIT
+from mechwright.errors import DesignError
+from mechwright.plugins.host import host
+from mechwright.sweep.study import load_study
 from mechwright.testing.commands import run
 from mechwright_plate.family import Plate
 
@@ -154,9 +157,9 @@ def test_a_study_carries_no_files(tmp_path):
     (tmp_path / "b.dxf").write_bytes(Path(NEMA["drawing"]).read_bytes())
     file = design(tmp_path, drawing="b.dxf")
     file.write_text(file.read_text() + "\n[study.ranges]\nthickness = { least = 4, greatest = 9 }\n")
-    done = run("sweep", file, "-o", tmp_path / "out")
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "parameters.drawing: a study carries no files" in done.stderr
+    with pytest.raises(DesignError, match=r"parameters\.drawing: a study carries no files") as caught:
+        load_study(file, host())
+    assert "\n" not in str(caught.value)
 
 
 @by_night

@@ -22,7 +22,7 @@ class ScrewLengths(Inspection):
     commands = COMMANDS
     stage = Stage.PARTS
     order = 12
-    doing = "screws"
+    doing = "screw engagement"
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """An error for each length of screw that is wrong in a kind of part."""
