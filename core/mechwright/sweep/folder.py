@@ -13,6 +13,7 @@ from pathlib import Path
 
 from mechwright.errors import OutputError
 from mechwright.output.folder import Output, write_folder
+from mechwright.output.staging import move
 from mechwright.plugins.host import Host
 from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
@@ -169,7 +170,7 @@ class SweepFolder:
                 file.write(content)
                 file.flush()
                 os.fsync(file.fileno())
-            part.replace(path)
+            move(part, path)
         except OSError as error:
             with contextlib.suppress(OSError):
                 part.unlink(missing_ok=True)
