@@ -231,14 +231,13 @@ def test_processes_that_are_killed_at_any_moment_lose_no_slice(study, whole, tmp
     (tmp_path / "forces.toml").write_text(study.path.read_text())
     rng, folder, before = np.random.default_rng(workers), tmp_path / "out", 0
     for number in range(examples(3, 12)):
+        slices = folder / "slices"
+        known = len(list(slices.glob("*.parquet")))
         running, stop = started(folder, workers), STOPS[number % 3]
         end = time.monotonic() + 60
-        slices = folder / "slices"
         while (
-            running.poll() is None
-            and len(list(slices.glob("*.parquet"))) <= number
-            and time.monotonic() < end
-        ):
+            running.poll() is None and len(list(slices.glob("*.parquet"))) <= known and time.monotonic() < end
+        ):  # it has begun: before, a signal ends Python itself
             time.sleep(0.02)
         time.sleep(rng.random() * 0.3)
         if stop == signal.SIGKILL:
