@@ -6,19 +6,18 @@ one core. Targets hold for a machine on which a plain loop of array operations t
 """
 
 import itertools
-import math
 import sys
 
 import numpy as np
 from harness import race, report, require
 
-from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.cures import walls_of
+from mechwright import Array
+from mechwright_geneva.dimensions import mechanism_of, sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.limits import SWEEP_SAMPLES
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot import Slot
-from mechwright_geneva.sound import sound
+from mechwright_geneva.slot_search import allowed, trial
 
 DESIGNS = 100_000
 ANCHOR, ANCHOR_SECONDS = "complex arrays, 200 times 100,000", 0.38
@@ -50,27 +49,18 @@ def one_design() -> int:
 def sweep() -> int:
     rng = np.random.default_rng(1)
     half, offset = rng.uniform(35, 70, DESIGNS), rng.uniform(-15, 15, DESIGNS)
-    radius = rng.uniform(2, 8, DESIGNS)
-    walls = walls_of(mechanism_of(GenevaParams()))
-    good = sound(LAWS["cycloidal"](), math.pi / 4, np.radians(half), np.radians(offset), 100.0, radius, walls)
-    return int(good.sum())
+    return _valid(half, offset, rng.uniform(2, 8, DESIGNS))
 
 
 def measured_throughout() -> int:
     """The same number of designs of which none falls out before it is measured."""
     rng = np.random.default_rng(2)
-    half, offset = rng.uniform(46, 56, DESIGNS), rng.uniform(6, 12, DESIGNS)
-    walls = walls_of(mechanism_of(GenevaParams()))
-    good = sound(
-        LAWS["cycloidal"](),
-        math.pi / 4,
-        np.radians(half),
-        np.radians(offset),
-        100.0,
-        np.full(DESIGNS, 3.0),
-        walls,
-    )
-    return int(good.sum())
+    return _valid(rng.uniform(46, 56, DESIGNS), rng.uniform(6, 12, DESIGNS), np.full(DESIGNS, 3.0))
+
+
+def _valid(half: Array, offset: Array, radius: Array) -> int:
+    columns = {"crank_half_angle": half, "offset_angle": offset, "roller_radius": radius}
+    return int(allowed(trial(sized(GenevaParams()), DESIGNS, SWEEP_SAMPLES, **columns)).sum())
 
 
 def main() -> int:

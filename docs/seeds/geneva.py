@@ -14,11 +14,11 @@ import geneva_undercut as undercut
 import numpy as np
 
 from mechwright.mechanics.laws import LAWS, Law
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.figures import straight_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
-from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot_checks import REGIMES
+from mechwright_geneva.slot_rules import REGIMES
 
 PAGE = Path(__file__).parent / "geneva.md"
 
@@ -104,8 +104,8 @@ def prototypes(sign: int) -> Iterator[list[str]]:
                 groove_clearance=0,
             )
         )
-        limit, web = float(m.measures.island_limit[0]), float(m.measures.web[0])
-        verdict = "undercut" if limit <= m.roller else ("clean" if m.measures.width[0] > 0 else "loop")
+        limit, web = m.measures.island_limit.item(), m.measures.web.item()
+        verdict = "undercut" if limit <= m.roller else ("clean" if m.measures.width.item() > 0 else "loop")
         yield [
             f"{slots}",
             f"{half:g}",
@@ -291,7 +291,7 @@ n = 4, l = 100, θd0 = 50, θoff = 5 degrees, r = 5 mm, cycloidal; wall α + π.
 
 At mid stroke M_crit = ((1 + p) - N p)² / ((1 + p)² - N p²) = \
 {float(undercut.critical_at_middle(m.frame, 1.8)):.10f}, a critical roller of \
-{float(m.measures.island_limit[0]):.6f} mm.
+{m.measures.island_limit.item():.6f} mm.
 
 ## Points of the walls
 

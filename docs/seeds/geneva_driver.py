@@ -10,9 +10,10 @@ import numpy as np
 from mechwright.build.figures.sheet import INK, LINKS, Window
 from mechwright.mechanics.planar import Turning
 from mechwright_geneva.contact import contact
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.figures import rate_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.walls import switches, torque
 

@@ -12,9 +12,10 @@ from mechwright import Array, AsMade, Finding, MadeCurve, MadeFigure, MadePart, 
 from mechwright.tolerances import OFF_CENTRE
 from mechwright_geneva.as_made_lock import Lock
 from mechwright_geneva.as_made_play import Play, drawn_room, made_room, play
-from mechwright_geneva.assembly import LEAST_GROOVE, LEAST_LOCK
+from mechwright_geneva.clearance_rules import LEAST_GROOVE, LEAST_LOCK
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.kinematics import Points, Stroke
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.params import GenevaParams
 
 SAMPLES = 49

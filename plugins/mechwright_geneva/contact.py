@@ -16,16 +16,18 @@ of the stroke, and where the torque does. If both do there, nothing changes.
 """
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, kept, material
+from mechwright import Array, material
+from mechwright.contracts.design_table import number
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.strength.hertz import SHARPEST, YIELD, contact_modulus, line_pressure
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
-from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.mechanism import BLOCK, Mechanism
 
 BLOCKED = math.radians(80)
 """Pressure angle from which friction of 0.18 (steel on steel, hardly oiled) stops the wheel."""
@@ -201,70 +203,112 @@ def strength(wheel: str, roller: str) -> float:
     return YIELD * min(material(wheel).strength, material(roller).strength)
 
 
-@dataclass(frozen=True, slots=True)
 class Loads:
-    """The peaks of a stroke.
+    """The greatest loads of the strokes of a turn: numbers, or columns (n, 1) of a table."""
 
-    Parameters
-    ----------
-    force, pressure, crank_torque, wheel_torque
-        Largest: N, MPa, N·m; the last one is that of the contact on the wheel.
-    force_at, pressure_at
-        Crank angle of the first two, rad.
-    island
-        Whether the island carries the greatest force.
-    steep
-        Crank angle over which the pressure angle is above 45 degrees, rad.
-    carried
-        Angle of the wheel in the blocked zone, rad.
-    """
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._m = mechanism
 
-    force: float
-    force_at: float
-    pressure: float
-    pressure_at: float
-    crank_torque: float
-    island: bool
-    steep: float
-    carried: float
-    wheel_torque: float
+    def _part(self, name: str, place: int) -> float:
+        m = self._m
+        found = m.once(("loads", name), lambda: m.each(lambda some: _FOUND[name](some), BLOCK))[:, place]
+        return number(found[0] if m.single else found[:, None])
+
+    @property
+    def force(self) -> float:
+        """Contact force, N."""
+        return self._part("force", 0)
+
+    @property
+    def force_at(self) -> float:
+        """Crank angle of the greatest force, rad."""
+        return self._part("force", 1)
+
+    @property
+    def island(self) -> bool:
+        """Whether the island carries the greatest force."""
+        return self._part("force", 2) > 0
+
+    @property
+    def pressure(self) -> float:
+        """Hertz pressure, MPa."""
+        return self._part("pressure", 0)
+
+    @property
+    def pressure_at(self) -> float:
+        """Crank angle of the greatest pressure, rad."""
+        return self._part("pressure", 1)
+
+    @property
+    def crank_torque(self) -> float:
+        """Torque that the driver has to be given, N·m."""
+        return self._part("crank_torque", 0)
+
+    @property
+    def steep(self) -> float:
+        """Crank angle over which the pressure angle is above 45 degrees, rad."""
+        return self._part("force", 3)
+
+    @property
+    def carried(self) -> float:
+        """Angle of the wheel in the blocked zone, rad."""
+        return self._part("force", 4)
+
+    @property
+    def wheel_torque(self) -> float:
+        """Torque of the contact on the wheel, N·m."""
+        return self._part("force", 5)
+
+
+def loads(mechanism: Mechanism) -> Loads:
+    """The peaks of the contact over the strokes of a turn, or over one where all are alike."""
+    return Loads(mechanism)
 
 
 def sampled(mechanism: Mechanism) -> "tuple[Stroke, list[tuple[int, Contact]]]":
     """A stroke at the samples among which peaks are sought, and the contact in each of a turn that differ."""
     run = mechanism.stroke(np.linspace(0, 1, _SAMPLES))
-    strokes = mechanism.strokes if mechanism.driver.varies else mechanism.strokes[:1]
-    return run, [(stroke, contact(mechanism, run, stroke)) for stroke in strokes]
+    return run, [(stroke, contact(mechanism, run, stroke)) for stroke in mechanism.different_strokes]
 
 
-@kept
-def loads(mechanism: Mechanism) -> Loads:
-    """The peaks of the contact over the strokes of a turn; over one where all are alike."""
-    run, found = sampled(mechanism)
-    time = 2 * mechanism.crank_half
+Strokes = list[tuple[int, Contact]]
 
-    def peak(name: str) -> tuple[float, float, bool]:
-        each = []
-        for stroke, one in found:
-            most, at, wall = (value.item() for value in peak_of(mechanism, one, stroke, name))
-            each.append((most, time * at + stroke * mechanism.pitch, wall == mechanism.side))
-        return max(each, key=lambda one: one[0])
 
-    force, force_at, island = peak("force")
-    pressure, pressure_at, _ = peak("pressure")
-    torque, _, _ = peak("crank_torque")
-    first = found[0][1]
-    return Loads(
-        force,
-        force_at,
-        pressure,
-        pressure_at,
-        torque,
-        island and not mechanism.straight,
-        time * float(np.mean(first.pressure_angle > math.pi / 4)),
-        float(carried(run, first)),
-        max(float((one.force * one.lever).max()) for _, one in found) / 1e3,
-    )
+def _forces(m: Mechanism) -> Array:
+    """(n, 6): force, its crank angle, whether the island carries it, steep, carried, torque of the wheel."""
+    run, found = _own_samples(m)
+    first, time = found[0][1], np.reshape(2 * m.crank_half, (-1, 1))
+    torque = np.max([(one.force * one.lever).max(axis=-1) for _, one in found], axis=0) / 1e3
+    steep = time * np.mean(np.atleast_2d(first.pressure_angle) > math.pi / 4, axis=-1, keepdims=True)
+    columns = [steep, *(np.reshape(one, (-1, 1)) for one in (carried(run, first), torque))]
+    return np.concatenate((_peak(m, found, "force"), *(_tall(one, m) for one in columns)), axis=1)
+
+
+def _own_samples(m: Mechanism) -> tuple[Stroke, Strokes]:
+    """As :func:`sampled`, of one mechanism once."""
+    return m.once("sampled", lambda: sampled(m)) if m.single else sampled(m)
+
+
+def _tall(values: Array, m: Mechanism) -> Array:
+    return np.broadcast_to(values, (m.size, 1))
+
+
+def _peak(m: Mechanism, found: Strokes, name: str) -> Array:
+    """(n, 3): the greatest magnitude of a quantity, its crank angle, and whether the island carries there."""
+    best = np.zeros((0, 3))
+    for stroke, one in found:
+        most, at, wall = (np.atleast_2d(values) for values in peak_of(m, one, stroke, name))
+        angle, island = 2 * m.crank_half * at + stroke * m.pitch, (wall == m.side) & (not m.straight)
+        row = np.concatenate([_tall(values, m) for values in (most, angle, island)], axis=1)
+        best = np.where(row[:, :1] > best[:, :1], row, best) if best.size else row
+    return best
+
+
+_FOUND: Mapping[str, Callable[[Mechanism], Array]] = {
+    "force": _forces,
+    "pressure": lambda m: _peak(m, _own_samples(m)[1], "pressure"),
+    "crank_torque": lambda m: _peak(m, _own_samples(m)[1], "crank_torque"),
+}
 
 
 def carried(run: Stroke, found: Contact) -> Array:

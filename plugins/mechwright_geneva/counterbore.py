@@ -3,10 +3,9 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Loop, Pocket, circle
+from mechwright import Finding, Loop, Pocket, Stage, circle
 from mechwright_geneva.fixings import hub_dowels, web_place
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.openings import reach, wheel_opening
 
 SHOULDER = 0.5
 """Least width of the flat that a washer rests on, mm."""
@@ -54,7 +53,7 @@ def counterbore_findings(m: Mechanism) -> Iterator[Finding]:
     if radius > depth:
         said = f"a fillet of {radius:g} mm is higher than the counterbore is deep"
         yield _error("counterbore_radius", said, radius, depth, f"make it at most {depth:g}")
-    least = math.ceil(20 * (reach(wheel_opening(params)) + SHOULDER + radius)) / 10
+    least = math.ceil(20 * (m.opening + SHOULDER + radius)) / 10
     most = math.floor(20 * _greatest(m)) / 10
     if least > most:
         said = f"bore, shoulder and fillet need a counterbore of {least:g} mm; the walls leave {most:g} mm"
@@ -70,4 +69,4 @@ def _error(
     key: str, said: str, value: float | None = None, limit: float | None = None, remedy: str = ""
 ) -> Finding:
     unit = "" if value is None else "mm"
-    return Finding.error("geneva.counterbore", key, said, value, limit, unit, remedy)
+    return Finding.error("geneva.counterbore", key, said, value, limit, unit, remedy, Stage.PARTS)

@@ -3,9 +3,8 @@
 import math
 
 from mechwright import Arc, Line, Loop, Point, Segment
-from mechwright_geneva.fixings import driver_dowels, driver_room
+from mechwright_geneva.fixings import driver_dowels
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.openings import driver_opening, reach
 
 
 def boss_radius(m: Mechanism) -> float:
@@ -16,10 +15,10 @@ def boss_radius(m: Mechanism) -> float:
 def hub_radius(m: Mechanism) -> float:
     """Radius of the crank's hub, mm: around opening and dowels, or twice the least wall about a bare bore."""
     params = m.params
-    bare = reach(driver_opening(params)) + 2 * params.least_wall
+    bare = m.driver_opening + 2 * params.least_wall
     if not driver_dowels(m):
         return bare
-    return max(bare, sum(driver_room(m)) / 2 + params.fixing / 2 + params.least_wall)
+    return max(bare, (m.driver_opening + m.driver_radius) / 2 + params.fixing / 2 + params.least_wall)
 
 
 def crank_loop(m: Mechanism) -> Loop:

@@ -18,13 +18,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright.mechanics.planar import Turning
 from mechwright_geneva.params import GenevaParams
 
 
 @dataclass(frozen=True, slots=True)
-class Driver:
-    """The driver of a design; angles θd are 0 where a roller enters forwards.
+class Driver(Rowwise):
+    """The driver of a design, or of a table of them; angles θd are 0 where a roller enters forwards.
+
+    Numbers of a table are columns (m, 1), and what is said at angles (k,) is (m, k).
 
     Parameters
     ----------
@@ -98,8 +101,8 @@ class Driver:
         whole = np.round(x / math.tau)
         half = (x - math.tau * whole) / 2
         # At ±π the tangent is as good as infinite, of either sign: both give half of a turn.
-        swept = 2 * np.arctan(math.sqrt((1 - v) / (1 + v)) * np.tan(half))
-        value: Array = (swept + math.tau * whole) / math.sqrt(1 - v * v)
+        swept = 2 * np.arctan(np.sqrt((1 - v) / (1 + v)) * np.tan(half))
+        value: Array = (swept + math.tau * whole) / np.sqrt(1 - v * v)
         return value
 
     @property
@@ -107,11 +110,13 @@ class Driver:
         """Whether strokes of one turn differ."""
         return self.law != "constant"
 
-    def stops(self) -> float | None:
-        """τ, rad, at which a driver that slows down stands still; None for one that does not."""
-        if self.law != "accelerating" or self.acceleration >= 0:
-            return None
-        return self.speed**2 / (-2 * self.acceleration)
+    @property
+    def stops_at(self) -> float:
+        """τ, rad, at which a driver that slows down stands still; infinite of one that does not."""
+        if self.law != "accelerating":
+            return math.inf
+        with np.errstate(divide="ignore"):
+            return number(self.speed**2 / (-2 * np.minimum(self.acceleration, 0.0)))
 
 
 def driver_of(params: GenevaParams, crank_half: float) -> Driver:
@@ -120,8 +125,8 @@ def driver_of(params: GenevaParams, crank_half: float) -> Driver:
     return Driver(
         params.driver_law,
         params.speed * math.tau / 60,
-        params.driver_acceleration or 0.0,
-        params.driver_variation or 0.0,
+        0.0 if params.driver_acceleration is None else params.driver_acceleration,
+        0.0 if params.driver_variation is None else params.driver_variation,
         sense,
         0.0 if sense > 0 else 2 * crank_half,
         crank_half,

@@ -1,8 +1,8 @@
 """The family ``geneva``."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_geneva.params import GenevaParams
@@ -11,6 +11,7 @@ from mechwright_geneva.requirement import IndexingRequirement
 if TYPE_CHECKING:
     from mechwright import (
         AsMade,
+        Channel,
         MadePart,
         Motion,
         Mounting,
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure, PartMass
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_geneva.mechanism import Mechanism
 
 
 class Geneva(Family[GenevaParams]):
@@ -35,17 +39,25 @@ class Geneva(Family[GenevaParams]):
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {"indexing": IndexingRequirement}
     batch: ClassVar[int] = 100_000
 
-    def check(self, params: GenevaParams) -> Sequence[Finding]:
+    structure: ClassVar[frozenset[str]] = frozenset({"keyway_width", "driver_keyway_width", "keyway_relief"})
+
+    def rules(self) -> "Rules[Mechanism]":
         """Law, angles, slots, islands, locking, driver, motion against the straight slot, contact."""
-        from mechwright_geneva.checks import findings
+        from mechwright_geneva.rule_table import RULES
 
-        return findings(params)
+        return RULES
 
-    def judge(self, params: GenevaParams) -> Sequence[Finding]:
-        """The same, without changes of several sizes that would cure it, nor sizes that would bear a load."""
-        from mechwright_geneva.unmended import judged
+    def table(self, params: GenevaParams, size: int | None = None) -> "Mechanism":
+        """The mechanism with the dimensions that a design leaves open."""
+        from mechwright_geneva.dimensions import table_of
 
-        return judged(params)
+        return table_of(params, size)
+
+    def remedy(self, params: GenevaParams, finding: Finding) -> Finding:
+        """Another offset angle or roller, or sizes to leave out, that have been tried."""
+        from mechwright_geneva.remedies import with_remedy
+
+        return with_remedy(params, finding)
 
     def solve(self, params: GenevaParams, samples: int) -> "Motion":
         """One turn of the driver, from the first entry."""
@@ -62,10 +74,9 @@ class Geneva(Family[GenevaParams]):
 
     def parts(self, params: GenevaParams) -> "Sequence[Part]":
         """Wheel, driver and rollers."""
-        from mechwright_geneva.checks import findings
         from mechwright_geneva.parts import parts_of
 
-        refuse(findings(params), Stage.PARTS)
+        refuse(self.check(params), Stage.PARTS)
         return parts_of(params)
 
     def mounting(self, params: GenevaParams) -> "Mounting":
@@ -102,14 +113,24 @@ class Geneva(Family[GenevaParams]):
             return super().synthesise(kind, requirement, progress)
         return from_indexing(requirement, progress)
 
-    def evaluate(
-        self, batch: "Batch[GenevaParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Slots, locks, studs and figures of many mechanisms by the formulas of one."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_geneva.evaluation import answer
+    def figures(self, table: "DesignTable[GenevaParams]") -> "Mapping[str, Figure]":
+        """Sizes, times, peaks of the law and of the contact."""
+        from mechwright_geneva.figures import figures
 
-        return by_arrays(self, batch, columns, stage, answer, chunk=self.batch)
+        return figures(cast("Mechanism", table))
+
+    def channels(self, table: "DesignTable[GenevaParams]", samples: int) -> "Mapping[str, Channel]":
+        """Angles, rates, and what the contact bears."""
+        from mechwright_geneva.motion import channels_of, turn_of
+
+        m = cast("Mechanism", table)
+        return channels_of(m, turn_of(m, samples))
+
+    def masses(self, table: "DesignTable[GenevaParams]") -> "Mapping[str, PartMass] | None":
+        """Wheel, hub, locking disc, crank and rollers."""
+        from mechwright_geneva.many_masses import masses_of
+
+        return masses_of(cast("Mechanism", table))
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
         """The size that is given, and the angle of the driver that the time of a move comes to."""

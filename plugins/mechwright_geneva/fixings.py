@@ -10,7 +10,6 @@ import numpy as np
 
 from mechwright import Array, Point
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.openings import driver_opening, reach, wheel_opening
 
 _PLACES = 400
 """Places tried along a line of symmetry: a quarter of a millimetre on a wheel of a hand's size."""
@@ -19,17 +18,11 @@ _WAY = 257
 """Points of the roller's way that the places are compared with."""
 
 
-def driver_room(m: Mechanism) -> tuple[float, float]:
-    """Least and greatest radius of the ring that locking disc and crank both cover, mm."""
-    return reach(driver_opening(m.params)), m.axes - m.rim - m.params.lock_clearance
-
-
 def driver_dowels(m: Mechanism) -> list[Point]:
-    """Two places on the ring of :func:`driver_room`, between the rollers; none without dowels."""
+    """Two places on the ring that disc and crank both cover, between the rollers; none without dowels."""
     if m.params.fixing == 0:
         return []
-    inner, outer = driver_room(m)
-    radius, k = (inner + outer) / 2, m.params.rollers
+    radius, k = (m.driver_opening + m.driver_radius) / 2, m.params.rollers
     first = math.pi / 2 if k == 1 else math.pi / k
     second = first + (math.pi if k % 2 == 0 or k == 1 else math.tau / k)
     return [_polar(radius, first), _polar(radius, second)]
@@ -40,7 +33,7 @@ def hub_dowels(m: Mechanism) -> list[Point]:
     params = m.params
     if params.fixing == 0 or params.hub_diameter == 0:
         return []
-    radius = (reach(wheel_opening(params)) + params.hub_diameter / 2) / 2
+    radius = (m.opening + params.hub_diameter / 2) / 2
     half = m.wheel_half if m.slots % 2 else 0.0
     # Across the keyway, so that they are as far from it as can be.
     return [_polar(radius, math.pi / 2 + half), _polar(radius, -math.pi / 2 + half)]
@@ -49,9 +42,7 @@ def hub_dowels(m: Mechanism) -> list[Point]:
 def web_place(m: Mechanism) -> tuple[Point, float]:
     """The place on +x, between two slots, with most room, and the radius of that room, mm."""
     x = np.linspace(0, m.axes - m.arc, _PLACES)
-    room = np.minimum(
-        _from_way(m, x, 0.0), np.minimum(m.axes - m.arc - x, x - reach(wheel_opening(m.params)))
-    )
+    room = np.minimum(_from_way(m, x, 0.0), np.minimum(m.axes - m.arc - x, x - m.opening))
     best = int(np.argmax(room))
     return (float(x[best]), 0.0), float(room[best])
 

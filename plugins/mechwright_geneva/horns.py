@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array
+from mechwright.contracts.design_table import rows_of
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import Frame
 
@@ -149,16 +150,10 @@ def greatest_discs(frame: Frame, law: Law, least: Array, most: Array, clearance:
     if not rows.size:
         return found
     disc, room = most[rows], np.broadcast_to(clearance, (most.size, 1))[rows]
-    row, low, high = cut_discs(frame.rows(rows), law, room)
+    row, low, high = cut_discs(rows_of(frame, rows, most.size), law, room)
     while (met := (disc[row] > low) & (disc[row] < high)).any():
         below = np.full(rows.size, math.inf)
         np.minimum.at(below, row[met], low[met])
         disc = np.where(np.isfinite(below), np.floor(100 * below - ROUNDING) / 100, disc)
     found[rows] = np.where(disc < least[rows], most[rows], disc)
     return found
-
-
-def greatest_disc(frame: Frame, law: Law, least: float, most: float, clearance: float) -> float:
-    """As :func:`greatest_discs` of one design."""
-    one = Frame.of([frame.wheel_half], [frame.crank_half], [frame.offset], [frame.entry_radius])
-    return float(greatest_discs(one, law, np.array([least]), np.array([most]), clearance)[0])

@@ -31,13 +31,13 @@ axis of symmetry then lies at -θw0. With W = θw0 + θoff:
 Every array has the design axis first and the sample axis last.
 """
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array
+from mechwright.contracts.design_table import Rowwise
 from mechwright.mechanics.envelope import LEFT, RIGHT, Points, left_normal, regularity, touched, way_curvature
 from mechwright.mechanics.laws import Law
 
@@ -45,7 +45,7 @@ __all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "regime", "stroke"]
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(Rowwise):
     """The fixed geometry of one design, or of many as columns (m, 1); angles in rad, lengths in mm."""
 
     wheel_half: Array
@@ -59,12 +59,14 @@ class Frame:
     ) -> "Frame":
         """Scalars stay scalars, arrays (m,) become columns (m, 1)."""
         values = (np.asarray(v, dtype=float) for v in (wheel_half, crank_half, offset, entry_radius))
-        return cls(*(v[:, None] if v.ndim else v for v in values))
+        return cls(*(v[:, None] if v.ndim == 1 else v for v in values))
 
-    def rows(self, chosen: "slice | NDArray[Any]") -> "Frame":
-        """Some of many designs."""
-        values = (getattr(self, field.name) for field in fields(self))
-        return Frame(*(value[chosen] if value.ndim else value for value in values))
+    def columns(self, size: int) -> "Frame":
+        """The same with columns (size, 1) of all but θw0."""
+        values = (
+            np.broadcast_to(one, (size, 1)) for one in (self.crank_half, self.offset, self.entry_radius)
+        )
+        return Frame(self.wheel_half, *values)
 
     @property
     def entry_angle(self) -> Array:

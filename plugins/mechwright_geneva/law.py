@@ -6,17 +6,21 @@ from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.straight import StraightSlot
 
 
-@kept
 def law_of(params: GenevaParams) -> Law:
     """The law; a table or polynomial has been found free of faults before."""
-    match params.law:
+    return _law(params.law, params.slots, params.polynomial or (), params.table or ())
+
+
+@kept
+def _law(name: str, slots: int, polynomial: tuple[float, ...], table: tuple[tuple[float, float], ...]) -> Law:
+    match name:
         case "straight":
-            return StraightSlot(params.slots)
+            return StraightSlot(slots)
         case "polynomial":
-            return Polynomial(params.polynomial or ())
+            return Polynomial(polynomial)
         case "table":
             from mechwright.mechanics.laws.table import Table
 
-            return Table(params.table or ())
+            return Table(table)
         case named:
             return LAWS[named]()

@@ -23,6 +23,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from mechwright import Array
+from mechwright.contracts.design_table import Rowwise, rows_of
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import Frame, Points, Stroke, regime, stroke
 
@@ -45,8 +46,8 @@ _BLOCK = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Measures:
-    """Figures of m designs, (m,) each; mm unless it says otherwise.
+class Measures(Rowwise):
+    """Figures of m designs, (m, 1) each; mm unless it says otherwise.
 
     Parameters
     ----------
@@ -95,36 +96,56 @@ def measure(frame: Frame, law: Law, radius: Array, samples: int = SWEEP_SAMPLES)
     u = samples_of(law, samples)
     blocks = []
     for start in range(0, count, _BLOCK):
-        rows = slice(start, start + _BLOCK)
-        blocks.append(_measure(frame.rows(rows), law, radius[rows], u))
+        rows = np.arange(start, min(start + _BLOCK, count))
+        blocks.append(_measure(rows_of(frame, rows, count), law, radius[rows], u))
     return Measures(*(np.concatenate([getattr(b, f.name) for b in blocks]) for f in fields(Measures)))
 
 
-def sharpened(found: Measures, frame: Frame, law: Law) -> Measures:
-    """The same with critical radii to rounding."""
-    side = found.side[:, None]
-    return replace(
-        found,
-        island_limit=_critical(frame, law, side, found.island_limit),
-        hub_limit=_critical(frame, law, -side, found.hub_limit),
-    )
+LEAST_TIP = 0.5
+"""Least radius of the island's tip, mm: a sharper one chips, and cannot be measured."""
+
+NEXT = 0.01
+"""Share of a critical radius by which its samples are surely nearer to it: they are within 1e-9."""
 
 
-def bends(frame: Frame, law: Law, side: Array) -> Array:
-    """Curvature (m, k), 1/mm, of the way to one side, (m, 1), where the sharpest bend is sought first."""
-    values: Array = side * stroke(frame, law, samples_of(law, _COARSE)).curvature
-    return values
+def sharpened(found: Measures, frame: Frame, law: Law, radius: Array, *, always: bool) -> Measures:
+    """The same with critical radii to rounding, always or where one is next to what it is compared with.
+
+    Parameters
+    ----------
+    found
+        Of designs whose slots have this half width, (m, 1).
+    frame, law
+        Theirs.
+    """
+    island, hub = found.island_limit, found.hub_limit
+    close = (np.abs(island - radius) < NEXT * island) | (np.abs(island - radius - LEAST_TIP) < NEXT * island)
+    rows = np.flatnonzero(close | (np.abs(hub - radius) < NEXT * hub) | always)
+    if not rows.size:
+        return found
+    part, side = rows_of(frame, rows, radius.size), found.side[rows]
+    limits = island.copy(), hub.copy()
+    for limit, sign in zip(limits, (1, -1), strict=True):
+        limit[rows, 0] = _critical(part, law, sign * side, limit[rows, 0])
+    return replace(found, island_limit=limits[0], hub_limit=limits[1])
+
+
+def sharpest_bend(frame: Frame, law: Law) -> Array:
+    """Greatest curvature (m, 1), 1/mm, of the way to either side, among some samples."""
+    values = stroke(frame, law, samples_of(law, _COARSE)).curvature
+    sharpest: Array = np.abs(values).max(axis=-1, keepdims=True)
+    return sharpest
 
 
 def _critical(frame: Frame, law: Law, side: Array, sampled: Array) -> Array:
     """The critical radii (m,) on one side, from ever finer samples about the sharpest bend."""
     limits = np.full(sampled.shape, np.inf)
     asked = np.isfinite(sampled)
-    part, side = frame.rows(asked), side[asked]
+    part, side = rows_of(frame, np.flatnonzero(asked), asked.size), side[asked]
     row = np.arange(side.size)
     # A law that is not its own mirror image is looked at over the whole stroke.
     start = samples_of(law, _COARSE)
-    u, bend = np.broadcast_to(start, (side.size, start.size)), bends(part, law, side)
+    u, bend = np.broadcast_to(start, (side.size, start.size)), side * stroke(part, law, start).curvature
     best = np.zeros(side.size)
     for zoom in range(_ZOOMS + 1):
         top = np.argmax(bend, axis=-1)
@@ -159,7 +180,8 @@ def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
     mouth = -side * frame.entry_radius * np.sin(frame.offset)
     mouth = mouth - radius * np.sin(frame.wheel_half + frame.crank_half)
     mouth, wide = (np.broadcast_to(values, side.shape)[:, 0] for values in (mouth, 2 * radius))
-    return Measures(side[:, 0], mouth, island, hub, neck, width, web - wide, nearest)
+    found = (side[:, 0], mouth, island, hub, neck, width, web - wide, nearest)
+    return Measures(*(one[:, None] for one in found))
 
 
 def _limit(kappa: Array) -> Array:

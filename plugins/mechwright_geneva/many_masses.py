@@ -6,7 +6,7 @@ radian of the crank.
 """
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
@@ -16,13 +16,13 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from mechwright import Array, material
+from mechwright.contracts.figure import PartMass
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.mass import KILOGRAMS
-from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.mechanics.linkage.areas import circle_area, hull_area
 from mechwright_geneva.kinematics import Points
-from mechwright_geneva.many import Mechanisms
-from mechwright_geneva.openings import opening_area, reaches
+from mechwright_geneva.mechanism import BLOCK, Mechanism
+from mechwright_geneva.openings import opening_area
 from mechwright_geneva.relief import Half
 
 NODES = 24
@@ -35,42 +35,27 @@ a sample's distance, and areas feel the square of what is left."""
 _CUTS = (0.25, 0.5, 0.75)
 
 
-def masses_of(m: Mechanisms, columns: Collection[str]) -> dict[str, Array]:
-    """Of columns that are masses, those (m,) of allowed designs, kg; those of parts that there are."""
-    asked = [name for name in columns if is_mass(name)]
-    if not asked:
-        return {}
+def masses_of(m: Mechanism) -> dict[str, PartMass] | None:
+    """Of the parts that there are, for designs whose slots are not backed by a plate with islands."""
+    if m.given.slots_made == "backed" or np.any(np.asarray(m.params.counterbore_diameter) > 0):
+        return None
     weights = Weights(m)
-    found = {}
-    for name in asked:
-        if name == TOTAL:
-            value = sum(copies * make() for make, copies in weights.parts.values())
-        elif (part := name.removeprefix(OF_PART)) in weights.parts:
-            value = weights.parts[part][0]()
-        else:
-            continue
-        found[name] = np.array(np.broadcast_to(np.ravel(value), len(m)))
-    return found
+    found = {"wheel": PartMass(1, weights.wheel)}
+    if np.any(np.asarray(m.params.hub_diameter) > 0):
+        found["hub"] = PartMass(1, weights.hub)
+    return found | {
+        "locking-disc": PartMass(1, weights.disc),
+        "crank": PartMass(1, weights.crank),
+        "roller": PartMass(m.params.rollers, weights.roller),
+    }
 
 
 class Weights:
     """Masses (m, 1) of the parts of designs that are alike but for sizes, kg."""
 
-    def __init__(self, m: Mechanisms) -> None:
+    def __init__(self, m: Mechanism) -> None:
         self.m = m
         self.density = KILOGRAMS * material(m.params.material).density
-
-    @property
-    def parts(self) -> dict[str, tuple[Callable[[], Any], int]]:
-        """Part to how it is weighed, and how many there are."""
-        found: dict[str, tuple[Callable[[], Any], int]] = {"wheel": (self.wheel, 1)}
-        if np.any(np.asarray(self.m.params.hub_diameter) > 0):
-            found["hub"] = self.hub, 1
-        return found | {
-            "locking-disc": (self.disc, 1),
-            "crank": (self.crank, 1),
-            "roller": (self.roller, self.m.params.rollers),
-        }
 
     @cached_property
     def _opening(self) -> Any:
@@ -126,22 +111,19 @@ class Weights:
         for side in (-1, 1):
             rows = np.flatnonzero(sides[:, 0] == side)
             if rows.size:
-                found[rows] = self.m.rows(rows).each(partial(_between_walls, side=side))
+                found[rows] = self.m.rows(rows).each(partial(_between_walls, side=side), BLOCK)
         return found
 
     def disc(self) -> Any:
         """The locking disc."""
         params = self.m.params
-        area = self.m.each(_disc_area) - self._driver_opening - self._dowels
+        area = self.m.each(_disc_area, BLOCK) - self._driver_opening - self._dowels
         return self.density * area * (params.thickness + params.axial_gap)
 
     def crank(self) -> Any:
         """With a boss about each roller's pin."""
         m, params = self.m, self.m.params
-        inner, outer = (
-            reaches(np.asarray(params.driver_bore), params.driver_keyway_width, params.keyway_relief),
-            m.axes - m.rim - params.lock_clearance,
-        )
+        inner, outer = m.driver_opening, m.driver_radius
         fixing = np.asarray(params.fixing)
         bare = inner + 2 * params.least_wall
         joined = np.maximum(bare, (inner + outer) / 2 + fixing / 2 + params.least_wall)
@@ -186,13 +168,13 @@ def _slopes() -> Array:
 _SLOPES = _slopes()
 
 
-def _pieces(m: Mechanisms, first: Any, last: Any) -> list[tuple[Any, Any]]:
+def _pieces(m: Mechanism, first: Any, last: Any) -> list[tuple[Any, Any]]:
     """Ends (m, 1) of the smooth pieces from one share of the stroke up to another; empty ones between."""
     cuts = sorted({0.0, *_CUTS, *m.law.breaks, 1.0})
     return [(np.clip(a, first, last), np.clip(b, first, last)) for a, b in pairwise(cuts)]
 
 
-def _along(m: Mechanisms, curve: Callable[[Array], Points], first: Any, last: Any) -> Any:
+def _along(m: Mechanism, curve: Callable[[Array], Points], first: Any, last: Any) -> Any:
     """Half the integral (m, 1) of Im(z̄ dz) along a curve from one share (m, 1) up to another one."""
     found: Any = 0.0
     for a, b in _pieces(m, first, last):
@@ -203,11 +185,11 @@ def _along(m: Mechanisms, curve: Callable[[Array], Points], first: Any, last: An
     return found
 
 
-def _between_walls(m: Mechanisms, side: int) -> Array:
+def _between_walls(m: Mechanism, side: int) -> Array:
     return _enclosed(m, -side) - _enclosed(m, side)
 
 
-def _enclosed(m: Mechanisms, side: int) -> Array:
+def _enclosed(m: Mechanism, side: int) -> Array:
     """Area (m, 1) between a wall of a curved slot and the rim."""
     radius = m.crank + side * m.groove
     cosine = (m.axes**2 + radius**2 - m.rim**2) / (2 * m.axes * radius)
@@ -233,7 +215,7 @@ def _enclosed(m: Mechanisms, side: int) -> Array:
     return np.asarray(np.abs(found + m.rim**2 / 2 * np.angle(one * np.conj(two))))
 
 
-def _mouth(m: Mechanisms, side: int, end: int, inside: NDArray[np.bool_]) -> Array:
+def _mouth(m: Mechanism, side: int, end: int, inside: NDArray[np.bool_]) -> Array:
     """The share (m, 1) at which a wall begins or ends at the rim; of one inside of it there, that end."""
     found = np.full((len(m), 1), float(end))
     rows = np.flatnonzero(~inside[:, 0])
@@ -258,7 +240,7 @@ def _mouth(m: Mechanisms, side: int, end: int, inside: NDArray[np.bool_]) -> Arr
     return found
 
 
-def _disc_area(m: Mechanisms) -> Array:
+def _disc_area(m: Mechanism) -> Array:
     """Area (m, 1) inside of the locking disc's outline."""
     deep = m.axes - m.rim - m.params.lock_clearance
     free = m.pitch - 2 * m.crank_half

@@ -7,15 +7,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Stage, refuse
+from mechwright.contracts.figure import scalars
 from mechwright.contracts.joint import fixed
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.mechanics.planar.channels import rate_channels
 from mechwright_geneva.contact import contact
-from mechwright_geneva.feasible import feasibility
+from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.feasibility_rules import FEASIBLE
 from mechwright_geneva.figures import figures
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.params import GenevaParams
 
 DRIVER, WHEEL = "driver", "wheel"
@@ -37,9 +39,15 @@ def motion_of(params: GenevaParams, samples: Samples) -> Motion:
     DesignError
         Fewer than two samples, or a mechanism that cannot move.
     """
-    refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
-    return driven_by(m, m.driver.at(travelled(m.driver.sense * math.tau, samples, m.driver.start)))
+    refuse(FEASIBLE.findings(m), Stage.MOTION)
+    return driven_by(m, m.driver.at(turn_of(m, samples)))
+
+
+def turn_of(m: Mechanism, samples: Samples) -> Array:
+    """Angles (samples,) of the driver over a turn, rad, from the first entry; (n, samples) of a table."""
+    way, start = m.driver.sense * math.tau, m.driver.start
+    return travelled(way, samples, start) if m.single else travelled(way, samples) + start
 
 
 def driven_by(m: Mechanism, turning: Turning, time: Array | None = None) -> Motion:
@@ -65,7 +73,13 @@ def driven_by(m: Mechanism, turning: Turning, time: Array | None = None) -> Moti
             angle = replace(wheel.turning, theta=theta_w + 2 * m.wheel_half * k)
             poses[island_body(k)] = BodyMotion.about(0j, angle).poses(rates=True)
     return Motion(
-        "theta_d", channels, poses, figures(m), joints=_joints(m), curves=_outline(m), loads=_loads(m)
+        "theta_d",
+        channels,
+        poses,
+        scalars(figures(m)),
+        joints=_joints(m),
+        curves=_outline(m),
+        loads=_loads(m),
     )
 
 
@@ -95,6 +109,9 @@ def channels_of(
     def still(values: Array) -> Array:
         return np.where(moving, values, 0.0)
 
+    # A roller without a length has no pressure.
+    pressure = np.where(np.asarray(m.params.roller_length) > 0, forces.pressure, np.nan)
+
     driven = rate_channels(turning, "_d", "the driver")
     return {
         "time": Channel(time, "s", "time"),
@@ -109,8 +126,8 @@ def channels_of(
         "contact_force": Channel(still(forces.force), "N", "force between roller and slot"),
         "contact_wall": Channel(still(forces.carrier.astype(float)), "", "wall of the slot that carries"),
         **(
-            {"contact_pressure": Channel(still(forces.pressure), "MPa", "pressure between roller and slot")}
-            if np.any(np.asarray(m.params.roller_length) > 0)
+            {"contact_pressure": Channel(still(pressure), "MPa", "pressure between roller and slot")}
+            if not m.single or m.params.roller_length > 0
             else {}
         ),
         "crank_torque": Channel(still(forces.crank_torque), "N*m", "torque of the drive"),

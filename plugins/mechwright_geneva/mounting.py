@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from mechwright import Hub, Mounting, MountingError, Spindle
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.motion import DRIVER, WHEEL, motion_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import driver_keyway_angle, keyway_angle

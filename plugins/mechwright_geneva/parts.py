@@ -29,8 +29,9 @@ from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.counterbore import counterbore
 from mechwright_geneva.crank import crank_loop
-from mechwright_geneva.fixings import driver_dowels, driver_room, hub_dowels, island_places, web_place
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.fixings import driver_dowels, hub_dowels, island_places, web_place
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.motion import DRIVER, WHEEL, island_body, roller_body
 from mechwright_geneva.openings import driver_opening, wheel_opening
 from mechwright_geneva.params import GenevaParams, Sizes
@@ -128,7 +129,7 @@ def _driver(m: Mechanism) -> list[Part]:
     loop, deviation = lock_loop(m)
     top = params.thickness + params.axial_gap
     # A relief leaves the disc's radius so gently that its ends still lock: tabs stand where it is deep.
-    deep = m.lock - _RELIEVED * (m.lock - driver_room(m)[1])
+    deep = m.lock - _RELIEVED * (m.lock - m.driver_radius)
     disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL, within=deep)
     fit = _pin_fit(params)
     pins = [

@@ -13,12 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array
-from mechwright_geneva.horns import clear
-from mechwright_geneva.kinematics import Frame
-from mechwright_geneva.law import law_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import ROLLERS, largest, up_to
-from mechwright_geneva.sound import LEAST_BITE, Walls, sound
+from mechwright_geneva.slot_search import allowed, locks, trial
 from mechwright_geneva.usual import (
     ANGLES,
     FAIR_SHAFT,
@@ -31,6 +28,12 @@ from mechwright_geneva.usual import (
     roller_of,
     wall_of,
 )
+
+DECIDES = (
+    *("crank_half_angle", "offset_angle", "entry_radius", "centre_distance", "roller_radius", "least_wall"),
+    *("groove_clearance", "lock_clearance", "bore", "hub_diameter", "driver_bore", "fixing"),
+)
+"""Keys of numbers on which the choice depends, besides law, slots and rollers."""
 
 HALVES = np.arange(15.0, 105.1, 2.5)
 OFFSETS = np.arange(-36.0, 30.1, 1.5)
@@ -56,42 +59,6 @@ MOST_WHEEL = 1000.0
 
 
 @dataclass(frozen=True, slots=True)
-class Slot:
-    """Angles in degrees, lengths in mm."""
-
-    slots: int
-    crank_half_angle: float
-    offset_angle: float
-    entry_radius: float
-    roller_radius: float
-
-    def sizes(self) -> dict[str, float]:
-        """What of it are keys of the design table."""
-        return {
-            "crank_half_angle": self.crank_half_angle,
-            "offset_angle": self.offset_angle,
-            "entry_radius": self.entry_radius,
-            "roller_radius": self.roller_radius,
-            "centre_distance": self.axes,
-        }
-
-    @property
-    def _frame(self) -> Frame:
-        half, offset = math.radians(self.crank_half_angle), math.radians(self.offset_angle)
-        return Frame.of(math.pi / self.slots, half, offset, self.entry_radius)
-
-    @property
-    def axes(self) -> float:
-        """Distance of the axes a."""
-        return float(self._frame.axes)
-
-    @property
-    def bottom(self) -> float:
-        """Distance of the slot's bottom from the wheel's axis, a - b."""
-        return float(self._frame.bottom)
-
-
-@dataclass(frozen=True, slots=True)
 class _Tried:
     """Angles in degrees and wheels, (m,) each."""
 
@@ -112,37 +79,35 @@ class _Tried:
         a, b = (grid.ravel() for grid in np.meshgrid(half, offset, indexing="ij"))
         if bound and params.crank_half_angle is None:
             a = _half_between(params, b)
-        return cls(a, b, wheels(params, a, b))
+        return cls(a, b, np.broadcast_to(wheels(params, a, b), a.shape))
 
     def roller(self, params: GenevaParams, radius: float) -> int | None:
         """The place of the one that is sound with this roller and nearest to the first; None if none is."""
         wheel = _about(params)
-        wall = SPARE * (params.least_wall or wall_of(wheel))
-        bore = params.bore if params.bore is not None else 0.05 * wheel
-        hub = max(bore, params.hub_diameter) / 2
-        driver = least_room(wheel)
-        if params.driver_bore is not None:
-            driver = params.driver_bore / 2 + wall
-        if params.fixing:
-            driver += params.fixing + wall
-        walls = Walls(wall, hub, driver, params.lock_clearance, params.rollers)
-        groove = SPARE * radius + params.groove_clearance / 2
-        half, offset = np.radians(self.half), np.radians(self.offset)
-        reach = math.pi / params.slots + offset + half / 2
-        able = (self.half >= 5) & (self.half <= 120) & (reach < math.radians(89))
-        able &= self.wheel <= GROWN * wheel
-        if able.any():
-            rows = np.flatnonzero(able)
-            able[rows] = sound(
-                law_of(params),
-                math.pi / params.slots,
-                half[rows],
-                offset[rows],
-                self.wheel[rows],
-                np.full(rows.shape, groove),
-                walls,
+        wall = SPARE * (wall_of(wheel) if params.least_wall is None else params.least_wall)
+        driver = params.driver_bore
+        if driver is None:
+            driver = 2 * (least_room(wheel) - wall)
+        reach = 180 / params.slots + self.offset + self.half / 2
+        able = (self.half >= 5) & (self.half <= 120) & (reach < 89) & (self.wheel <= GROWN * wheel)
+        rows = np.flatnonzero(able)
+        if rows.size:
+            tried = trial(
+                params,
+                rows.size,
                 SAMPLES,
+                crank_half_angle=self.half[rows],
+                offset_angle=self.offset[rows],
+                entry_radius=self.wheel[rows],
+                roller_radius=SPARE * radius,
+                least_wall=wall,
+                bore=0.05 * wheel if params.bore is None else params.bore,
+                keyway_width=0.0,
+                driver_bore=driver + (2 * (params.fixing + wall) if params.fixing else 0.0),
+                driver_keyway_width=0.0,
+                fixing=0.0,
             )
+            able[rows] = allowed(tried)
         if not able.any():
             return None
         away = np.hypot(self.half - self.half[0], self.offset - self.offset[0])
@@ -151,36 +116,39 @@ class _Tried:
 
     def _locks(self, params: GenevaParams, row: int) -> bool:
         """Whether the horns leave the ends of a small locking disc."""
-        half, offset = math.radians(self.half[row]), math.radians(self.offset[row])
-        frame = Frame.of(math.pi / params.slots, half, offset, self.wheel[row])
-        least = float(frame.axes - frame.entry_radius) + LEAST_BITE - params.lock_clearance
-        return bool(clear(frame, law_of(params), np.array([SPARE * least]), params.lock_clearance).all())
+        angles = {"crank_half_angle": self.half, "offset_angle": self.offset, "entry_radius": self.wheel}
+        one = trial(params, 1, SAMPLES, **{name: values[row : row + 1] for name, values in angles.items()})
+        return locks(one, SPARE * one.least_lock)
 
 
-def slot_of(params: GenevaParams) -> Slot:
-    """Angles, wheel and roller of a design whose law has no fault."""
+def slot_of(params: GenevaParams) -> dict[str, float]:
+    """Angles, degrees, wheel and roller, mm, of a design whose law has no fault, by their keys."""
     usual = (90 - 180 / params.slots, 0.0) if params.law == "straight" else ANGLES[params.slots]
     half, offset = np.array(usual[:1]), np.array(usual[1:])
     first = _Tried.of(params, half, offset)
     if params.law == "straight":
-        return _slot(params, first, 0, _radii(params, float(first.wheel[0]))[0])
+        return _slot(first, 0, _radii(params, float(first.wheel[0]))[0])
     ways = (first, _Tried.of(params, np.append(half, HALVES), np.append(offset, OFFSETS)))
     for least in least_rollers_of(_about(params)):
         for tried in ways:
             for radius in _radii(params, _about(params), least):
                 found = tried.roller(params, radius)
                 if found is not None:
-                    return _slot(params, tried, found, radius)
+                    return _slot(tried, found, radius)
     if params.entry_radius is None and params.centre_distance is None and params.roller_radius is not None:
         wheel = min(MOST_WHEEL, math.ceil(2 * params.roller_radius / ROLLER / STEP) * STEP)
         if wheel > WHEEL:
             return slot_of(params.model_copy(update={"entry_radius": wheel}))
-    return _slot(params, first, 0, _radii(params, float(first.wheel[0]))[0])
+    return _slot(first, 0, _radii(params, float(first.wheel[0]))[0])
 
 
-def _slot(params: GenevaParams, tried: _Tried, row: int, radius: float) -> Slot:
-    wheel = float(tried.wheel[row])
-    return Slot(params.slots, float(tried.half[row]), float(tried.offset[row]), wheel, radius)
+def _slot(tried: _Tried, row: int, radius: float) -> dict[str, float]:
+    return {
+        "crank_half_angle": float(tried.half[row]),
+        "offset_angle": float(tried.offset[row]),
+        "entry_radius": float(tried.wheel[row]),
+        "roller_radius": radius,
+    }
 
 
 def _about(params: GenevaParams) -> float:
@@ -198,9 +166,9 @@ def _radii(params: GenevaParams, wheel: float, least: float = 0.0) -> list[float
 
 
 def wheels(params: GenevaParams, half: Array, offset: Array) -> Array:
-    """Radius of the wheel with each pair of angles."""
+    """Radius of the wheel with each pair of angles; one for all where it is given."""
     if params.entry_radius is not None:
-        return np.broadcast_to(np.asarray(params.entry_radius, dtype=float), half.shape)
+        return np.asarray(params.entry_radius, dtype=float)
     entry = math.pi / params.slots + np.radians(offset)
     share = np.cos(entry) + np.sin(entry) / np.tan(np.radians(half))  # a/l
     if params.centre_distance is not None:

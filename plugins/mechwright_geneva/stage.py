@@ -6,8 +6,8 @@ from fractions import Fraction
 import numpy as np
 
 from mechwright import Array, DesignError, Index, Motion, Port, Stage, Transmission, Turning, refuse
-from mechwright_geneva.feasible import feasibility
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.feasibility_rules import FEASIBLE
 from mechwright_geneva.motion import DRIVER, WHEEL, at_angle, driven_by
 from mechwright_geneva.params import GenevaParams
 
@@ -23,8 +23,8 @@ class WheelStage(Transmission):
     load_field = "load_torque"
 
     def __init__(self, params: GenevaParams) -> None:
-        refuse(feasibility(params), Stage.MOTION)
         self.m = m = mechanism_of(params)
+        refuse(FEASIBLE.findings(m), Stage.MOTION)
         self.input = Port(DRIVER, (m.axes, 0.0), -1)
         self.output = Port(WHEEL, (0.0, 0.0))
         self.advance = Fraction(params.rollers, params.slots)

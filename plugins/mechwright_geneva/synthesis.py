@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.figures import peaks_of
 from mechwright_geneva.kinematics import Frame, stroke
-from mechwright_geneva.mechanism import mechanism_of
-from mechwright_geneva.openings import driver_radius
+from mechwright_geneva.limits import SWEEP_SAMPLES
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
+from mechwright_geneva.rule_table import RULES
 from mechwright_geneva.series import PINS, ROLLERS, largest
-from mechwright_geneva.sound import Walls, sound
+from mechwright_geneva.slot_search import allowed, trial
 from mechwright_geneva.usual import PIN, WHEEL, dowel_of
 
 HALVES, OFFSETS = 22, 44
@@ -67,7 +67,7 @@ class _Tried:
     radius: Array
     pressure: Array
     acceleration: Array
-    sound: NDArray[np.bool_]
+    valid: NDArray[np.bool_]
 
     def take(self, rows: NDArray[np.intp]) -> "_Tried":
         return _Tried(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
@@ -154,19 +154,23 @@ def _sweep(
     able = (180 / wanted.slots + offset + half / 2 < 89) & (180 / wanted.slots + offset > 1)
     half, offset, radius = half[able], offset[able], radius[able]
     rim = _wheels(wanted, Frame.of(wheel, np.radians(half), np.radians(offset), 1.0), radius)
-    usual = GenevaParams()
-    driver = driver_radius(wanted.driver_bore / 2, wanted.least_wall, dowel)
-    walls = Walls(wanted.least_wall, wanted.bore / 2, driver, usual.lock_clearance, 1)
-    groove = radius + usual.groove_clearance / 2
+    defaults = GenevaParams(law=law, slots=wanted.slots)
     of = LAWS[law]()
-    sound_ones = (rim >= 5) & (radius <= GREATEST_SHARE * rim) & (radius >= LEAST_SHARE * rim)
-    if sound_ones.any():
-        rows = np.flatnonzero(sound_ones)
-        turned = (np.radians(half[rows]), np.radians(offset[rows]), rim[rows], groove[rows])
-        sound_ones[rows] = sound(of, wheel, *turned, walls)
+    valid = (rim >= 5) & (radius <= GREATEST_SHARE * rim) & (radius >= LEAST_SHARE * rim)
+    rows = np.flatnonzero(valid)
+    if rows.size:
+        given = {name: getattr(wanted, name) for name in ("least_wall", "bore", "driver_bore")}
+        columns = {
+            "crank_half_angle": half,
+            "offset_angle": offset,
+            "entry_radius": rim,
+            "roller_radius": radius,
+        }
+        columns = {name: values[rows] for name, values in columns.items()}
+        valid[rows] = allowed(trial(defaults, rows.size, SWEEP_SAMPLES, **columns, **given, fixing=dowel))
     pressure, acceleration = np.full(half.shape, np.inf), np.full(half.shape, np.inf)
-    if sound_ones.any():
-        rows = np.flatnonzero(sound_ones)
+    rows = np.flatnonzero(valid)
+    if rows.size:
         frame = Frame.of(wheel, np.radians(half[rows]), np.radians(offset[rows]), rim[rows])
         run = stroke(frame, of, np.linspace(0, 1, _STROKE))
         omega = wanted.speed * math.tau / 60
@@ -175,17 +179,17 @@ def _sweep(
             wanted.load_inertia,
             wanted.load_torque,
             radius[rows, None],
-            max(wanted.thickness - wanted.floor - usual.axial_gap, 0.1),
+            max(wanted.thickness - wanted.floor - defaults.axial_gap, 0.1),
             stiffness(wanted.material, wanted.roller_material),
         )
         pressure[rows] = curved(run, drive).pressure.max(axis=-1)
         crank = np.radians(half[rows])
         acceleration[rows] = of.peaks.a * wheel / (2 * crank**2) * omega**2
-    return _Tried(half, offset, rim, radius, pressure, acceleration, sound_ones)
+    return _Tried(half, offset, rim, radius, pressure, acceleration, valid)
 
 
 def _good(wanted: IndexingRequirement, tried: _Tried, limit: float) -> _Tried:
-    able = tried.sound & (tried.pressure <= limit)
+    able = tried.valid & (tried.pressure <= limit)
     if wanted.acceleration_limit is not None:
         able &= tried.acceleration <= wanted.acceleration_limit
     return tried.take(np.flatnonzero(able))
@@ -198,7 +202,9 @@ def _checked(
     passed: list[Candidate[GenevaParams]] = []
     for row in range(min(tried.half.size, _LOOKED_AT)):
         params = _params(wanted, law, tried, row)
-        if any(_alike(params, other.params) for other in passed) or rejected.by(findings(params)):
+        if any(_alike(params, other.params) for other in passed) or rejected.by(
+            RULES.findings(mechanism_of(params), quick=True)
+        ):
             continue
         m = mechanism_of(params)
         load, omega = loads(m), params.speed * math.tau / 60
@@ -263,7 +269,7 @@ def _too_fast(wanted: IndexingRequirement, longest: float) -> Finding:
 def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Finding:
     """Which limit stands in the way, and the nearest value that could be met."""
     total = sum(tried.half.size for tried in near)
-    able = [tried.take(np.flatnonzero(tried.sound)) for tried in near]
+    able = [tried.take(np.flatnonzero(tried.valid)) for tried in near]
     count = sum(tried.half.size for tried in able)
     if count == 0:
         size, value = _size(wanted)

@@ -16,8 +16,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mechwright import Array, Contributor, GeometryError, Output, ToleranceModel, Tolerances
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.kinematics import Points, Stroke
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.tube import Tube, bend, levers, normals, way
 from mechwright_geneva.wheel import Wheel

@@ -1,8 +1,10 @@
 """Proportions of a Geneva mechanism whose design leaves them open; lengths in mm."""
 
+from typing import Any
+
 import numpy as np
 
-from mechwright import Array
+from mechwright.contracts.design_table import number
 
 ANGLES = {
     3: (35.0, 5.0),
@@ -63,15 +65,10 @@ _FINE, _DEEP = 2.0, 3.5
 """Diameter of pins below which drills are hard to get; how deep end mills cut their holes, in diameters."""
 
 
-def walls_of(entry_radius: Array) -> Array:
-    """Thinnest walls (...): 2 mm, on wheels below 70 mm radius a 35th of it, in tenths; not below 0.2 mm."""
+def wall_of(entry_radius: Any) -> Any:
+    """Thinnest walls: 2 mm, on wheels below 70 mm radius a 35th of it, in tenths; not below 0.2 mm."""
     share = np.floor(10 * np.minimum(_WALL, _WALL_SHARE * entry_radius) + 1e-9) / 10
-    return np.asarray(np.maximum(0.2, share))
-
-
-def wall_of(entry_radius: float) -> float:
-    """Of one wheel."""
-    return float(walls_of(np.asarray(entry_radius)))
+    return number(np.maximum(0.2, share))
 
 
 def roller_of(entry_radius: float) -> float:
@@ -86,47 +83,28 @@ def least_rollers_of(entry_radius: float) -> tuple[float, ...]:
     return (worth, least) if worth > least else (least,)
 
 
-def dowels_of(entry_radius: Array) -> Array:
-    """Largest dowels (...): 0.06 l, 2 to 4 mm."""
-    return np.asarray(np.clip(_DOWEL_SHARE * entry_radius, *_DOWELS))
+def dowel_of(entry_radius: Any) -> Any:
+    """Largest dowels: 0.06 l, 2 to 4 mm."""
+    return number(np.clip(_DOWEL_SHARE * entry_radius, *_DOWELS))
 
 
-def dowel_of(entry_radius: float) -> float:
-    """Of one wheel."""
-    return float(dowels_of(np.asarray(entry_radius)))
+def crank_of(pin: Any) -> Any:
+    """Thicknesses of crank plates for pins, which are mostly drilled."""
+    return number(np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK))
 
 
-def cranks_of(pin: Array) -> Array:
-    """Thicknesses (...) of crank plates for pins, which are mostly drilled."""
-    return np.asarray(np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK))
-
-
-def crank_of(pin: float) -> float:
-    """Of one."""
-    return float(cranks_of(np.asarray(pin)))
-
-
-def floors_of(thickness: Array) -> Array:
-    """Floors (...): 3 mm, of thinner wheels three tenths, in tenths of a millimetre; not below 0.2 mm."""
+def floor_of(thickness: Any) -> Any:
+    """Floors: 3 mm, of thinner wheels three tenths, in tenths of a millimetre; not below 0.2 mm."""
     share = np.floor(10 * np.minimum(FLOOR, FLOOR_SHARE * thickness) + 1e-9) / 10
-    return np.asarray(np.maximum(0.2, share))
+    return number(np.maximum(0.2, share))
 
 
-def floor_of(thickness: float) -> float:
-    """Of one wheel."""
-    return float(floors_of(np.asarray(thickness)))
-
-
-def loads_of(entry_radius: Array) -> Array:
-    """Moments of inertia (...), kg m²: of smaller wheels as that of a disc, with l to the fourth."""
-    return np.asarray(LOAD * np.minimum(1.0, entry_radius / WHEEL) ** 4)
-
-
-def load_of(entry_radius: float) -> float:
-    """Of one wheel."""
-    return float(loads_of(np.asarray(entry_radius)))
+def load_of(entry_radius: Any) -> Any:
+    """Moments of inertia, kg m²: of smaller wheels as that of a disc, with l to the fourth."""
+    return number(LOAD * np.minimum(1.0, entry_radius / WHEEL) ** 4)
 
 
 def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:
     """Radius about the driver's axis that a shaft of this share of l and a wall take."""
-    return shaft * entry_radius / 2 + wall_of(entry_radius)
+    room: float = shaft * entry_radius / 2 + wall_of(entry_radius)
+    return room

@@ -6,13 +6,14 @@ load alone, the driver leads or lags it by D with D'' = T_w/J, and meets the oth
 the clearance. Each change is taken by itself, as if the roller had lain on the wall until then.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
 
-from mechwright import Array, kept
+from mechwright import Array
 from mechwright_geneva.contact import contact, drive_of
 from mechwright_geneva.kinematics import LEFT, RIGHT
 from mechwright_geneva.mechanism import Mechanism
@@ -63,11 +64,15 @@ def torque(m: Mechanism, u: Array, stroke: int) -> Array:
     return drive.accelerating(run) + drive.pushing(run)
 
 
-@kept
 def switches(m: Mechanism) -> tuple[Switch, ...]:
     """The changes of a turn in the order in which the driver comes to them; of a stroke if all are alike."""
-    strokes = m.strokes if m.driver.varies else m.strokes[:1]
-    return tuple(_switch(m, float(u), stroke) for stroke in strokes for u in _shares(m, stroke))
+    return m.once("switches", lambda: tuple(_switches(m)))
+
+
+def _switches(m: Mechanism) -> Iterator[Switch]:
+    for stroke in m.different_strokes:
+        for u in _shares(m, stroke):
+            yield _switch(m, float(u), stroke)
 
 
 def _shares(m: Mechanism, stroke: int) -> list[float]:

@@ -1,21 +1,19 @@
 """Every finding appears where it must, with its limit, and its remedy cures it."""
 
-import math
 import re
 
 import numpy as np
 import pytest
 from by_night import examples
 
+from mechwright import Stage
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.cures import walls_of
+from mechwright_geneva.dimensions import sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.kinematics import Frame
-from mechwright_geneva.limits import measure
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.limits import SWEEP_SAMPLES
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.sound import measured, possible, sound
+from mechwright_geneva.slot_search import LIMITS, allowed, trial
 
 GENEVA = Geneva()
 REFERENCE = {
@@ -306,41 +304,35 @@ class TestSweepAgainstCheck:
         offset = (rng.uniform(1, 15, count) * np.where(rng.random(count) < 0.5, 1, -1)).round(2)
         return half, offset, rng.uniform(1, 8, count).round(2)
 
-    def test_both_decide_alike(self):
-        half, offset, radius = self.designs(examples(150, 400))
-        law = LAWS["cycloidal"]()
-        start = GenevaParams(**REFERENCE | {"pin_diameter": 1})
-        good = sound(
-            law,
-            math.pi / 4,
-            np.radians(half),
-            np.radians(offset),
-            100.0,
-            radius + 0.025,
-            walls_of(mechanism_of(start)),
+    def table(self, count):
+        names = ("crank_half_angle", "offset_angle", "roller_radius")
+        return trial(
+            sized(GenevaParams(**REFERENCE | {"pin_diameter": 1})),
+            count,
+            SWEEP_SAMPLES,
+            **dict(zip(names, self.designs(count), strict=True)),
         )
+
+    def test_both_decide_alike(self):
+        table = self.table(examples(150, 400))
+        good = allowed(table)
         assert 0.1 < good.mean() < 0.9
         differ = []
-        for k in range(half.size):
-            table = {"crank_half_angle": half[k], "offset_angle": offset[k], "roller_radius": radius[k]}
-            single = not errors(check(pin_diameter=1, load_inertia=0, **table))
-            if single != good[k]:
-                differ.append(table)
+        for k in range(table.size):
+            one = table.row(k).params
+            sizes = {
+                name: getattr(one, name) for name in ("crank_half_angle", "offset_angle", "roller_radius")
+            }
+            if good[k] == bool(errors(check(pin_diameter=1, load_inertia=0, **sizes))):
+                differ.append(sizes)
         # A design within a sample's error of some limit may fall either way.
         assert len(differ) <= 2, differ
 
-    def test_every_condition_decides_some_design(self):
-        half, offset, radius = self.designs(4000)
-        frame = Frame.of(math.pi / 4, np.radians(half), np.radians(offset), 100.0)
-        law = LAWS["cycloidal"]()
-        walls = walls_of(mechanism_of(GenevaParams(rollers=2, law="straight", slots=6)))
+    def test_every_rule_decides_some_design(self):
+        """Each of them forbids designs that all others allow, or that none else does."""
+        table = self.table(4000)
         with np.errstate(all="ignore"):
-            wide = radius[:, None]
-            held = possible(frame, wide, walls)
-            held |= measured(frame, wide, measure(frame, law, wide), walls)
-        alone = dict.fromkeys(held, 0)
-        for name in held:
-            others = np.logical_and.reduce([held[other] for other in held if other != name])
-            alone[name] = int((others & ~held[name]).sum())
-        assert {name for name in held if held[name].all()} <= {"angles", "rollers", "lock"}
-        assert sum(count > 0 for count in alone.values()) >= 4, alone
+            rules = list(LIMITS.of(table))
+            wrong = np.array([rule.forbids(table, Stage.PARTS) for rule in rules])
+        alone = [int((wrong[k] & (wrong.sum(axis=0) == 1)).sum()) for k in range(len(rules))]
+        assert sum(count > 0 for count in alone) >= 4, alone

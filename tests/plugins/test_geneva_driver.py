@@ -11,11 +11,12 @@ from pydantic import ValidationError
 from mechwright.mechanics.planar import Turning
 from mechwright.testing.compare import assert_derivative
 from mechwright_geneva.contact import contact, loads
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.driver import driver_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.figures import rate_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.walls import switches, torque
 
@@ -142,8 +143,7 @@ class SteadyRatio:
 @pytest.mark.parametrize("name", [name for name in FACTS if name.startswith("contact.switch")])
 def test_walls_change_in_the_middle_and_where_the_torque_is_0(name):
     fact = FACTS[name]
-    kept = worked()
-    m = Mechanism(kept.params, kept.law, kept.frame)
+    m = Mechanism(worked().params)
     m.__dict__["driver"] = SteadyRatio(fact["inputs"]["k"])
     found = [math.degrees(one.theta) for one in switches(m)]
     assert found == pytest.approx(sorted([50.0, fact["expected"]]), abs=1e-7)

@@ -14,7 +14,7 @@ from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright.testing.commands import run
 from mechwright.tolerances import TOLERANCES
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.params import GenevaParams
 
 ROOT = Path(__file__).parents[2]

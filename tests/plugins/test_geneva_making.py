@@ -27,8 +27,7 @@ from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.table import settings_of
-from mechwright_geneva.fixings import driver_room
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 
@@ -130,7 +129,7 @@ def test_a_relief_of_any_depth_takes_tabs_from_a_tenth_of_its_depth_on(slots):
     (disc,) = [part for part in parts_of(m.params) if part.name == "locking-disc"]
     away = [math.hypot(*place) for place, _ in disc.features[-1].tab_sites]
     assert away, "without places of its own any place would do, also one on the arc that locks"
-    assert max(away) <= m.lock - 0.1 * (m.lock - driver_room(m)[1])
+    assert max(away) <= m.lock - 0.1 * (m.lock - m.driver_radius)
 
 
 def cutters(part, *tools):

@@ -10,17 +10,17 @@ import geneva_undercut as undercut
 import numpy as np
 import pytest
 import shapely
+from geneva_slots import valid_slots
 
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.contact import contact, loads
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.figures import straight_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
-from mechwright_geneva.mechanism import measure_at, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.slot import Slot
-from mechwright_geneva.sound import Walls, sound
 from mechwright_geneva.straight import StraightSlot
 from mechwright_geneva.wheel import Wheel
 
@@ -45,7 +45,6 @@ BARE = {
 """The facts know no clearance of the groove."""
 REFERENCE = GenevaParams(**BARE, crank_half_angle=50, offset_angle=5, lock_radius=70, thickness=13.5)
 FIGURE_6 = Frame.of(math.pi / 4, math.radians(60), 0.0, 100.0)
-NOTHING = Walls(0.0, 0.0, -1e3, 0.0, 1)
 
 
 def proto(slots, half, offset=12.0):
@@ -62,7 +61,7 @@ def limit(frame, law, radius):
     """Smaller of both critical radii."""
     one = Frame(*(np.array([[float(v)]]) for v in (frame.wheel_half, frame.crank_half, frame.offset, 100.0)))
     found = measure(one, law, np.array([[radius]]), FINE_SAMPLES)
-    return min(float(found.island_limit[0]), float(found.hub_limit[0]))
+    return min(found.island_limit.item(), found.hub_limit.item())
 
 
 def law_facts(name):
@@ -153,27 +152,27 @@ REF = {
     "peak_velocity_ratio": lambda m: m.law.peaks.v * 0.9,
     "peak_accel_ratio": lambda m: m.law.peaks.a * (math.pi / 2) / math.radians(100) ** 2,
     "peak_jerk_ratio": lambda m: m.law.peaks.j * (math.pi / 2) / math.radians(100) ** 3,
-    "Mcrit_inner": lambda m: float(m.measures.island_limit[0]) / m.crank,
-    "Mcrit_outer": lambda m: float(m.measures.hub_limit[0]) / m.crank,
-    "r_undercut_limit_mm": lambda m: float(m.measures.island_limit[0]),
+    "Mcrit_inner": lambda m: m.measures.island_limit.item() / m.crank,
+    "Mcrit_outer": lambda m: m.measures.hub_limit.item() / m.crank,
+    "r_undercut_limit_mm": lambda m: m.measures.island_limit.item(),
     "Fmin_inner": lambda m: undercut.singularity(m.stroke(np.linspace(0, 1, 2001)), 5, RIGHT).min(),
     "Fmin_outer": lambda m: undercut.singularity(m.stroke(np.linspace(0, 1, 2001)), 5, LEFT).min(),
     "F_at_0_inner": lambda m: undercut.singularity(m.stroke(np.array(0.0)), 5, RIGHT),
     "F_at_0_outer": lambda m: undercut.singularity(m.stroke(np.array(0.0)), 5, LEFT),
     "F_at_mid_inner": lambda m: undercut.singularity(m.stroke(np.array(0.5)), 5, RIGHT),
     "F_at_mid_outer": lambda m: undercut.singularity(m.stroke(np.array(0.5)), 5, LEFT),
-    "loop": lambda m: bool(m.measures.width[0] <= 0),
-    "loop_at_r_6.42": lambda m: bool(measure_at(m, 6.42).width[0] <= 0),
+    "loop": lambda m: bool(m.measures.width.item() <= 0),
+    "loop_at_r_6.42": lambda m: bool(m.measured(6.42).width.item() <= 0),
     "island_neck_half_width_mm": lambda m: (
         -float((m.stroke(np.linspace(0, 0.4, 4001)).wall(5, RIGHT) * np.exp(1j * m.wheel_half)).imag.max())
     ),
-    "island_half_width_at_mouth_mm": lambda m: float(m.measures.mouth[0]),
+    "island_half_width_at_mouth_mm": lambda m: m.measures.mouth.item(),
     "theta_off_min_no_undercut_deg": lambda m: least_offset_without_undercut(),
     "theta_off_min_mouth_rule_deg": lambda m: math.degrees(math.asin(0.05 * math.sin(math.radians(95)))),
-    "min_concave_wall_radius_mm": lambda m: float(m.measures.island_limit[0]) + 5,
-    "min_convex_island_radius_mm": lambda m: float(m.measures.island_limit[0]) - 5,
+    "min_concave_wall_radius_mm": lambda m: m.measures.island_limit.item() + 5,
+    "min_convex_island_radius_mm": lambda m: m.measures.island_limit.item() - 5,
     "max_end_mill_diameter_mm": lambda m: 2 * m.groove,
-    "web_between_slots_mm": lambda m: float(m.measures.web[0]),
+    "web_between_slots_mm": lambda m: m.measures.web.item(),
     "min_slot_distance_from_O1_mm": lambda m: m.nearest,
     "horn_web_mm": lambda m: m.nearest - m.groove - m.arc,
     "lock_arc_rim_polar_deg": lambda m: math.degrees(Wheel(m).horn_angle),
@@ -267,22 +266,13 @@ def prototype_facts(name):
     return {
         "a": lambda: m.axes,
         "b": lambda: m.crank,
-        "web": lambda: float(m.measures.web[0]),
-        "loop": lambda: bool(m.measures.width[0] <= 0),
-        "r_undercut": lambda: float(m.measures.island_limit[0]),
-        "r_crit": lambda: float(m.measures.island_limit[0]),
-        "clean": lambda: bool(
-            sound(
-                m.law,
-                m.wheel_half,
-                np.array([m.crank_half]),
-                float(m.frame.offset),
-                70.0,
-                5.0,
-                NOTHING,
-                FINE_SAMPLES,
-            )[0]
-        ),
+        "web": lambda: m.measures.web.item(),
+        "loop": lambda: bool(m.measures.width.item() <= 0),
+        "r_undercut": lambda: m.measures.island_limit.item(),
+        "r_crit": lambda: m.measures.island_limit.item(),
+        "clean": lambda: valid_slots(
+            "cycloidal", m.slots, math.degrees(m.crank_half), math.degrees(m.frame.offset), 70.0, 5.0
+        ).item(),
         "inertia_on_branch_alpha_plus_pi": lambda: bool((contact(m, m.stroke(u)).wall == RIGHT).all()),
     }[what]()
 
@@ -294,7 +284,7 @@ def least_offset_figure_6(fact):
         middle = (low + high) / 2
         frame = Frame(*(np.array([[v]]) for v in (math.pi / 4, math.radians(60), middle, 100.0)))
         found = measure(frame, law, np.array([[4.0]]), FINE_SAMPLES)
-        good = found.mouth[0] > 0 and found.width[0] > 0 and found.island_limit[0] > 4
+        good = found.mouth > 0 and found.width > 0 and found.island_limit > 4
         low, high = (low, middle) if good else (middle, high)
     return math.degrees(high)
 

@@ -12,13 +12,12 @@ from hypothesis import strategies as st
 from mechwright import GeometryError, Severity, Stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
+from mechwright_geneva.dimensions import LEFT_OPEN, mechanism_of, sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.horns import clear, greatest_disc
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.horns import clear, greatest_discs
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.series import PINS, ROLLERS
-from mechwright_geneva.sizes import LEFT_OPEN, sized
 from mechwright_geneva.usual import ANGLES
 
 GENEVA = Geneva()
@@ -212,7 +211,6 @@ def test_the_horns_cut_a_large_locking_disc(slots, law, angles):
             drawn.append(False)
     assert not (said & ~np.array(drawn)).any()
     assert np.count_nonzero(said != np.array(drawn)) <= 1 + math.ceil(0.01 * most / (discs[1] - discs[0]))
-    assert greatest_disc(m.frame, m.law, m.least_lock, most, m.params.lock_clearance) == m.greatest_lock
     assert errors(check(**table)) == [] or not said.any()
 
 
@@ -241,7 +239,8 @@ def test_the_greatest_locking_disc_is_the_greatest(slots, angles, radius, cleara
     """Discs that a horn cuts lie between others that it misses, so halving ends at any of the borders."""
     table = {"slots": slots, "crank_half_angle": angles[0], "offset_angle": angles[1]}
     m = mechanism_of(GenevaParams(**table, entry_radius=radius, lock_clearance=clearance))
-    found = greatest_disc(m.frame, m.law, m.least_lock, most, clearance)
+    ends = np.array([m.least_lock]), np.array([most])
+    found = greatest_discs(m.frame.columns(1), m.law, *ends, np.asarray(clearance)).item()
     assert abs(found - bisected) > 0.1
     assert not horns_cut(m, found, 320_001)
     above = np.concatenate([found * np.linspace(1.0005, 1.005, 30), np.linspace(1.005 * found, most, 60)])

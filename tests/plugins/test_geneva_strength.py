@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity
 from mechwright_geneva.contact import loads
+from mechwright_geneva.dimensions import mechanism_of, sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.mechanism import mechanism_of
-from mechwright_geneva.sizes import sized
-from mechwright_geneva.stud_checks import arm, key_stresses, stud_slopes, stud_stresses
+from mechwright_geneva.strength_rules import arm, key_stresses, stud_slopes, stud_stresses
 
 FACTS = {
     fact["name"]: fact["expected"]
@@ -34,11 +33,11 @@ def test_the_stud_is_that_of_the_reference():
     sizes = sizes_of(thickness=17.0, axial_gap=0.5, pin_diameter=8.0, construction="through")
     assert arm(sizes) == 9.0
     scale = loads(mechanism_of(sizes)).force / 180
-    bending, shear, pressure = stud_stresses(sizes)
+    bending, shear, pressure = stud_stresses(mechanism_of(sizes))
     assert bending.value == pytest.approx(scale * FACTS["stud.bending"], rel=1e-9)
     assert shear.value == pytest.approx(scale * FACTS["stud.shear"], rel=1e-9)
     assert pressure.value == pytest.approx(scale * 180 * (6 * 9 + 4 * 8) / (8 * 64))
-    (slope,) = stud_slopes(sizes)
+    (slope,) = stud_slopes(mechanism_of(sizes))
     # The slope under the load is 3/(2 l) of the deflection.
     assert slope.value == pytest.approx(scale * FACTS["stud.deflection"] * 1.5 / 9 * 1000, rel=1e-9)
     assert (bending.limit, shear.limit) == (120.0, 60.0)
@@ -62,7 +61,7 @@ def test_twice_the_inertia_is_twice_the_stress(inertia, law):
     def at(times):
         sizes = sizes_of(law=law, load_inertia=times * inertia, keyway_width=4.0, bore=12.0, slots=6)
         groups = (stud_stresses, stud_slopes, key_stresses)
-        return [stress.value for group in groups for stress in group(sizes)]
+        return [stress.value for group in groups for stress in group(mechanism_of(sizes))]
 
     one, two = at(1), at(2)
     assert len(one) == 6
@@ -78,13 +77,13 @@ def test_keys_of_wheel_and_driver_carry_their_torques():
         driver_bore=12.0,
         driver_keyway_width=4.0,
     )
-    found = {one.what: one for one in key_stresses(sizes)}
+    found = {one.what: one for one in key_stresses(mechanism_of(sizes))}
     # 12 mm, a key of 4 x 4 that stands 1.5 mm out of the shaft, as long as the wheel is thick.
     wheel = found["the wheel's key presses on its hub with"]
     assert wheel.value == pytest.approx(FACTS["key.pressure_hub"] * 2 / 5 * 10 / min(10.0, 1.3 * 12))
     assert wheel.limit == 60.0
     assert "the driver's key is sheared with" in found
-    assert key_stresses(sizes_of()) == []
+    assert key_stresses(mechanism_of(sizes_of())) == []
 
 
 @pytest.mark.parametrize(

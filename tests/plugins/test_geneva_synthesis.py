@@ -4,8 +4,8 @@ import pytest
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
-from mechwright_geneva.checks import findings
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.family import Geneva
 from mechwright_geneva.requirement import IndexingRequirement
 from mechwright_geneva.series import PINS, ROLLERS
 from mechwright_geneva.synthesis import from_indexing
@@ -25,7 +25,7 @@ def test_designs_have_the_size_and_standard_rollers(slots, size):
     assert result.candidates
     for candidate in result.candidates:
         params, m = candidate.params, mechanism_of(candidate.params)
-        assert errors(findings(params)) == []
+        assert errors(Geneva().check(params)) == []
         assert 2 * params.roller_radius in ROLLERS
         assert params.pin_diameter in PINS
         if "wheel_diameter" in size:

@@ -16,8 +16,8 @@ from scipy.optimize import newton
 from mechwright.contracts.finding import Stage, errors
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.mechanics.laws import LAWS
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.wheel import Wheel

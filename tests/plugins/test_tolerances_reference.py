@@ -16,8 +16,8 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
+from mechwright_geneva.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.tube import Tube
 from mechwright_slider_crank.family import SliderCrankFamily

@@ -19,7 +19,7 @@ leaves out are taken from the motion of each design that is allowed.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,11 +28,8 @@ from mechwright.arrays import Array
 from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.refusals import refusals
-from mechwright.contracts.singly import singly
+from mechwright.contracts.singly import Asked, singly
 from mechwright.contracts.slices import Chunk, Skipped, Slices
-
-if TYPE_CHECKING:
-    from mechwright.contracts.family import Family
 
 CHUNK = 4096
 """Designs that are answered at once: some dozens of arrays of them stay in the cache."""
@@ -141,7 +138,7 @@ class Answer:
 
 
 def by_arrays(
-    family: "Family[Any]",
+    family: Asked,
     batch: Batch[Any],
     columns: Collection[str],
     stage: Stage,

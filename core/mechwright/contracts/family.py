@@ -12,11 +12,14 @@ if TYPE_CHECKING:
     import shapely
 
     from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.figure import Figure, PartMass
     from mechwright.contracts.made_part import MadePart
-    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.motion import Channel, Motion
     from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
     from mechwright.contracts.part import Part
+    from mechwright.contracts.rule_list import Rules
     from mechwright.contracts.synthesis import Progress, Synthesis
     from mechwright.contracts.target import Target
     from mechwright.contracts.tolerance_settings import Tolerances
@@ -42,6 +45,7 @@ class Family(Plugin, Generic[P]):
     limited = True
     steady = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
+    derived = frozenset({"check", "judge", "evaluate"})
     piecewise = frozenset({"stretches"})
 
     title: ClassVar[str]
@@ -56,6 +60,14 @@ class Family(Plugin, Generic[P]):
     """Whether there is a motion; families of what stands still derive from ``Standing``."""
     batch: ClassVar[int] = 256
     """Designs of a study that are evaluated together: half a minute's work of one core, or 10^5 and more."""
+    structure: ClassVar[frozenset[str]] = frozenset()
+    """Dotted keys of numbers in which designs of one table are alike; texts and whole numbers always are."""
+    counts: ClassVar[frozenset[str]] = frozenset()
+    """Dotted keys of whole numbers in which they may differ."""
+    block: ClassVar[int] = 4096
+    """Designs of a table that are evaluated at once."""
+    sampled: ClassVar[int] = 64
+    """Designs of it whose channels are evaluated at once."""
 
     @classmethod
     def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
@@ -68,27 +80,21 @@ class Family(Plugin, Generic[P]):
     def named(cls) -> Mapping[str, Any]:
         """What its methods give, which a listing of families does not load."""
         from mechwright.contracts.as_made import AsMade
+        from mechwright.contracts.design_table import DesignTable
         from mechwright.contracts.evaluation import Columns
-        from mechwright.contracts.motion import Motion
+        from mechwright.contracts.figure import Figure, PartMass
+        from mechwright.contracts.motion import Channel, Motion
         from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
         from mechwright.contracts.part import Part
+        from mechwright.contracts.rule_list import Rules
         from mechwright.contracts.synthesis import Synthesis
         from mechwright.contracts.target import Target
         from mechwright.contracts.tolerances import ToleranceModel
         from mechwright.contracts.transmission import Transmission
 
         found = (
-            AsMade,
-            Columns,
-            Motion,
-            Flange,
-            GroundPlate,
-            Mounting,
-            Part,
-            Synthesis,
-            Target,
-            ToleranceModel,
-            Transmission,
+            *(AsMade, Channel, Columns, DesignTable, Figure, Flange, GroundPlate, Motion, Mounting, Part),
+            *(PartMass, Rules, Synthesis, Target, ToleranceModel, Transmission),
         )
         return {one.__name__: one for one in found}
 
@@ -100,19 +106,41 @@ class Family(Plugin, Generic[P]):
             return ""
         return "Params is no subclass of mechwright.Parameters"
 
-    @abstractmethod
+    def rules(self) -> "Rules[Any]":
+        """What an engineer objects to, in order: see :mod:`mechwright.contracts.design_rule`."""
+        from mechwright.contracts.rule_list import in_turn
+
+        return in_turn()
+
+    def table(self, params: P, size: int | None = None) -> "DesignTable[P]":
+        """What rules and figures are asked of: one design, or ``size`` designs whose numbers are columns.
+
+        A family overrides it where dimensions that are left open are completed, or where formulas share what
+        takes long.
+        """
+        from mechwright.contracts.design_table import DesignTable
+
+        return DesignTable(params, size)
+
+    def remedy(self, params: P, finding: Finding) -> Finding:  # noqa: ARG002 - used by families that search
+        """A finding of its rules with the remedy that is found by looking at the whole design."""
+        return finding
+
     def check(self, params: P) -> Sequence[Finding]:
-        """Everything that an engineer would object to, and the figures worth knowing."""
+        """Everything that an engineer would object to, and the figures worth knowing: from its rules."""
+        from mechwright.contracts.checking import findings_of
+
+        return findings_of(self, params, quick=False)
 
     def judge(self, params: P) -> Sequence[Finding]:
         """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
 
-        What it finds has codes and severities of ``check``, and its messages where figures are not taken from
-        a coarser look. Remedies that take long to find may be missing,
-        and notes, and errors whose search takes far longer than that of the others: ``check`` is asked
-        about every remedy before it is told.
+        What it finds has codes, severities and messages of ``check``. Notes and remedies that take long to
+        find may be missing; ``check`` is asked about every remedy before it is told.
         """
-        return self.check(params)
+        from mechwright.contracts.checking import findings_of
+
+        return findings_of(self, params, quick=True) if self.rules().every else self.check(params)
 
     @abstractmethod
     def solve(self, params: P, samples: int) -> "Motion":
@@ -302,6 +330,18 @@ class Family(Plugin, Generic[P]):
         """
         raise NotImplementedError(f"family {self.name} has no synthesis of kind {kind!r}")
 
+    def figures(self, table: "DesignTable[P]") -> "Mapping[str, Figure]":  # noqa: ARG002 - of most families
+        """The figures of designs by their names, for a study; those of one design are the motion's."""
+        return {}
+
+    def channels(self, table: "DesignTable[P]", samples: int) -> "Mapping[str, Channel]":  # noqa: ARG002
+        """The channels (n, samples) of the motions of designs, whose extremes are columns of a study."""
+        return {}
+
+    def masses(self, table: "DesignTable[P]") -> "Mapping[str, PartMass] | None":  # noqa: ARG002
+        """The masses of the parts of designs by their names; None: those of ``parts``, design by design."""
+        return None
+
     def measures(self, params: P) -> Mapping[str, str]:
         """The columns that a study around this design can have, name to unit; angles are in degrees.
 
@@ -338,14 +378,11 @@ class Family(Plugin, Generic[P]):
         -------
         columns
             The same numbers as ``solve`` and ``parts`` give for each of them, and the code of the first error
-            that ``judge`` finds. The default asks these three, one design after the other. A study cuts the
-            default, and ``by_arrays``, into slices that workers share; any other ``evaluate`` is one slice.
+            of its rules.
         """
-        import numpy as np
+        from mechwright.contracts.table_evaluation import evaluated
 
-        from mechwright.contracts.singly import singly
-
-        return singly(self, batch, columns, stage, np.arange(len(batch)))
+        return evaluated(self, batch, columns, stage)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":  # noqa: ARG002 - some do
         """The places that a requirement asks for, which ``mechwright live`` lets one drag.

@@ -61,6 +61,7 @@ class Called(Protocol):
     steady: ClassVar[bool]
     unlimited: ClassVar[frozenset[str]]
     piecewise: ClassVar[frozenset[str]]
+    derived: ClassVar[frozenset[str]]
     registered_by: str
 
     @classmethod
@@ -84,7 +85,8 @@ def guard(cls: "type[Called]", contract: type["Called"]) -> None:
     """
     for name in methods_of(contract):
         home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
-        if home in contract.__mro__ or getattr(getattr(own, "fget", own), _MARK, False):
+        inherited = home in contract.__mro__ and name not in contract.derived
+        if inherited or getattr(getattr(own, "fget", own), _MARK, False):
             continue
         if not isinstance(vars(contract)[name], property):
             setattr(cls, name, _wrapped(own, name, contract))

@@ -49,6 +49,8 @@ class Plugin(ABC):
     """Methods whose calls have none all the same."""
     piecewise: ClassVar[frozenset[str]] = frozenset()
     """Methods that give one thing after the other; what others give so is gathered by the guard."""
+    derived: ClassVar[frozenset[str]] = frozenset()
+    """Methods of the contract itself that call what a class gives in pieces: they are guarded as its own."""
     registered_by: str = ""
     """What registered it, in words, where the host did: ``"plugin geneva of mechwright"``."""
 

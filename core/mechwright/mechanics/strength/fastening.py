@@ -5,6 +5,8 @@ Sources: DIN 6892 method C (keys), Roloff/Matek (pins, studs), Lamé's fit with 
 
 import math
 
+import numpy as np
+
 from mechwright.errors import GeometryError
 
 _N_MM = 1000.0
@@ -110,6 +112,8 @@ def circlip_load(groove: float, ring: float | None) -> float:
 
 
 def _above(value: float) -> float:
-    if not value > 0:
-        raise GeometryError(f"a key that bears on {value:g} mm carries nothing")
+    """A length, or lengths (...), mm, that bear."""
+    least = float(np.min(value))
+    if not least > 0:
+        raise GeometryError(f"a key that bears on {least:g} mm carries nothing")
     return value

@@ -7,16 +7,20 @@ yields or breaks at an error. What a remedy names has been tried.
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, Generic, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.contracts.design_table import DesignTable, column
+from mechwright.contracts.finding import Change, Finding, Severity, Stage, at_stage
 from mechwright.contracts.parameters import Parameters
 from mechwright.errors import MechwrightError
 from mechwright.tolerances import exceeds
 
 P = TypeVar("P", bound=Parameters)
+D = TypeVar("D", bound=DesignTable[Any])
 
 STUD_SHARE, SHEAR_SHARE = 0.4, 0.2
 """Share of the endurance limit of a polished bar that pins, studs and shafts bear in bending and in shear: a
@@ -153,6 +157,65 @@ def judged(
         f"make {', or '.join(words)}" if words else "take a stronger material, larger parts or less load",
         proposed=tuple(changes),
     )
+
+
+@dataclass(frozen=True)
+class StressRule(Generic[D]):
+    """The worst of a group of stresses, as a rule of a family (:mod:`mechwright.contracts.design_rule`).
+
+    Parameters
+    ----------
+    code
+        Of the finding.
+    stresses
+        The stresses of a design; of a table their values, and what depends on the design, are columns.
+    ways
+        What helps, the best first.
+    again
+        The same mechanism with other parameters.
+    load
+        What loads the parts.
+    stage
+        Of the finding.
+    """
+
+    code: str
+    stresses: Callable[[D], Sequence[Stress]]
+    ways: Callable[[D], Sequence[Way]]
+    again: Callable[[Any], D]
+    load: Callable[[D], str] | None = None
+    stage: Stage = Stage.PARTS
+
+    @property
+    def codes(self) -> Sequence[str]:
+        """Its code."""
+        return (self.code,)
+
+    def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_] | None:
+        """Give the designs (n,) in which a stress breaks a part; None if the stage is an earlier one."""
+        if list(Stage).index(self.stage) > list(Stage).index(stage):
+            return None
+        wrong = np.zeros(table.size, bool)
+        for one in self.stresses(table):
+            if one.breaks is not None:
+                fails = exceeds(one.value, one.limit) & np.asarray(exceeds(one.value, one.breaks))
+                wrong |= column(fails, table.size)[:, 0] > 0
+        return wrong
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
+        """Give the finding of one design, with sizes that bear the load if it is not ``quick``."""
+        own = m.params
+        found = judged(
+            self.code,
+            own,
+            lambda params: self.stresses(m if params is own else self.again(params)),
+            self.ways(m),
+            "" if self.load is None else self.load(m),
+            advise=not quick,
+        )
+        yield from at_stage(
+            self.stage, (one for one in found if not (quick and one.severity is Severity.NOTE))
+        )
 
 
 def judged_between(

@@ -1,0 +1,373 @@
+"""Rules of a design: what an engineer objects to, each declared once, over one design or a table of many.
+
+A family lists its rules in the order in which they are asked. From the list come the findings of ``check``,
+the quick judge that remedies ask, what forbids each design of a study, the limits inside of a synthesis, and
+the table of rules in the documentation::
+
+    Rule = DesignRule[YokeTable]
+
+    RULES = in_turn(
+        all_of(
+            Rule(
+                "scotch-yoke.wall",
+                "slot_length",
+                "the slot leaves a wall of {value:.3f} mm; {limit:g} mm are needed",
+                value=lambda t: t.params.yoke_length / 2 - t.params.crank,
+                limit=LEAST_WALL,
+                unit="mm",
+                remedy="make yoke_length at least {m.params.crank:g}",
+            ),
+        ),
+    )
+
+Glossary
+--------
+value, limit
+    Numbers or columns (n, 1) of a table; (n, k) of a rule that is asked of k items of each design, such as
+    pins or pairs.
+bound
+    Two columns between which the value lies, found cheaply: rows that they decide need no value.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.contracts.design_table import DesignTable
+from mechwright.contracts.finding import Change, Finding, Severity, Stage
+from mechwright.tolerances import exceeds, falls_short
+
+D = TypeVar("D", bound=DesignTable[Any])
+E = TypeVar("E", bound=DesignTable[Any], contravariant=True)
+Bools = NDArray[np.bool_]
+
+
+class Comparison(Enum):
+    """How the value of a rule has to compare with its limit."""
+
+    AT_LEAST = "at least"
+    """It reaches the limit, but for rounding."""
+    AT_MOST = "at most"
+    """It does not pass the limit, but for rounding."""
+    ABOVE = "above"
+    """It is greater than the limit."""
+    BELOW = "below"
+    """It is less than the limit."""
+
+    def fails(self, value: Any, limit: Any) -> Any:
+        """Whether values break the rule, element by element."""
+        if self is Comparison.AT_LEAST:
+            return falls_short(value, limit)
+        if self is Comparison.AT_MOST:
+            return exceeds(value, limit)
+        return ~np.asarray(value > limit) if self is Comparison.ABOVE else ~np.asarray(value < limit)
+
+
+@dataclass(frozen=True)
+class Failure(Generic[D]):
+    """One design that breaks a rule; words are made of it.
+
+    Parameters
+    ----------
+    m
+        The design.
+    value, limit
+        Those of the rule.
+    item
+        Which item breaks it, from 0.
+    """
+
+    m: D
+    value: float
+    limit: float
+    item: int = 0
+
+
+Text = str | Callable[[Failure[D]], str]
+"""Words; a text is filled in with the fields of the :class:`Failure`, as ``"{value:.3f} of {m.axes}"``."""
+
+
+class Asked(Protocol[E]):
+    """What a list of rules consists of."""
+
+    @property
+    def codes(self) -> Sequence[str]:
+        """Codes of what it finds."""
+        ...
+
+    def forbids(self, table: E, stage: Stage) -> Bools | None:
+        """Which designs (n,) of a table have an error of a stage or an earlier one; None for none at all."""
+        ...
+
+    def findings(self, m: E, *, quick: bool) -> Iterator[Finding]:
+        """What there is to say of one design; ``quick`` without remedies that take long to find."""
+        ...
+
+
+@dataclass(frozen=True)
+class DesignRule(Generic[D]):
+    """What must hold of a design.
+
+    Parameters
+    ----------
+    code
+        Of the finding.
+    parameter
+        The key of the design file that it is about.
+    message
+        One sentence that says what was found.
+    value, limit
+        What is compared: formulas of the table, or a number.
+    unit
+        Of both.
+    remedy
+        What to do.
+    comparison
+        How the value has to compare with the limit.
+    stage, severity
+        Of the finding.
+    when
+        Which designs are asked, a truth value or a column; elsewhere the value may be no number.
+    reported
+        The value and limit that the finding says, where they are not those that are compared.
+    proposed
+        Changes that should help.
+    bound
+        The least and the greatest that the value can be.
+    each
+        Whether each item that fails is a finding; else the first.
+    slow
+        Whether its value, or its remedy, takes long to find: ``"value"``, ``"remedy"``. The quick judge does
+        not ask for it.
+    """
+
+    code: str
+    parameter: Text[D]
+    message: Text[D]
+    value: Callable[[D], Any]
+    limit: "Callable[[D], Any] | float"
+    unit: str = ""
+    remedy: Text[D] = ""
+    comparison: Comparison = Comparison.AT_LEAST
+    stage: Stage = Stage.PARTS
+    severity: Severity = Severity.ERROR
+    when: Callable[[D], Any] | None = None
+    reported: "Callable[[Failure[D]], tuple[float | None, float | None]] | None" = None
+    proposed: Callable[[Failure[D]], Iterable[Change]] | None = None
+    bound: Callable[[D], tuple[Any, Any]] | None = None
+    each: bool = True
+    slow: str = ""
+
+    def but(self, **changes: Any) -> "DesignRule[D]":
+        """The same rule with other fields: a warning for an error, another stage."""
+        return replace(self, **changes)
+
+    @property
+    def codes(self) -> Sequence[str]:
+        """Its code."""
+        return (self.code,)
+
+    def forbids(self, table: D, stage: Stage) -> Bools | None:
+        """Give the designs (n,) that break it; see :class:`Asked`."""
+        if self.severity is not Severity.ERROR or _is_later(self.stage, stage) or self.slow == "value":
+            return None
+        asked = _truth(True if self.when is None else self.when(table), table.size)
+        if not asked.any():
+            return None
+        if asked.all():
+            return self._fails(table)
+        wrong, places = np.zeros(table.size, bool), np.flatnonzero(asked)
+        wrong[places] = self._fails(table.rows(places))
+        return wrong
+
+    def _fails(self, table: D) -> Bools:
+        """Give the designs (n,) that break it, of those that are asked."""
+        if self.bound is None:
+            return self._compared(table)
+        low, high = self.bound(table)
+        limit = self._limit(table)
+        least, most = (_truth(self.comparison.fails(one, limit), table.size) for one in (low, high))
+        unsure = np.flatnonzero(least != most)
+        wrong = least & most
+        if unsure.size:
+            wrong[unsure] = self._compared(table.rows(unsure))
+        return wrong
+
+    def _compared(self, table: D) -> Bools:
+        value = np.asarray(self.value(table), dtype=float)
+        if np.isnan(value).any():
+            raise RuleError(self.code, value, table)
+        return _truth(self.comparison.fails(value, self._limit(table)), table.size)
+
+    def _limit(self, table: D) -> Any:
+        return self.limit(table) if callable(self.limit) else self.limit
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
+        """Give what breaks it of one design; see :class:`Asked`."""
+        if (self.when is not None and not np.any(self.when(m))) or (quick and self.slow == "value"):
+            return
+        if self.bound is not None:
+            limit = self._limit(m)
+            if not any(np.any(self.comparison.fails(one, limit)) for one in self.bound(m)):
+                return
+        value, limit = self.value(m), self._limit(m)
+        if np.isnan(value).any():
+            raise RuleError(self.code, value, m)
+        wrong = np.asarray(self.comparison.fails(value, limit))
+        if not wrong.any():
+            return
+        values, limits = (np.broadcast_to(one, wrong.shape).ravel() for one in (value, limit))
+        for item in np.flatnonzero(wrong.ravel()).tolist():
+            yield self._finding(Failure(m, values[item].item(), float(limits[item]), item), quick)
+            if not self.each:
+                return
+
+    def _finding(self, failure: Failure[D], quick: bool) -> Finding:
+        value, limit = (failure.value, failure.limit) if self.reported is None else self.reported(failure)
+        advises = not quick or self.slow != "remedy"
+        return Finding(
+            self.code,
+            self.severity,
+            _filled(self.parameter, failure),
+            _filled(self.message, failure),
+            value,
+            limit,
+            self.unit,
+            _filled(self.remedy, failure) if advises else "",
+            self.stage,
+            tuple(self.proposed(failure)) if self.proposed is not None and advises else (),
+        )
+
+
+@dataclass(frozen=True)
+class Procedure(Generic[D]):
+    """What is found of one design by a procedure, where no value and limit say it.
+
+    Parameters
+    ----------
+    codes
+        Of what it finds.
+    inspect
+        What it finds of one design.
+    common
+        Whether it looks at nothing but what the designs of a table have in common.
+    when
+        Which designs are asked.
+    slow
+        Whether it takes long: the quick judge does not ask it.
+    """
+
+    codes: Sequence[str]
+    inspect: Callable[[D], Iterable[Finding]]
+    common: bool = False
+    when: Callable[[D], Any] | None = None
+    slow: bool = False
+
+    def forbids(self, table: D, stage: Stage) -> Bools | None:
+        """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
+        if self.slow or not table.size:
+            return None
+        asked = _truth(True if self.when is None else self.when(table), table.size)
+        if self.common:
+            return asked & self._stops(table.row(0), stage) if asked.any() else None
+        wrong = np.zeros(table.size, bool)
+        for place in np.flatnonzero(asked).tolist():
+            wrong[place] = self._stops(table.row(place), stage)
+        return wrong
+
+    def _stops(self, m: D, stage: Stage) -> bool:
+        return any(
+            one.severity is Severity.ERROR and not _is_later(one.stage, stage) for one in self.inspect(m)
+        )
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
+        """Give what it finds of one design; see :class:`Asked`."""
+        if (self.when is None or np.any(self.when(m))) and not (quick and self.slow):
+            yield from self.inspect(m)
+
+
+@dataclass(frozen=True)
+class Note(Generic[D]):
+    """A figure worth knowing.
+
+    Parameters
+    ----------
+    code, message, unit
+        Of the finding.
+    value
+        A formula of the design.
+    when
+        Whether there is something to say of a design.
+    stage
+        Of the finding.
+    """
+
+    code: str
+    message: "str | Callable[[D], str]"
+    value: Callable[[D], float] | None = None
+    unit: str = ""
+    when: Callable[[D], Any] | None = None
+    stage: Stage = Stage.PARTS
+
+    @property
+    def codes(self) -> Sequence[str]:
+        """Its code."""
+        return (self.code,)
+
+    def forbids(self, table: D, stage: Stage) -> None:
+        """Give None; see :class:`Asked`."""
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
+        """Give the note of one design; see :class:`Asked`."""
+        if quick or (self.when is not None and not np.any(self.when(m))):
+            return
+        value = None if self.value is None else float(self.value(m))
+        said = self.message(m) if callable(self.message) else self.message.format(m=m, value=value)
+        yield Finding(self.code, Severity.NOTE, "", said, value, unit=self.unit, stage=self.stage)
+
+
+def no_figures(failure: Failure[Any]) -> tuple[None, None]:  # noqa: ARG001 - the same of every failure
+    """Give no value and no limit: ``reported`` of a rule that compares nothing that people measure."""
+    return None, None
+
+
+class RuleError(Exception):
+    """A rule whose value is no number.
+
+    Parameters
+    ----------
+    code
+        Of the rule.
+    value
+        Its values (n, k).
+    table
+        The designs.
+    """
+
+    def __init__(self, code: str, value: Any, table: DesignTable[Any]) -> None:
+        bad = np.isnan(np.asarray(value, dtype=float)).reshape(table.size, -1).any(axis=1)
+        self.code, self.places = code, np.flatnonzero(bad)
+        super().__init__(f"rule {code}: its value is no number")
+
+
+def _is_later(stage: Stage, last: Stage) -> bool:
+    order = list(Stage)
+    return order.index(stage) > order.index(last)
+
+
+def _truth(value: Any, size: int) -> Bools:
+    """Give truth values (n,) of what may be one for all, a column, or items (n, k) of which any counts."""
+    array: Bools = np.asarray(value, dtype=bool)
+    return np.broadcast_to(np.any(array, axis=-1) if array.ndim > 1 else array, (size,))
+
+
+def _filled(text: Text[D], failure: Failure[D]) -> str:
+    if callable(text):
+        return text(failure)
+    if "{" not in text:
+        return text
+    return text.format(m=failure.m, value=failure.value, limit=failure.limit, item=failure.item)

@@ -1,0 +1,103 @@
+"""The rules of a family in their order: what they say of one design, and which designs of a table they allow.
+
+Glossary
+--------
+all of
+    Rules that are all asked.
+in turn
+    Rules of which each is asked if none before it found an error.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.contracts.design_rule import Asked
+from mechwright.contracts.design_table import DesignTable
+from mechwright.contracts.finding import Finding, Severity, Stage
+
+D = TypeVar("D", bound=DesignTable[Any])
+
+
+@dataclass(frozen=True)
+class Rules(Generic[D]):
+    """Rules in the order in which they are asked.
+
+    Parameters
+    ----------
+    every
+        Rules, and lists of rules.
+    turns
+        Whether each is asked only if none before it found an error; else all are.
+    when
+        Whether they are asked at all, by what the designs of a table have in common.
+    """
+
+    every: Sequence["Asked[D] | Rules[D]"]
+    turns: bool
+    when: Callable[[D], bool] | None = None
+
+    def of(self, table: D) -> "Iterator[Asked[D]]":
+        """Give the rules that are asked of a table, in order."""
+        if self.when is not None and not self.when(table):
+            return
+        for one in self.every:
+            if isinstance(one, Rules):
+                yield from one.of(table)
+            else:
+                yield one
+
+    def findings(self, m: D, *, quick: bool = False) -> list[Finding]:
+        """Give what there is to say of one design, in order."""
+        found: list[Finding] = []
+        if self.when is not None and not self.when(m):
+            return found
+        for one in self.every:
+            found += one.findings(m, quick=quick)
+            if self.turns and any(finding.severity is Severity.ERROR for finding in found):
+                break
+        return found
+
+    def allowed(
+        self, table: D, stage: Stage, forbid: Callable[[str, NDArray[np.intp]], None]
+    ) -> tuple[D, NDArray[np.intp]]:
+        """Sort out the designs of a table that have an error of a stage or an earlier one.
+
+        Parameters
+        ----------
+        table
+            The designs.
+        stage
+            Up to which errors count.
+        forbid
+            Takes the code of an error, and the places (k,) of the designs that it forbids first.
+
+        Returns
+        -------
+        table, places
+            The designs that nothing forbids, with what has been computed of them, and their places.
+        """
+        places = np.arange(table.size)
+        for rule in self.of(table):
+            wrong = rule.forbids(table, stage)
+            if wrong is None or not wrong.any():
+                continue
+            forbid(rule.codes[0], places[wrong])
+            left = np.flatnonzero(~wrong)
+            places, table = places[left], table.rows(left)
+            if not left.size:
+                break
+        return table, places
+
+
+def all_of(*rules: "Asked[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
+    """Rules that are all asked."""
+    return Rules(rules, turns=False, when=when)
+
+
+def in_turn(*rules: "Asked[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
+    """Rules of which each is asked only if none before it found an error."""
+    return Rules(rules, turns=True, when=when)

@@ -1,0 +1,182 @@
+"""Evaluation of a study by tables: what rules forbid, and figures, extremes and masses of the rest.
+
+Designs of one structure make a table (:mod:`mechwright.contracts.design_table`), which the formulas of the
+family take as they take one design.
+"""
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import partial
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright.contracts.by_arrays import Answer, Designs, by_arrays
+from mechwright.contracts.design_table import DesignTable, column, with_columns
+from mechwright.contracts.evaluation import Batch, Columns, told
+from mechwright.contracts.figure import Figure, PartMass
+from mechwright.contracts.finding import Stage
+from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
+from mechwright.contracts.motion import Channel
+from mechwright.contracts.rule_list import Rules
+from mechwright.contracts.sampling import SAMPLES
+from mechwright.contracts.singly import Asked, singly
+
+ENDS: Mapping[str, Callable[[Array], Array]] = {
+    "least": lambda values: values.min(axis=-1),
+    "greatest": lambda values: values.max(axis=-1),
+}
+"""Extremes of a channel (n, samples)."""
+
+
+class Evaluated(Asked, Protocol):
+    """A family whose designs are evaluated as tables."""
+
+    structure: frozenset[str]
+    counts: frozenset[str]
+    block: int
+    sampled: int
+
+    def rules(self) -> Rules[Any]:
+        """What forbids designs."""
+        ...
+
+    def table(self, params: Any, size: int | None = None) -> DesignTable[Any]:
+        """A table of them."""
+        ...
+
+    def figures(self, table: DesignTable[Any]) -> Mapping[str, Figure]:
+        """Their figures."""
+        ...
+
+    def channels(self, table: DesignTable[Any], samples: int) -> Mapping[str, Channel]:
+        """The channels of their motions."""
+        ...
+
+    def masses(self, table: DesignTable[Any]) -> Mapping[str, PartMass] | None:
+        """The masses of their parts."""
+        ...
+
+
+def evaluated(family: Evaluated, batch: Batch[Any], columns: Collection[str], stage: Stage) -> Columns:
+    """Give what :meth:`Family.evaluate` says: by tables, or design by design if a family lists no rules."""
+    if family.rules().every:
+        return by_arrays(family, batch, columns, stage, partial(answer, family), chunk=family.block)
+    return singly(family, batch, columns, stage, np.arange(len(batch)))
+
+
+def answer(family: Evaluated, designs: Designs, columns: Collection[str], stage: Stage) -> Answer:
+    """Give what forbids designs, and their columns; see :mod:`mechwright.contracts.by_arrays`."""
+    found = Answer(len(designs))
+    for places, params in tables(designs, family.structure, family.counts):
+        _judged(family, family.table(params, places.size), columns, stage, found, places)
+    return found
+
+
+def tables(
+    designs: Designs, structure: Collection[str], counts: Collection[str]
+) -> Iterator[tuple[NDArray[np.intp], Any]]:
+    """Give designs of one structure after the other: their places, and parameters with columns (n, 1).
+
+    Parameters
+    ----------
+    designs
+        Designs that may differ in everything.
+    structure
+        Keys of numbers in which the designs of a table are alike, besides texts, switches and whole numbers.
+    counts
+        Keys of whole numbers in which they may differ.
+    """
+    names = [
+        name
+        for name in designs.varied
+        if name in structure or not (name in counts or isinstance(_of(designs.common, name), float))
+    ]
+    kind = np.zeros(len(designs), np.int64)
+    for name in names:
+        _, which = np.unique(designs.varied[name], return_inverse=True)
+        _, kind = np.unique(kind * (int(which.max()) + 1) + which.reshape(-1), return_inverse=True)
+    for one in range(int(kind.max()) + 1):
+        places = np.flatnonzero(kind == one)
+        values: dict[str, Any] = {name: _same(designs, name, places[0]) for name in names}
+        for name in designs.varied.keys() - values.keys():
+            values[name] = designs.varied[name][places, None].astype(float)
+        yield places, with_columns(designs.common, values)
+
+
+def _same(designs: Designs, name: str, place: int) -> Any:
+    """What designs are alike in; a count may come as a float."""
+    value = designs.varied[name][place].item()
+    return round(value) if isinstance(value, float) and isinstance(_of(designs.common, name), int) else value
+
+
+def _of(params: Any, name: str) -> Any:
+    for step in name.split("."):
+        params = getattr(params, step)
+    return params
+
+
+def _judged(
+    family: Evaluated,
+    table: DesignTable[Any],
+    columns: Collection[str],
+    stage: Stage,
+    found: Answer,
+    places: NDArray[np.intp],
+) -> None:
+    """Take the answer on the designs of one table, which are at ``places``."""
+
+    def forbid(code: str, which: NDArray[np.intp]) -> None:
+        found.forbid(code, np.ones(which.size, bool), places[which])
+
+    table, left = family.rules().allowed(table, stage, forbid)
+    places = places[left]
+    if not places.size:
+        return
+    for name, values in columns_of(family, table, columns, stage).items():
+        found.give(name, values, places)
+
+
+def columns_of(
+    family: Evaluated, table: DesignTable[Any], columns: Collection[str], stage: Stage
+) -> dict[str, Array]:
+    """Give those columns (n,) of allowed designs that are figures, extremes of channels or masses."""
+    figures = family.figures(table)
+    found = {
+        name: told(column(figures[name].value(), table.size)[:, 0], figures[name].unit)
+        for name in columns
+        if name in figures
+    }
+    rest = [name for name in columns if name not in found and not is_mass(name)]
+    if any(name.rpartition(".")[2] in ENDS for name in rest):
+        blocks = [_extremes(family, some, rest) for some in table.blocks(family.sampled)]
+        found |= {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    if stage is not Stage.MOTION and any(map(is_mass, columns)):
+        found |= _masses(family, table, columns)
+    return found
+
+
+def _extremes(family: Evaluated, table: DesignTable[Any], names: Collection[str]) -> dict[str, Array]:
+    channels: Mapping[str, Channel] = family.channels(table, SAMPLES)
+    found = {}
+    for name in names:
+        channel, _, end = name.rpartition(".")
+        if channel in channels and end in ENDS:
+            values = np.broadcast_to(ENDS[end](np.atleast_2d(channels[channel].values)), table.size)
+            found[name] = told(values, channels[channel].unit)
+    return found
+
+
+def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]) -> dict[str, Array]:
+    weights = family.masses(table)
+    if weights is None:
+        return {}
+    found = {
+        name: column(weights[part].value(), table.size)[:, 0]
+        for name in columns
+        if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
+    }
+    if TOTAL in columns:
+        found[TOTAL] = column(sum(one.copies * one.value() for one in weights.values()), table.size)[:, 0]
+    return found
