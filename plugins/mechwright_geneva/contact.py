@@ -16,14 +16,13 @@ of the stroke, and where the torque does. If both do there, nothing changes.
 """
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array, material
-from mechwright.contracts.design_table import number
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.strength.hertz import SHARPEST, YIELD, contact_modulus, line_pressure
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
@@ -40,6 +39,9 @@ _SHORTEST = 1e-3
 
 _SAMPLES = 501
 """Samples of a stroke that find a peak, mid stroke among them."""
+
+PEAKS = ("force", "pressure", "crank_torque")
+"""Quantities of the contact whose peaks are sought."""
 
 _CLOSER, _ZOOMS = 17, 3
 """Samples between the neighbours of the greatest one, and how often they are drawn together: between the
@@ -203,66 +205,60 @@ def strength(wheel: str, roller: str) -> float:
     return YIELD * min(material(wheel).strength, material(roller).strength)
 
 
-class Loads:
-    """The greatest loads of the strokes of a turn: numbers, or columns (n, 1) of a table."""
+@dataclass(frozen=True, slots=True)
+class Loads(Rowwise):
+    """The peaks of the strokes of a turn: numbers, or columns (n, 1) of a table.
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self._m = mechanism
+    Parameters
+    ----------
+    force, force_at
+        Contact force, N, and the crank angle at which it is greatest, rad.
+    island
+        Whether the island carries the greatest force.
+    pressure, pressure_at
+        Hertz pressure, MPa, and its crank angle, rad.
+    crank_torque, wheel_torque
+        Torque that the driver has to be given, and that of the contact on the wheel, N·m.
+    steep
+        Crank angle over which the pressure angle is above 45 degrees, rad.
+    carried
+        Angle of the wheel in the blocked zone, rad.
+    """
 
-    def _part(self, name: str, place: int) -> float:
-        m = self._m
-        found = m.once(("loads", name), lambda: m.each(lambda some: _FOUND[name](some), BLOCK))[:, place]
-        return number(found[0] if m.single else found[:, None])
-
-    @property
-    def force(self) -> float:
-        """Contact force, N."""
-        return self._part("force", 0)
-
-    @property
-    def force_at(self) -> float:
-        """Crank angle of the greatest force, rad."""
-        return self._part("force", 1)
-
-    @property
-    def island(self) -> bool:
-        """Whether the island carries the greatest force."""
-        return self._part("force", 2) > 0
-
-    @property
-    def pressure(self) -> float:
-        """Hertz pressure, MPa."""
-        return self._part("pressure", 0)
-
-    @property
-    def pressure_at(self) -> float:
-        """Crank angle of the greatest pressure, rad."""
-        return self._part("pressure", 1)
-
-    @property
-    def crank_torque(self) -> float:
-        """Torque that the driver has to be given, N·m."""
-        return self._part("crank_torque", 0)
-
-    @property
-    def steep(self) -> float:
-        """Crank angle over which the pressure angle is above 45 degrees, rad."""
-        return self._part("force", 3)
-
-    @property
-    def carried(self) -> float:
-        """Angle of the wheel in the blocked zone, rad."""
-        return self._part("force", 4)
-
-    @property
-    def wheel_torque(self) -> float:
-        """Torque of the contact on the wheel, N·m."""
-        return self._part("force", 5)
+    force: float
+    force_at: float
+    island: bool
+    pressure: float
+    pressure_at: float
+    crank_torque: float
+    wheel_torque: float
+    steep: float
+    carried: float
 
 
 def loads(mechanism: Mechanism) -> Loads:
     """The peaks of the contact over the strokes of a turn, or over one where all are alike."""
-    return Loads(mechanism)
+    return mechanism.once("loads", lambda: _loads(mechanism))
+
+
+def _loads(m: Mechanism) -> Loads:
+    found = m.each(_peaks, BLOCK)
+    force, at, island, *rest = (number(found[0, k] if m.single else found[:, k, None]) for k in range(9))
+    return Loads(force, at, island > 0, *rest)
+
+
+def _peaks(m: Mechanism) -> Array:
+    """(n, 9): the numbers of :class:`Loads`, in their order."""
+    run, found = sampled(m)
+    first, time = found[0][1], np.reshape(2 * m.crank_half, (-1, 1))
+    strokes = np.stack([_peaks_of_stroke(m, one, stroke) for stroke, one in found])
+    best = np.argmax(strokes[..., 0], axis=0)
+    each = np.take_along_axis(strokes, best[None, ..., None], axis=0)[0]  # (3, n, 3)
+    torque = np.max([(one.force * one.lever).max(axis=-1) for _, one in found], axis=0) / 1e3
+    steep = time * np.mean(np.atleast_2d(first.pressure_angle) > math.pi / 4, axis=-1, keepdims=True)
+    columns = [each[0, :, 0], each[0, :, 1], each[0, :, 2], each[1, :, 0], each[1, :, 1], each[2, :, 0]]
+    columns += [np.ravel(torque), np.ravel(steep), np.ravel(carried(run, first))]
+    return np.stack([np.broadcast_to(one, m.size) for one in columns], axis=-1)
 
 
 def sampled(mechanism: Mechanism) -> "tuple[Stroke, list[tuple[int, Contact]]]":
@@ -271,44 +267,33 @@ def sampled(mechanism: Mechanism) -> "tuple[Stroke, list[tuple[int, Contact]]]":
     return run, [(stroke, contact(mechanism, run, stroke)) for stroke in mechanism.different_strokes]
 
 
-Strokes = list[tuple[int, Contact]]
+def _peaks_of_stroke(m: Mechanism, found: Contact, stroke: int) -> Array:
+    """(3, n, 3): greatest force, pressure and crank torque, the crank angle, whether the island carries."""
+    shares, share = [np.linspace(0, 1, _SAMPLES)[None]] * len(PEAKS), np.linspace(0, 1, _CLOSER)
+    values = [np.abs(np.atleast_2d(getattr(found, name))) for name in PEAKS]
+    for _ in range(_ZOOMS):
+        ends = [_neighbours(*one) for one in zip(shares, values, strict=True)]
+        shares = [low + (high - low) * share for low, high in ends]
+        found = contact(m, m.stroke(np.concatenate(shares, axis=-1)), stroke)
+        values = [
+            np.abs(np.atleast_2d(getattr(found, name)))[..., k * _CLOSER : (k + 1) * _CLOSER]
+            for k, name in enumerate(PEAKS)
+        ]
+    walls = np.atleast_2d(found.wall)
+    peaks = []
+    for k, (u, size) in enumerate(zip(shares, values, strict=True)):
+        most = np.argmax(size, axis=-1, keepdims=True)
+        at = 2 * m.crank_half * np.take_along_axis(u, most, axis=-1) + stroke * m.pitch
+        island = (np.take_along_axis(walls, most + k * _CLOSER, axis=-1) == m.side) & (not m.straight)
+        peaks.append(np.concatenate((np.take_along_axis(size, most, axis=-1), at, island), axis=-1))
+    return np.stack(peaks)
 
 
-def _forces(m: Mechanism) -> Array:
-    """(n, 6): force, its crank angle, whether the island carries it, steep, carried, torque of the wheel."""
-    run, found = _own_samples(m)
-    first, time = found[0][1], np.reshape(2 * m.crank_half, (-1, 1))
-    torque = np.max([(one.force * one.lever).max(axis=-1) for _, one in found], axis=0) / 1e3
-    steep = time * np.mean(np.atleast_2d(first.pressure_angle) > math.pi / 4, axis=-1, keepdims=True)
-    columns = [steep, *(np.reshape(one, (-1, 1)) for one in (carried(run, first), torque))]
-    return np.concatenate((_peak(m, found, "force"), *(_tall(one, m) for one in columns)), axis=1)
-
-
-def _own_samples(m: Mechanism) -> tuple[Stroke, Strokes]:
-    """As :func:`sampled`, of one mechanism once."""
-    return m.once("sampled", lambda: sampled(m)) if m.single else sampled(m)
-
-
-def _tall(values: Array, m: Mechanism) -> Array:
-    return np.broadcast_to(values, (m.size, 1))
-
-
-def _peak(m: Mechanism, found: Strokes, name: str) -> Array:
-    """(n, 3): the greatest magnitude of a quantity, its crank angle, and whether the island carries there."""
-    best = np.zeros((0, 3))
-    for stroke, one in found:
-        most, at, wall = (np.atleast_2d(values) for values in peak_of(m, one, stroke, name))
-        angle, island = 2 * m.crank_half * at + stroke * m.pitch, (wall == m.side) & (not m.straight)
-        row = np.concatenate([_tall(values, m) for values in (most, angle, island)], axis=1)
-        best = np.where(row[:, :1] > best[:, :1], row, best) if best.size else row
-    return best
-
-
-_FOUND: Mapping[str, Callable[[Mechanism], Array]] = {
-    "force": _forces,
-    "pressure": lambda m: _peak(m, _own_samples(m)[1], "pressure"),
-    "crank_torque": lambda m: _peak(m, _own_samples(m)[1], "crank_torque"),
-}
+def _neighbours(u: Array, values: Array) -> tuple[Array, Array]:
+    """The shares (n, 1) of a stroke about the greatest of the values (n, k)."""
+    most, u = np.argmax(values, axis=-1, keepdims=True), np.broadcast_to(u, values.shape)
+    low, high = (np.take_along_axis(u, np.clip(most + step, 0, u.shape[-1] - 1), axis=-1) for step in (-1, 1))
+    return low, high
 
 
 def carried(run: Stroke, found: Contact) -> Array:
@@ -318,20 +303,3 @@ def carried(run: Stroke, found: Contact) -> Array:
     last = zone.shape[-1] - 1 - np.argmax(zone[..., ::-1], axis=-1)
     angle: Array = np.where(zone.any(axis=-1), run.theta[last] - run.theta[first], 0.0)
     return angle
-
-
-def peak_of(mechanism: Mechanism, found: Contact, stroke: int, name: str) -> tuple[Array, Array, Array]:
-    """Largest magnitude of one quantity, its u, and the wall that carries there, (1,) or (m, 1) each."""
-    u = np.linspace(0, 1, _SAMPLES)
-    u, values = np.broadcast_to(u, getattr(found, name).shape), np.abs(getattr(found, name))
-    share = np.linspace(0, 1, _CLOSER)
-    for _ in range(_ZOOMS):
-        most = np.argmax(values, axis=-1, keepdims=True)
-        low, high = (
-            np.take_along_axis(u, np.clip(most + step, 0, u.shape[-1] - 1), axis=-1) for step in (-1, 1)
-        )
-        u = low + (high - low) * share
-        found = contact(mechanism, mechanism.stroke(u), stroke)
-        values = np.abs(getattr(found, name))
-    most = np.argmax(values, axis=-1, keepdims=True)
-    return tuple(np.take_along_axis(one, most, axis=-1) for one in (values, u, found.wall))  # type: ignore[return-value]

@@ -32,6 +32,7 @@ Every array has the design axis first and the sample axis last.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,7 +45,7 @@ from mechwright.mechanics.laws import Law
 __all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "regime", "stroke"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Frame(Rowwise):
     """The fixed geometry of one design, or of many as columns (m, 1); angles in rad, lengths in mm."""
 
@@ -68,24 +69,24 @@ class Frame(Rowwise):
         )
         return Frame(self.wheel_half, *values)
 
-    @property
+    @cached_property
     def entry_angle(self) -> Array:
         """W = θw0 + θoff."""
         return self.wheel_half + self.offset
 
-    @property
+    @cached_property
     def crank(self) -> Array:
         """Crank radius b."""
         value: Array = self.entry_radius * np.sin(self.entry_angle) / np.sin(self.crank_half)
         return value
 
-    @property
+    @cached_property
     def axes(self) -> Array:
         """Distance of the axes a."""
         value: Array = self.entry_radius * np.cos(self.entry_angle) + self.crank * np.cos(self.crank_half)
         return value
 
-    @property
+    @cached_property
     def bottom(self) -> Array:
         """Distance a - b of the slot's bottom from the wheel's axis, in the form that does not cancel."""
         half = self.crank_half / 2
@@ -99,26 +100,18 @@ class Frame(Rowwise):
         return value
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Stroke:
     """One stroke at the shares u of its crank angle.
 
     Parameters
     ----------
+    frame
+        The fixed geometry.
     phi
         φ.
     theta, first, second, third
         θw and its derivatives over θd.
-    centre
-        C in the fixed frame.
-    velocity
-        V, fixed axes: how the centre moves over the wheel per radian of the crank.
-    acceleration
-        A, fixed axes.
-    speed
-        |V|, mm per radian of the crank.
-    to_wheel
-        exp(-i θw): turns fixed points into the wheel's frame.
     """
 
     frame: Frame
@@ -127,11 +120,42 @@ class Stroke:
     first: Array
     second: Array
     third: Array
-    centre: Points
-    velocity: Points
-    acceleration: Points
-    speed: Array
-    to_wheel: Points
+
+    @cached_property
+    def _arm(self) -> Points:
+        arm: Points = self.frame.crank * np.exp(1j * self.phi)
+        return arm
+
+    @cached_property
+    def centre(self) -> Points:
+        """C in the fixed frame."""
+        centre: Points = self.frame.axes - self._arm
+        return centre
+
+    @cached_property
+    def velocity(self) -> Points:
+        """V, fixed axes: how the centre moves over the wheel per radian of the crank; dC/dθd is i arm."""
+        velocity: Points = 1j * (self._arm - self.first * self.centre)
+        return velocity
+
+    @cached_property
+    def acceleration(self) -> Points:
+        """A, fixed axes; d²C/dθd² is the arm."""
+        turned = (self.first * self.first + 1j * self.second) * self.centre
+        acceleration: Points = (1 + 2 * self.first) * self._arm - turned
+        return acceleration
+
+    @cached_property
+    def speed(self) -> Array:
+        """|V|, mm per radian of the crank."""
+        speed: Array = np.sqrt(self.velocity.real**2 + self.velocity.imag**2)
+        return speed
+
+    @cached_property
+    def to_wheel(self) -> Points:
+        """exp(-i θw): turns fixed points into the wheel's frame."""
+        turned: Points = np.exp(-1j * self.theta)
+        return turned
 
     @property
     def track(self) -> Points:
@@ -139,7 +163,7 @@ class Stroke:
         points: Points = self.centre * self.to_wheel
         return points
 
-    @property
+    @cached_property
     def normal(self) -> Points:
         """The unit normal to the left of the roller's way, fixed axes; 0 where the roller turns back."""
         return left_normal(self.velocity, self.speed)
@@ -149,7 +173,7 @@ class Stroke:
         points: Points = touched(self.centre, self.normal, radius, side) * self.to_wheel
         return points
 
-    @property
+    @cached_property
     def curvature(self) -> Array:
         """κ of the roller's way, 1/mm, positive where it bends to the left."""
         return way_curvature(self.velocity, self.acceleration, self.speed)
@@ -167,27 +191,7 @@ def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     way = 2 * frame.wheel_half
     phi = frame.crank_half - time * u
     first, second, third = way / time * rates.v, way / time**2 * rates.a, way / time**3 * rates.j
-    crank = frame.crank
-    arm = crank * np.exp(1j * phi)
-    # frame.axes without a second look at the crank
-    centre = frame.entry_radius * np.cos(frame.entry_angle) + crank * np.cos(frame.crank_half) - arm
-    theta = way * rates.s
-    # dC/dθd is i arm and d²C/dθd² is arm.
-    velocity = 1j * (arm - first * centre)
-    acceleration = (1 + 2 * first) * arm - (first * first + 1j * second) * centre
-    return Stroke(
-        frame,
-        phi,
-        theta,
-        first,
-        second,
-        third,
-        centre,
-        velocity,
-        acceleration,
-        np.sqrt(velocity.real**2 + velocity.imag**2),
-        np.exp(-1j * theta),
-    )
+    return Stroke(frame, phi, way * rates.s, first, second, third)
 
 
 def regime(frame: Frame, law: Law) -> NDArray[np.int_]:

@@ -109,7 +109,7 @@ NEXT = 0.01
 
 
 def sharpened(found: Measures, frame: Frame, law: Law, radius: Array, *, always: bool) -> Measures:
-    """The same with critical radii to rounding, always or where one is next to what it is compared with.
+    """The same with critical radii to rounding where one is next to what it is compared with.
 
     Parameters
     ----------
@@ -117,16 +117,18 @@ def sharpened(found: Measures, frame: Frame, law: Law, radius: Array, *, always:
         Of designs whose slots have this half width, (m, 1).
     frame, law
         Theirs.
+    always
+        Whether those of the island are in any case, because people read them.
     """
     island, hub = found.island_limit, found.hub_limit
     close = (np.abs(island - radius) < NEXT * island) | (np.abs(island - radius - LEAST_TIP) < NEXT * island)
-    rows = np.flatnonzero(close | (np.abs(hub - radius) < NEXT * hub) | always)
-    if not rows.size:
-        return found
-    part, side = rows_of(frame, rows, radius.size), found.side[rows]
-    limits = island.copy(), hub.copy()
-    for limit, sign in zip(limits, (1, -1), strict=True):
-        limit[rows, 0] = _critical(part, law, sign * side, limit[rows, 0])
+    limits = []
+    for limit, sign, next_to in ((island, 1, close | always), (hub, -1, hub - radius < NEXT * hub)):
+        rows = np.flatnonzero(next_to)
+        if rows.size:
+            limit, part = limit.copy(), rows_of(frame, rows, radius.size)
+            limit[rows, 0] = _critical(part, law, sign * found.side[rows], limit[rows, 0])
+        limits.append(limit)
     return replace(found, island_limit=limits[0], hub_limit=limits[1])
 
 

@@ -153,7 +153,7 @@ REF = {
     "peak_accel_ratio": lambda m: m.law.peaks.a * (math.pi / 2) / math.radians(100) ** 2,
     "peak_jerk_ratio": lambda m: m.law.peaks.j * (math.pi / 2) / math.radians(100) ** 3,
     "Mcrit_inner": lambda m: m.measures.island_limit.item() / m.crank,
-    "Mcrit_outer": lambda m: m.measures.hub_limit.item() / m.crank,
+    "Mcrit_outer": lambda m: m.measured(m.measures.hub_limit).hub_limit.item() / m.crank,
     "r_undercut_limit_mm": lambda m: m.measures.island_limit.item(),
     "Fmin_inner": lambda m: undercut.singularity(m.stroke(np.linspace(0, 1, 2001)), 5, RIGHT).min(),
     "Fmin_outer": lambda m: undercut.singularity(m.stroke(np.linspace(0, 1, 2001)), 5, LEFT).min(),

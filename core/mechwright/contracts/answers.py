@@ -6,14 +6,11 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.declared import LOOSE, Declared, hold, refuse, shown
-from mechwright.contracts.design_table import DesignTable
-from mechwright.contracts.figure import Figure, PartMass
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.guard import UnsoundError
 from mechwright.contracts.materials import MATERIALS
-from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.motion import Motion, Poses
 from mechwright.contracts.part import Part
-from mechwright.contracts.rule_list import Rules
 from mechwright.errors import GeometryError
 
 LEAST, GREATEST = 0.01, 100_000.0
@@ -34,18 +31,12 @@ def sound(contract: Any, method: str, answer: Any, arguments: tuple[Any, ...]) -
     check = _CHECKS.get(method)
     if check is not None:
         return check(answer, arguments)
-    hold(contract, method, answer, _KINDS.get(method, LOOSE))
+    hold(contract, method, answer, LOOSE if method != "evaluate" else _EMPTY)
     return answer
 
 
 _EMPTY = Declared(finite=False, nan=True)
 """Of designs that are forbidden a column has nothing."""
-_OF_TABLES = Declared(leave=(Rules, DesignTable, Figure, Channel, PartMass))
-"""Of rules and formulas, what they give is looked at."""
-_KINDS = {
-    "evaluate": _EMPTY,
-    **dict.fromkeys(("rules", "table", "figures", "channels", "masses"), _OF_TABLES),
-}
 _STRICT = Declared(leave=(Poses,))
 """Poses may be worked out as they are asked for, and have a check of their own."""
 

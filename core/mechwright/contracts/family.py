@@ -46,6 +46,7 @@ class Family(Plugin, Generic[P]):
     steady = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
     derived = frozenset({"check", "judge", "evaluate"})
+    inner = frozenset({"rules", "table", "remedy", "figures", "channels", "masses"})
     piecewise = frozenset({"stretches"})
 
     title: ClassVar[str]

@@ -62,6 +62,7 @@ class Called(Protocol):
     unlimited: ClassVar[frozenset[str]]
     piecewise: ClassVar[frozenset[str]]
     derived: ClassVar[frozenset[str]]
+    inner: ClassVar[frozenset[str]]
     registered_by: str
 
     @classmethod
@@ -86,7 +87,7 @@ def guard(cls: "type[Called]", contract: type["Called"]) -> None:
     for name in methods_of(contract):
         home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
         inherited = home in contract.__mro__ and name not in contract.derived
-        if inherited or getattr(getattr(own, "fget", own), _MARK, False):
+        if inherited or name in contract.inner or getattr(getattr(own, "fget", own), _MARK, False):
             continue
         if not isinstance(vars(contract)[name], property):
             setattr(cls, name, _wrapped(own, name, contract))

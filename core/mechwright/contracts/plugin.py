@@ -50,7 +50,9 @@ class Plugin(ABC):
     piecewise: ClassVar[frozenset[str]] = frozenset()
     """Methods that give one thing after the other; what others give so is gathered by the guard."""
     derived: ClassVar[frozenset[str]] = frozenset()
-    """Methods of the contract itself that call what a class gives in pieces: they are guarded as its own."""
+    """Methods of the contract itself that put together what a class gives: they are guarded as its own."""
+    inner: ClassVar[frozenset[str]] = frozenset()
+    """Methods that those alone call, inside of their guard."""
     registered_by: str = ""
     """What registered it, in words, where the host did: ``"plugin geneva of mechwright"``."""
 
