@@ -12,12 +12,12 @@ import numpy as np
 from harness import race, report, require
 
 from mechwright import Array
-from mechwright_geneva.dimensions import mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import mechanism_of, sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.limits import SWEEP_SAMPLES
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot import Slot
-from mechwright_geneva.slot_search import allowed, trial
+from mechwright_geneva.kinematics.slot_limits import SWEEP_SAMPLES
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.slot_outline import Slot
+from mechwright_geneva.rules.slot_search import allowed, trial
 
 DESIGNS = 100_000
 ANCHOR, ANCHOR_SECONDS = "complex arrays, 200 times 100,000", 0.38

@@ -13,7 +13,7 @@ from test_chain import D1, after, chain, last, linked
 from mechwright import Turning
 from mechwright.mechanics.chain.running import inputs_of
 from mechwright.mechanics.laws import cycloidal
-from mechwright_geneva.straight import StraightSlot
+from mechwright_geneva.kinematics.straight_slot import StraightSlot
 from mechwright_noncircular_gears.laws.indexing import IndexLaw
 
 PAIR = ("noncircular-gears", D1)

@@ -107,9 +107,9 @@ FIGURES = {
 @pytest.mark.parametrize("case", FIGURES)
 def test_every_slot_of_the_geneva(case):
     law, slots, half, offset, roller, least = FIGURES[case]
-    from mechwright_geneva.dimensions import mechanism_of
-    from mechwright_geneva.kinematics import RIGHT
-    from mechwright_geneva.params import GenevaParams
+    from mechwright_geneva.defaults.dimensions import mechanism_of
+    from mechwright_geneva.kinematics.geometry import RIGHT
+    from mechwright_geneva.parameters import GenevaParams
 
     parameters = {
         "law": law,

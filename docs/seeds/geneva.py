@@ -14,11 +14,11 @@ import geneva_undercut as undercut
 import numpy as np
 
 from mechwright.mechanics.laws import LAWS, Law
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.figures import straight_peaks
-from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot_rules import REGIMES
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.kinematics.figures import straight_peaks
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Frame, stroke
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.rules.slots import REGIMES
 
 PAGE = Path(__file__).parent / "geneva.md"
 

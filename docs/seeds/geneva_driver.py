@@ -9,13 +9,13 @@ import numpy as np
 
 from mechwright.build.figures.sheet import INK, LINKS, Window
 from mechwright.mechanics.planar import Turning
-from mechwright_geneva.contact import contact
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.figures import rate_peaks
-from mechwright_geneva.kinematics import LEFT, RIGHT
-from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.walls import switches, torque
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.kinematics.contact_forces import contact
+from mechwright_geneva.kinematics.figures import rate_peaks
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT
+from mechwright_geneva.kinematics.mechanism import Mechanism
+from mechwright_geneva.kinematics.wall_change import switches, torque
+from mechwright_geneva.parameters import GenevaParams
 
 IMAGES = Path(__file__).parents[1] / "images"
 WORKED: dict[str, object] = {

@@ -17,7 +17,7 @@ from mechwright.designs.design import Design, load
 from mechwright.machine.frame.sweep import layers_of
 from mechwright.output.svg import path as polyline
 from mechwright.plugins.host import host
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.parameters import GenevaParams
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "geneva-machine.toml"
 COLOURS = {

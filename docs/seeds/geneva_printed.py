@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.mechanics.laws import Law
-from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, stroke
+from mechwright_geneva.kinematics.geometry import LEFT, Frame, Points, Stroke, stroke
 
 
 def wall(frame: Frame, law: Law, u: ArrayLike, radius: float, side: int) -> Points:

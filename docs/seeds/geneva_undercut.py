@@ -10,14 +10,14 @@ Equations (21) to (30) ask where a point of the wall has no tangent: with N = a/
 
 F is a square: it touches 0 without changing its sign, and it is 0 as well at a cusp of the roller's way (D =
 0), which is no undercut. The checks therefore ask for the sign of 1 ∓ κ r
-(:meth:`mechwright_geneva.kinematics.Stroke.regularity`); F is here for comparison.
+(:meth:`mechwright_geneva.kinematics.geometry.Stroke.regularity`); F is here for comparison.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
-from mechwright_geneva.kinematics import LEFT, Frame, Stroke
+from mechwright_geneva.kinematics.geometry import LEFT, Frame, Stroke
 
 
 def singularity(run: Stroke, radius: ArrayLike, side: int) -> Array:

@@ -13,7 +13,7 @@ from mujoco_witness import mujoco
 from mechwright import Bore, Loop, Outline, Part, Pocket, Profile, circle
 from mechwright_cad.exporters.mjcf import assembly as mjcf
 from mechwright_cad.solids.convex import CHORD, convex_pieces, prisms
-from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 
 FACTS = json.loads((Path(__file__).parents[2] / "tests/data/simulation.json").read_text())["facts"]

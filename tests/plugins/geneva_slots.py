@@ -4,11 +4,11 @@ import numpy as np
 
 from mechwright import Stage
 from mechwright.contracts.rule_list import in_turn
-from mechwright_geneva.body_rules import LOCK_ROOM
-from mechwright_geneva.limits import FINE_SAMPLES
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot_rules import BOTTOM, CURVED
-from mechwright_geneva.slot_search import trial
+from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.rules.body import LOCK_ROOM
+from mechwright_geneva.rules.slot_search import trial
+from mechwright_geneva.rules.slots import BOTTOM, CURVED
 
 SLOTS_ALONE = in_turn(BOTTOM, CURVED, LOCK_ROOM)
 NOTHING = {"least_wall": 0.0, "bore": 0.0, "lock_clearance": 0.0, "groove_clearance": 0.0}

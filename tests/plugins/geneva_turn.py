@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.contracts.part import Part, Pocket
 from mechwright.tolerances import TOLERANCES
-from mechwright_geneva.kinematics import Points
-from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.kinematics.geometry import Points
+from mechwright_geneva.kinematics.mechanism import Mechanism
 
 POSITIONS = 721
 """Positions of the crank over a turn: every half degree."""

@@ -11,12 +11,12 @@ from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.tolerances import OFF_CENTRE
-from mechwright_geneva.as_made import Made, as_made
-from mechwright_geneva.as_made_lock import Lock
-from mechwright_geneva.as_made_play import drawn_room, made_room, play
-from mechwright_geneva.clearance_rules import BINDING, LEAST_GROOVE, LEAST_LOCK
-from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.as_made.lock import Lock
+from mechwright_geneva.as_made.play import drawn_room, made_room, play
+from mechwright_geneva.as_made.slot import Made, as_made
+from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
+from mechwright_geneva.rules.clearances import BINDING, LEAST_GROOVE, LEAST_LOCK
 
 FAMILY = Geneva()
 CURVED = FAMILY.Params(crank_half_angle=50, offset_angle=5, groove_clearance=0.05, lock_radius=70)

@@ -9,11 +9,11 @@ from by_night import examples
 from mechwright import Stage
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.dimensions import sized
+from mechwright_geneva.defaults.dimensions import sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.limits import SWEEP_SAMPLES
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot_search import LIMITS, allowed, trial
+from mechwright_geneva.kinematics.slot_limits import SWEEP_SAMPLES
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.rules.slot_search import LIMITS, allowed, trial
 
 GENEVA = Geneva()
 REFERENCE = {

@@ -10,15 +10,15 @@ from pydantic import ValidationError
 
 from mechwright.mechanics.planar import Turning
 from mechwright.testing.compare import assert_derivative
-from mechwright_geneva.contact import contact, loads
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.driver import driver_of
+from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.figures import rate_peaks
-from mechwright_geneva.kinematics import LEFT, RIGHT
-from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.walls import switches, torque
+from mechwright_geneva.kinematics.contact_forces import contact, loads
+from mechwright_geneva.kinematics.drive import driver_of
+from mechwright_geneva.kinematics.figures import rate_peaks
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT
+from mechwright_geneva.kinematics.mechanism import Mechanism
+from mechwright_geneva.kinematics.wall_change import switches, torque
+from mechwright_geneva.parameters import GenevaParams
 
 DATA = Path(__file__).parents[1] / "data" / "geneva-driver.json"
 FACTS = {fact["name"]: fact for fact in json.loads(DATA.read_text(encoding="utf-8"))["facts"]}

@@ -9,7 +9,7 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.contracts.table_evaluation import answer
 from mechwright.testing.evaluation import assert_same
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.parameters import GenevaParams
 
 FAMILY = Geneva()
 

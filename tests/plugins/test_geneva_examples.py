@@ -14,8 +14,8 @@ from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright.testing.commands import run
 from mechwright.tolerances import TOLERANCES
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.parameters import GenevaParams
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = {"cycloidal": "build", "prototype": "build", "straight": "cam", "twelve-stops": "cam"}
@@ -162,7 +162,7 @@ def test_the_requirement_gives_designs_that_build(tmp_path):
         assert length <= 320 + 1e-6
         assert length > 310, "the space is used"
         assert 2 * m.crank_half / (2 * 3.141592653589793) <= 0.4 + 1e-9
-        from mechwright_geneva.contact import loads
+        from mechwright_geneva.kinematics.contact_forces import loads
 
         pressures.append(loads(m).pressure)
     assert pressures == sorted(pressures)

@@ -27,9 +27,9 @@ from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.table import settings_of
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.parts import parts_of
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.parts import parts_of
 
 ROOT = Path(__file__).parents[2]
 LIBRARY = load_library(None)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.parameters import GenevaParams
 
 
 @pytest.mark.parametrize("values", [{}, {"slots": 6}, {"slots": 8, "rollers": 2}])

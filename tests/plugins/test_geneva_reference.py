@@ -13,16 +13,16 @@ import shapely
 from geneva_slots import valid_slots
 
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.contact import contact, loads
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.figures import straight_peaks
-from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
-from mechwright_geneva.limits import FINE_SAMPLES, measure
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.relief import lock_loop
-from mechwright_geneva.slot import Slot
-from mechwright_geneva.straight import StraightSlot
-from mechwright_geneva.wheel import Wheel
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.kinematics.contact_forces import contact, loads
+from mechwright_geneva.kinematics.figures import straight_peaks
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Frame, stroke
+from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, measure
+from mechwright_geneva.kinematics.straight_slot import StraightSlot
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.locking_disc import lock_loop
+from mechwright_geneva.parts.slot_outline import Slot
+from mechwright_geneva.parts.wheel_outline import Wheel
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "geneva.json").read_text(encoding="utf-8"))["facts"]
 NAMES = {

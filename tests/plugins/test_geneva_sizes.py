@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 from mechwright import GeometryError, Severity, Stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.dimensions import LEFT_OPEN, mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import LEFT_OPEN, mechanism_of, sized
+from mechwright_geneva.defaults.preferred_sizes import PINS, ROLLERS
+from mechwright_geneva.defaults.proportions import ANGLES
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.horns import clear, greatest_discs
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.relief import lock_loop
-from mechwright_geneva.series import PINS, ROLLERS
-from mechwright_geneva.usual import ANGLES
+from mechwright_geneva.kinematics.horn_clearance import clear, greatest_discs
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.locking_disc import lock_loop
 
 GENEVA = Geneva()
 SLOTS = range(3, 13)

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity
-from mechwright_geneva.contact import loads
-from mechwright_geneva.dimensions import mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import mechanism_of, sized
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.strength_rules import arm, key_stresses, stud_slopes, stud_stresses
+from mechwright_geneva.kinematics.contact_forces import loads
+from mechwright_geneva.rules.strength import arm, key_stresses, stud_slopes, stud_stresses
 
 FACTS = {
     fact["name"]: fact["expected"]

@@ -4,11 +4,11 @@ import pytest
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
-from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.defaults.preferred_sizes import PINS, ROLLERS
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.requirement import IndexingRequirement
-from mechwright_geneva.series import PINS, ROLLERS
-from mechwright_geneva.synthesis import from_indexing
+from mechwright_geneva.requirements import IndexingRequirement
+from mechwright_geneva.synthesis.indexing import from_indexing
 
 
 def synthesis(**table):

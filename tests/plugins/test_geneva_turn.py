@@ -16,11 +16,11 @@ from scipy.optimize import newton
 from mechwright.contracts.finding import Stage, errors
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.relief import lock_loop
-from mechwright_geneva.wheel import Wheel
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.locking_disc import lock_loop
+from mechwright_geneva.parts.wheel_outline import Wheel
 
 DESIGNS = {
     "reference": {"lock_radius": 70},
@@ -115,7 +115,7 @@ def test_the_proof_sees_a_roller_that_is_too_large():
 
 def test_the_proof_sees_the_printed_wall():
     """A groove along the source's printed wall stands in the roller's way by millimetres."""
-    from mechwright_geneva.kinematics import LEFT, RIGHT
+    from mechwright_geneva.kinematics.geometry import LEFT, RIGHT
 
     params = GenevaParams(law="3-4-5", groove_clearance=0)
     m = mechanism_of(params)

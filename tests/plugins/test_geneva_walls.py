@@ -12,11 +12,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mechwright.mechanics.laws import LAWS, Polynomial
-from mechwright_geneva.dimensions import mechanism_of
-from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, regime, stroke
-from mechwright_geneva.limits import FINE_SAMPLES, measure
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot import Slot
+from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Frame, regime, stroke
+from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, measure
+from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.slot_outline import Slot
 
 LAW_NAMES = list(LAWS)
 
@@ -206,7 +206,7 @@ class TestLopsided:
 
     def test_measures_agree_with_the_mirrored_ones_where_both_apply(self):
         """A symmetric law measured point by point gives the figures of the mirror."""
-        from mechwright_geneva import limits
+        from mechwright_geneva.kinematics import slot_limits as limits
 
         law = LAWS["3-4-5"]()
         for half, offset, radius in ((50, 6, 4), (45, -12, 5), (50, 2, 6)):

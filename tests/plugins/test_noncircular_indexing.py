@@ -13,7 +13,7 @@ from plugins.noncircular import design
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing import FIT
 from mechwright.mechanics.laws import Law
-from mechwright_geneva.straight import StraightSlot
+from mechwright_geneva.kinematics.straight_slot import StraightSlot
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.gear import outlines_of, teeth_of
 from mechwright_noncircular_gears.law import law_of

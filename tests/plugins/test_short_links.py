@@ -15,7 +15,7 @@ from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.sized import SizedParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
-from mechwright_geneva.dimensions import sized
+from mechwright_geneva.defaults.dimensions import sized
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import filled_in, sizes_of
 

@@ -16,10 +16,10 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
-from mechwright_geneva.dimensions import mechanism_of
+from mechwright_geneva.as_made.tube import Tube
+from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.tube import Tube
+from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_spherical.family import Spherical

@@ -16,6 +16,8 @@ from mechwright.contracts.rule_list import Rules
 class Checked(Protocol):
     """A family whose findings come from rules."""
 
+    def __hash__(self) -> int: ...
+
     def rules(self) -> Rules[Any]:
         """The rules."""
         ...

@@ -6,7 +6,7 @@ family take as they take one design.
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,10 +33,10 @@ ENDS: Mapping[str, Callable[[Array], Array]] = {
 class Evaluated(Asked, Protocol):
     """A family whose designs are evaluated as tables."""
 
-    structure: frozenset[str]
-    counts: frozenset[str]
-    block: int
-    sampled: int
+    structure: ClassVar[frozenset[str]]
+    counts: ClassVar[frozenset[str]]
+    block: ClassVar[int]
+    sampled: ClassVar[int]
 
     def rules(self) -> Rules[Any]:
         """What forbids designs."""

@@ -1,0 +1,1 @@
+"""The mechanism with parts as their programs leave them."""

@@ -1,0 +1,1 @@
+"""Outlines, plates, openings, hardware and mounting."""

@@ -1,0 +1,1 @@
+"""Finding mechanisms for a requirement."""
