@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
+    from mechwright.contracts.design_rule import DesignRule, Note, Procedure
+    from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
+    from mechwright.contracts.figure import Figure, PartMass, scalars
     from mechwright.contracts.finding import (
         Finding,
         Findings,
@@ -43,6 +46,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.refused import RefusedError
     from mechwright.contracts.result import Result
+    from mechwright.contracts.rule_list import Rules, all_of, in_turn
     from mechwright.contracts.standing import Standing
     from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
@@ -80,11 +84,14 @@ _HOMES = {
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",
+    "mechwright.contracts.design_rule": "DesignRule Note Procedure",
+    "mechwright.contracts.design_table": "DesignTable",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.fitting_marks": "FittingMark",
     "mechwright.contracts.evaluation": "Batch Columns",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
+    "mechwright.contracts.figure": "Figure PartMass scalars",
     "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse until_error",
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.inputs": "InputFile",
@@ -99,6 +106,7 @@ _HOMES = {
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.refused": "RefusedError",
     "mechwright.contracts.result": "Result",
+    "mechwright.contracts.rule_list": "Rules all_of in_turn",
     "mechwright.contracts.standing": "Standing",
     "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
@@ -170,7 +178,8 @@ __all__ += [
     "refuse",
     "until_error",
 ]
-__all__ += ["Batch", "Columns"]
+__all__ += ["DesignRule", "DesignTable", "Figure", "Note", "PartMass", "Procedure", "Rules"]
+__all__ += ["Batch", "Columns", "all_of", "in_turn", "scalars"]
 __all__ += ["Index", "Port", "Transmission", "Turning"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis", "Target", "point_targets"]
 __all__ += ["Blank", "Build", "Design", "Wanted"]

@@ -31,8 +31,7 @@ bound
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from enum import Enum
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,25 +45,10 @@ E = TypeVar("E", bound=DesignTable[Any], contravariant=True)
 Bools = NDArray[np.bool_]
 
 
-class Comparison(Enum):
-    """How the value of a rule has to compare with its limit."""
-
-    AT_LEAST = "at least"
-    """It reaches the limit, but for rounding."""
-    AT_MOST = "at most"
-    """It does not pass the limit, but for rounding."""
-    ABOVE = "above"
-    """It is greater than the limit."""
-    BELOW = "below"
-    """It is less than the limit."""
-
-    def fails(self, value: Any, limit: Any) -> Any:
-        """Whether values break the rule, element by element."""
-        if self is Comparison.AT_LEAST:
-            return falls_short(value, limit)
-        if self is Comparison.AT_MOST:
-            return exceeds(value, limit)
-        return ~np.asarray(value > limit) if self is Comparison.ABOVE else ~np.asarray(value < limit)
+Comparison = Literal["at least", "at most", "above", "below"]
+"""What a value must be of its limit; one that reaches it, but for rounding, is at least and at most it, and
+neither above nor below it.
+"""
 
 
 @dataclass(frozen=True)
@@ -126,8 +110,8 @@ class DesignRule(Generic[D]):
         Of both.
     remedy
         What to do.
-    comparison
-        How the value has to compare with the limit.
+    must_be
+        What the value must be of the limit.
     stage, severity
         Of the finding.
     when
@@ -152,7 +136,7 @@ class DesignRule(Generic[D]):
     limit: "Callable[[D], Any] | float"
     unit: str = ""
     remedy: Text[D] = ""
-    comparison: Comparison = Comparison.AT_LEAST
+    must_be: Comparison = "at least"
     stage: Stage = Stage.PARTS
     severity: Severity = Severity.ERROR
     when: Callable[[D], Any] | None = None
@@ -190,7 +174,7 @@ class DesignRule(Generic[D]):
             return self._compared(table)
         low, high = self.bound(table)
         limit = self._limit(table)
-        least, most = (_truth(self.comparison.fails(one, limit), table.size) for one in (low, high))
+        least, most = (_truth(_breaks(self.must_be, one, limit), table.size) for one in (low, high))
         unsure = np.flatnonzero(least != most)
         wrong = least & most
         if unsure.size:
@@ -201,7 +185,7 @@ class DesignRule(Generic[D]):
         value = np.asarray(self.value(table), dtype=float)
         if np.isnan(value).any():
             raise RuleError(self.code, value, table)
-        return _truth(self.comparison.fails(value, self._limit(table)), table.size)
+        return _truth(_breaks(self.must_be, value, self._limit(table)), table.size)
 
     def _limit(self, table: D) -> Any:
         return self.limit(table) if callable(self.limit) else self.limit
@@ -212,12 +196,12 @@ class DesignRule(Generic[D]):
             return
         if self.bound is not None:
             limit = self._limit(m)
-            if not any(np.any(self.comparison.fails(one, limit)) for one in self.bound(m)):
+            if not any(np.any(_breaks(self.must_be, one, limit)) for one in self.bound(m)):
                 return
         value, limit = self.value(m), self._limit(m)
         if np.isnan(value).any():
             raise RuleError(self.code, value, m)
-        wrong = np.asarray(self.comparison.fails(value, limit))
+        wrong = np.asarray(_breaks(self.must_be, value, limit))
         if not wrong.any():
             return
         values, limits = (np.broadcast_to(one, wrong.shape).ravel() for one in (value, limit))
@@ -352,6 +336,15 @@ class RuleError(Exception):
         bad = np.isnan(np.asarray(value, dtype=float)).reshape(table.size, -1).any(axis=1)
         self.code, self.places = code, np.flatnonzero(bad)
         super().__init__(f"rule {code}: its value is no number")
+
+
+def _breaks(must_be: Comparison, value: Any, limit: Any) -> Any:
+    """Whether values are not what they must be of limits, element by element; what is no number is not."""
+    if must_be == "at least":
+        return falls_short(value, limit)
+    if must_be == "at most":
+        return exceeds(value, limit)
+    return ~np.asarray(value > limit) if must_be == "above" else ~np.asarray(value < limit)
 
 
 def _is_later(stage: Stage, last: Stage) -> bool:

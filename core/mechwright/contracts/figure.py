@@ -1,4 +1,4 @@
-"""Figures and masses of a table of designs, computed when they are asked for."""
+"""Figures and masses of designs: numbers of one design, columns of a table of many."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -8,40 +8,51 @@ import numpy as np
 
 from mechwright.contracts.motion import Scalar
 
+Value = Any
+"""A number, a column (n, 1), or a function without arguments that computes it when it is asked for."""
+
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure of a table of designs.
+    """A figure of designs.
 
     Parameters
     ----------
+    value
+        Its value; NaN for designs without it.
     unit
         Of its values; angles are in rad.
-    value
-        Computes it when it is asked for: a number or a column (n, 1), NaN for designs without it.
     """
 
-    unit: str
-    value: Callable[[], Any]
+    value: Value
+    unit: str = ""
+
+    def __call__(self) -> Any:
+        """Give the number or the column."""
+        return self.value() if callable(self.value) else self.value
 
 
 @dataclass(frozen=True)
 class PartMass:
-    """The mass of a part of a table of designs.
+    """The mass of a part of designs.
 
     Parameters
     ----------
+    value
+        The mass of one copy, kg.
     copies
         The number of copies in the mechanism.
-    value
-        Computes the mass of one, kg, when it is asked for: a number or a column (n, 1).
     """
 
-    copies: int
-    value: Callable[[], Any]
+    value: "float | Callable[[], Any]"
+    copies: int = 1
+
+    def __call__(self) -> Any:
+        """Give the number or the column."""
+        return self.value() if callable(self.value) else self.value
 
 
 def scalars(figures: Mapping[str, Figure]) -> dict[str, Scalar]:
-    """Give the figures of one design, without those that it has not."""
-    values = {name: (float(np.asarray(one.value()).item()), one.unit) for name, one in figures.items()}
+    """Give the figures of one design for its motion, without those that it has not."""
+    values = {name: (float(np.asarray(one()).item()), one.unit) for name, one in figures.items()}
     return {name: Scalar(value, unit) for name, (value, unit) in values.items() if value == value}

@@ -144,7 +144,7 @@ def columns_of(
     """Give those columns (n,) of allowed designs that are figures, extremes of channels or masses."""
     figures = family.figures(table)
     found = {
-        name: told(column(figures[name].value(), table.size)[:, 0], figures[name].unit)
+        name: told(column(figures[name](), table.size)[:, 0], figures[name].unit)
         for name in columns
         if name in figures
     }
@@ -173,10 +173,10 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
     if weights is None:
         return {}
     found = {
-        name: column(weights[part].value(), table.size)[:, 0]
+        name: column(weights[part](), table.size)[:, 0]
         for name in columns
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
     if TOTAL in columns:
-        found[TOTAL] = column(sum(one.copies * one.value() for one in weights.values()), table.size)[:, 0]
+        found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
     return found

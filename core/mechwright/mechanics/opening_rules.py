@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import Comparison, DesignRule, Failure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Change, Severity
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
@@ -51,7 +51,7 @@ def keyway_rules(bore: str, width: str, relief: str) -> Rules[Any]:
         value=lambda t: getattr(t.params, width),
         limit=0.0,
         unit="mm",
-        comparison=Comparison.AT_MOST,
+        must_be="at most",
         remedy=f"use one of {', '.join(f'{one.width:g}' for one in KEYS)}",
         when=lambda t: key_of_width(float(np.ravel(getattr(t.params, width))[0])) is None,
         reported=lambda f: (f.value, _fitting_width(f, bore)),
@@ -68,7 +68,7 @@ def keyway_rules(bore: str, width: str, relief: str) -> Rules[Any]:
             f"make {width} smaller than {bore}; "
             + ("0 for none" if (one := _fitting_width(f, bore)) is None else f"the standard is {one:g}")
         ),
-        comparison=Comparison.BELOW,
+        must_be="below",
         proposed=lambda f: ({f"parameters.{width}": _fitting_width(f, bore) or 0},),
     )
     series = Rule(
@@ -86,7 +86,7 @@ def keyway_rules(bore: str, width: str, relief: str) -> Rules[Any]:
             if (one := _fitting_width(f, bore)) is None
             else f"use {width} = {one:g}"
         ),
-        comparison=Comparison.AT_MOST,
+        must_be="at most",
         severity=Severity.WARNING,
         reported=lambda f: (getattr(f.m.params, width), _fitting_width(f, bore)),
         proposed=lambda f: _fitting(f, bore, width),
@@ -99,7 +99,7 @@ def keyway_rules(bore: str, width: str, relief: str) -> Rules[Any]:
         limit=lambda t: np.maximum(0.0, _greatest_relief(t, bore, width)),
         unit="mm",
         remedy=lambda f: f"make {relief} at most {math.floor(f.limit * 100) / 100:g}",
-        comparison=Comparison.AT_MOST,
+        must_be="at most",
         reported=lambda f: (f.value, float(_greatest_relief(f.m, bore, width))),
     )
     return in_turn(

@@ -80,37 +80,30 @@ def dwell_share(m: Mechanism) -> Any:
 
 def figures(m: Mechanism) -> dict[str, Figure]:
     """The figures by name: sizes, times, peaks of the law, loads, and of one mechanism changes of walls."""
-    peaks, straight, rates, load = peaks_of(m), straight_peaks(m.slots), rate_peaks(m), loads(m)
+    peaks, straight = peaks_of(m), straight_peaks(m.slots)
     there, back = (m.driver.time(np.asarray(angle)) for angle in (0.0, 2 * m.crank_half))
-    found: dict[str, tuple[Any, str]] = {
-        "centre_distance": (m.axes, "mm"),
-        "crank_radius": (m.crank, "mm"),
-        "slot_bottom_radius": (m.bottom, "mm"),
-        "index_angle": (2 * m.wheel_half, "rad"),
-        "index_time": (abs(back - there), "s"),
-        "dwell_share": (dwell_share(m), ""),
-        "omega_w_max": (rates.v, "rad/s"),
-        "alpha_w_max": (rates.a, "rad/s^2"),
-        "jerk_w_max": (rates.j, "rad/s^3"),
-        "velocity_peak": (peaks.v, ""),
-        "acceleration_peak": (peaks.a, ""),
-        "jerk_peak": (peaks.j, ""),
-        "straight_velocity_peak": (straight.v, ""),
-        "straight_acceleration_peak": (straight.a, ""),
-        "straight_jerk_peak": (straight.j, ""),
-        "entry_acceleration_jump": (abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
-    }
     return {
-        **{name: Figure(unit, partial(_itself, value)) for name, (value, unit) in found.items()},
-        "contact_force_max": Figure("N", lambda: load.force),
-        "contact_pressure_max": Figure("MPa", lambda: np.where(_bears(m), load.pressure, np.nan)),
-        "crank_torque_max": Figure("N*m", lambda: load.crank_torque),
+        "centre_distance": Figure(m.axes, "mm"),
+        "crank_radius": Figure(m.crank, "mm"),
+        "slot_bottom_radius": Figure(m.bottom, "mm"),
+        "index_angle": Figure(2 * m.wheel_half, "rad"),
+        "index_time": Figure(abs(back - there), "s"),
+        "dwell_share": Figure(lambda: dwell_share(m)),
+        "omega_w_max": Figure(lambda: rate_peaks(m).v, "rad/s"),
+        "alpha_w_max": Figure(lambda: rate_peaks(m).a, "rad/s^2"),
+        "jerk_w_max": Figure(lambda: rate_peaks(m).j, "rad/s^3"),
+        "velocity_peak": Figure(peaks.v),
+        "acceleration_peak": Figure(peaks.a),
+        "jerk_peak": Figure(peaks.j),
+        "straight_velocity_peak": Figure(straight.v),
+        "straight_acceleration_peak": Figure(straight.a),
+        "straight_jerk_peak": Figure(straight.j),
+        "entry_acceleration_jump": Figure(abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2)),
+        "contact_force_max": Figure(lambda: loads(m).force, "N"),
+        "contact_pressure_max": Figure(lambda: np.where(_bears(m), loads(m).pressure, np.nan), "MPa"),
+        "crank_torque_max": Figure(lambda: loads(m).crank_torque, "N*m"),
         **(_wall_changes(m) if m.single else {}),
     }
-
-
-def _itself(value: Any) -> Any:
-    return value
 
 
 def _bears(m: Mechanism) -> Any:
@@ -122,8 +115,8 @@ def _wall_changes(m: Mechanism) -> dict[str, Figure]:
     """Where the roller changes walls, at which speed of the driver, and how hard it meets the other one."""
     found = {}
     for count, one in enumerate(switches(m), start=1):
-        found[f"wall_switch_{count}"] = Figure("deg", partial(math.degrees, one.theta))
-        found[f"wall_switch_{count}_speed"] = Figure("rpm", partial(_itself, abs(one.omega) * 60 / math.tau))
+        found[f"wall_switch_{count}"] = Figure(math.degrees(one.theta), "deg")
+        found[f"wall_switch_{count}_speed"] = Figure(abs(one.omega) * 60 / math.tau, "rpm")
         if one.impact is not None:
-            found[f"wall_switch_{count}_impact"] = Figure("mm/s", partial(_itself, one.impact))
+            found[f"wall_switch_{count}_impact"] = Figure(one.impact, "mm/s")
     return found

@@ -40,13 +40,13 @@ def masses_of(m: Mechanism) -> dict[str, PartMass] | None:
     if m.given.slots_made == "backed" or np.any(np.asarray(m.params.counterbore_diameter) > 0):
         return None
     weights = Weights(m)
-    found = {"wheel": PartMass(1, weights.wheel)}
+    found = {"wheel": PartMass(weights.wheel)}
     if np.any(np.asarray(m.params.hub_diameter) > 0):
-        found["hub"] = PartMass(1, weights.hub)
+        found["hub"] = PartMass(weights.hub)
     return found | {
-        "locking-disc": PartMass(1, weights.disc),
-        "crank": PartMass(1, weights.crank),
-        "roller": PartMass(m.params.rollers, weights.roller),
+        "locking-disc": PartMass(weights.disc),
+        "crank": PartMass(weights.crank),
+        "roller": PartMass(weights.roller, m.params.rollers),
     }
 
 

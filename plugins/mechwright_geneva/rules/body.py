@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import GeometryError
-from mechwright.contracts.design_rule import Comparison, DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
 from mechwright.contracts.design_table import by_row
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.laws import LAWS
@@ -225,7 +225,7 @@ PIN = Rule(
     limit=lambda m: 2 * m.roller * (1 - ROLLER_WALL),
     unit="mm",
     remedy=lambda f: f"make pin_diameter at most {rounded_down(f.limit)}",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
 )
 
 

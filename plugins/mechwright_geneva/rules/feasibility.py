@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import Comparison, DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
 from mechwright.contracts.finding import Change
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
@@ -134,7 +134,7 @@ STRAIGHT_HALF = Rule(
     limit=ANGLE_SLACK,
     unit="deg",
     remedy=lambda f: f"use crank_half_angle = {90 - 180 / f.m.slots:g}, leave it out, or choose another law",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     stage=Stage.MOTION,
     reported=lambda f: (f.m.params.crank_half_angle, 90 - 180 / f.m.slots),
 )
@@ -146,7 +146,7 @@ STRAIGHT_OFFSET = Rule(
     limit=0.0,
     unit="deg",
     remedy="use offset_angle = 0, leave it out, or choose another law",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     stage=Stage.MOTION,
     reported=lambda f: (f.m.params.offset_angle, 0.0),
 )
@@ -161,7 +161,7 @@ BOTTOM_ANGLE = Rule(
     limit=90 - FLATTEST,
     unit="deg",
     remedy=_flatter,
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
 )
 ENTRY_ANGLE = Rule(
     "geneva.angles",
@@ -183,7 +183,7 @@ CENTRES = Rule(
     limit=LENGTH_SLACK,
     unit="mm",
     remedy=_other_wheel,
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     stage=Stage.MOTION,
     when=lambda m: (m.given.centre_distance is not None) & np.asarray(m.axes > 0),
     reported=lambda f: (f.m.given.centre_distance, f.m.axes),
@@ -206,7 +206,7 @@ DRIVER_STOPS = Rule(
     limit=math.tau,
     unit="rad/s^2",
     remedy=_faster,
-    comparison=Comparison.ABOVE,
+    must_be="above",
     stage=Stage.MOTION,
     when=lambda m: m.given.driver_law == "accelerating" and np.asarray(m.given.driver_acceleration) < 0,
     reported=_least_deceleration,

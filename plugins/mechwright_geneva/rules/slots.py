@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import Comparison, DesignRule, Failure, no_figures
+from mechwright.contracts.design_rule import DesignRule, Failure, no_figures
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright_geneva.kinematics.mechanism import BLOCK, Mechanism
 from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, LEAST_TIP, sharpest_bend
@@ -127,7 +127,7 @@ OFFSET_SIGN = Rule(
     value=lambda m: -np.sign(m.frame.offset) * m.side,
     limit=0.0,
     unit="deg",
-    comparison=Comparison.ABOVE,
+    must_be="above",
     reported=lambda f: (math.degrees(f.m.frame.offset), 0.0),
 )
 MOUTH = Rule(
@@ -137,7 +137,7 @@ MOUTH = Rule(
     value=_mouth,
     limit=0.0,
     unit="deg",
-    comparison=Comparison.ABOVE,
+    must_be="above",
     reported=_least_offset,
 )
 UNDERCUT = Rule(
@@ -147,7 +147,7 @@ UNDERCUT = Rule(
     value=_critical_radii,
     limit=lambda m: m.groove,
     unit="mm",
-    comparison=Comparison.ABOVE,
+    must_be="above",
     reported=lambda f: (f.m.roller, f.value - f.m.params.groove_clearance / 2),
     bound=_critical_bound,
     each=False,
@@ -159,7 +159,7 @@ LOOP = Rule(
     value=lambda m: 2 * m.measures.width,
     limit=0.0,
     unit="mm",
-    comparison=Comparison.ABOVE,
+    must_be="above",
 )
 TIP = Rule(
     "geneva.island-tip",
@@ -191,7 +191,7 @@ LOOSE_ISLANDS = Rule(
     "slots that are cut through set their islands free: {m.slots} pieces fall out of the wheel",
     value=lambda m: m.params.slots_made == "through",
     limit=0,
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     remedy='use construction = "blind" for grooves with a floor, or "backed" for islands on a plate',
     reported=no_figures,
     when=lambda m: not m.straight,
@@ -202,7 +202,7 @@ NO_ISLANDS = Rule(
     "straight slots have no islands that a backing plate could carry",
     value=lambda m: m.params.slots_made == "backed",
     limit=0,
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     remedy='use construction = "through" or "blind"',
     reported=no_figures,
     when=lambda m: m.straight,

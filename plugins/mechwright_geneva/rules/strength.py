@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Severity, material
-from mechwright.contracts.design_rule import Comparison, DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure, Note
 from mechwright.contracts.rule_list import all_of
 from mechwright.geometry.keyway import KeySize, key_of_width
 from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_KEY, allowed
@@ -68,7 +68,7 @@ ACCELERATION = Rule(
     value=lambda m: peaks_of(m).a,
     limit=lambda m: straight_peaks(m.slots).a,
     remedy=_gentler_law,
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     severity=Severity.WARNING,
     when=lambda m: not _has_defaults(m),
 )
@@ -79,7 +79,7 @@ JUMPS = Rule(
     value=lambda m: max(abs(jump) for jump in m.law.jumps),
     limit=JUMP,
     remedy="choose a law whose acceleration is 0 at both ends",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     severity=Severity.WARNING,
     reported=lambda f: (max(abs(jump) for jump in f.m.law.jumps), 0.0),
 )
@@ -139,7 +139,7 @@ STALL = Rule(
     limit=_energy,
     unit="mJ",
     remedy=_faster,
-    comparison=Comparison.BELOW,
+    must_be="below",
     when=lambda m: np.asarray(m.params.load_torque) > 0,
 )
 LOST_SPEED = STALL.but(
@@ -175,7 +175,7 @@ RAMP = Rule(
     unit="N*m",
     remedy="have the driver reach its speed while the wheel rests; at constant speed the wheel needs no "
     "torque there",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     severity=Severity.WARNING,
     when=lambda m: _ramp(m)[2] > LEVEL,
 )
@@ -191,7 +191,7 @@ PRESSURE = Rule(
     limit=lambda m: strength(m.params.material, m.params.roller_material),
     unit="MPa",
     remedy="use a stronger material, a longer roller or a lower speed",
-    comparison=Comparison.AT_MOST,
+    must_be="at most",
     severity=Severity.WARNING,
 )
 

@@ -1,20 +1,25 @@
 """The family: parameters in, findings, motion and parts out."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from mechwright import (
+    Channel,
+    DesignTable,
     Family,
-    Finding,
+    Figure,
     Motion,
     Parameters,
     Part,
+    Poses,
     Progress,
+    Rules,
     Synthesis,
     ToleranceModel,
     Tolerances,
+    scalars,
 )
 from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
@@ -55,17 +60,31 @@ class ScotchYoke(Family[ScotchYokeParams]):
     Params = ScotchYokeParams
     requirements: ClassVar = {"stroke": StrokeRequirement}
 
-    def check(self, params: ScotchYokeParams) -> Sequence[Finding]:
+    def rules(self) -> Rules[DesignTable[ScotchYokeParams]]:
         """Strength, room for the bores and the stem, lost motion."""
-        from mechwright_scotch_yoke import checks
+        from mechwright_scotch_yoke.rules import RULES
 
-        return checks.check(params)
+        return RULES
 
-    def solve(self, params: ScotchYokeParams, samples: int) -> Motion:
+    def figures(self, table: DesignTable[ScotchYokeParams]) -> Mapping[str, Figure]:
+        """Stroke, velocity, mass and force."""
+        from mechwright_scotch_yoke import kinematics
+
+        return kinematics.figures(table.params)
+
+    def channels(self, table: DesignTable[ScotchYokeParams], samples: int) -> Mapping[str, Channel]:
         """One turn of the crank from the outer dead centre, at constant speed."""
         from mechwright_scotch_yoke import kinematics
 
-        return kinematics.motion(params, samples)
+        return kinematics.channels(table.params, samples)
+
+    def solve(self, params: ScotchYokeParams, samples: int) -> Motion:
+        """The same of one design, with the poses of crank and yoke."""
+        table = self.table(params)
+        found = self.channels(table, samples)
+        theta, x = found["theta"].values, found["x"].values
+        poses = {"crank": Poses.planar(0.0, 0.0, theta), "yoke": Poses.planar(x, 0.0, 0 * x)}
+        return Motion("theta", found, poses, scalars(self.figures(table)))
 
     def parts(self, params: ScotchYokeParams) -> Sequence[Part]:
         """The crank and the yoke."""

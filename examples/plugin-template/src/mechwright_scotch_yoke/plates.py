@@ -94,6 +94,9 @@ def yoke_outline(params: "ScotchYokeParams") -> Outline:
 
 
 def yoke_mass(params: "ScotchYokeParams") -> float:
-    """Mass of the yoke, kg."""
-    cubic_centimetres = yoke_outline(params).area * params.yoke_thickness / 1000
-    return cubic_centimetres * material(params.yoke_material).density / 1000
+    """Mass of the yoke, kg: head without its slot, stem, fillets; a column (n, 1) in a table of designs."""
+    r, slot = params.crank_radius, (params.pin_diameter + params.clearance) / 2
+    head = slot + params.rim
+    ring = math.pi * (head**2 - slot**2) + 4 * r * (head - slot)
+    area = ring + params.stem_length * params.stem_width + 2 * (1 - math.pi / 4) * FILLET**2
+    return area * params.yoke_thickness / 1000 * material(params.yoke_material).density / 1000

@@ -4,8 +4,8 @@ import math
 
 from mechwright import Candidate, Finding, Scalar, Severity, Synthesis
 from mechwright.contracts.finding import errors
-from mechwright_scotch_yoke import checks
-from mechwright_scotch_yoke.family import ScotchYokeParams, StrokeRequirement
+from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams, StrokeRequirement
+from mechwright_scotch_yoke.kinematics import peak_force
 
 FASTEST = 600.0
 """Crank speed, rev/min, above which a plain bearing of the default sizes runs hot."""
@@ -29,8 +29,8 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[ScotchYokeParams]:
         )
         return Synthesis((), (fault,))
     params = ScotchYokeParams.model_validate({"crank_radius": radius, "speed": speed})
-    findings = checks.check(params)
+    findings = ScotchYoke().check(params)
     if errors(findings):
         return Synthesis((), tuple(findings))
-    force = checks.peak_force(params, speed * math.tau / 60)
-    return Synthesis((Candidate(params, Scalar(0.0, "mm"), {"peak_force": Scalar(force, "N")}),))
+    force = Scalar(peak_force(params), "N")
+    return Synthesis((Candidate(params, Scalar(0.0, "mm"), {"peak_force": force}),))
