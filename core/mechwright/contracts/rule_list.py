@@ -62,7 +62,11 @@ class Rules(Generic[D]):
         return found
 
     def allowed(
-        self, table: D, stage: Stage, forbid: Callable[[str, NDArray[np.intp]], None]
+        self,
+        table: D,
+        stage: Stage,
+        forbid: Callable[[str, NDArray[np.intp]], None],
+        fail: Callable[[str, int, Exception], None] | None = None,
     ) -> tuple[D, NDArray[np.intp]]:
         """Sort out the designs of a table that have an error of a stage or an earlier one.
 
@@ -74,6 +78,9 @@ class Rules(Generic[D]):
             Up to which errors count.
         forbid
             Takes the code of an error, and the places (k,) of the designs that it forbids first.
+        fail
+            Takes the code of a rule, the place of a design for which its formulas fail, and what they raise;
+            without it they raise.
 
         Returns
         -------
@@ -82,7 +89,16 @@ class Rules(Generic[D]):
         """
         places = np.arange(table.size)
         for rule in self.of(table):
-            wrong = rule.forbids(table, stage)
+            try:
+                wrong = rule.forbids(table, stage)
+            except Exception as error:
+                if fail is None or isinstance(error, MemoryError):
+                    raise
+                wrong, failed = _one_by_one(rule, table, stage, error)
+                for place, reason in failed.items():
+                    fail(rule.codes[0], int(places[place]), reason)
+                sound = np.array([place for place in range(table.size) if place not in failed], np.intp)
+                places, table, wrong = places[sound], table.rows(sound), wrong[sound]
             if wrong is None or not wrong.any():
                 continue
             forbid(rule.codes[0], places[wrong])
@@ -91,6 +107,27 @@ class Rules(Generic[D]):
             if not left.size:
                 break
         return table, places
+
+
+def _one_by_one(
+    rule: Asked[D], table: D, stage: Stage, error: Exception
+) -> tuple[NDArray[np.bool_], dict[int, Exception]]:
+    """Which designs (n,) a rule forbids, and the places at which it raises, found by halving the table."""
+    if table.size == 1:
+        return np.zeros(1, bool), {0: error}
+    wrong = np.zeros(table.size, bool)
+    failed: dict[int, Exception] = {}
+    for half in np.array_split(np.arange(table.size), 2):
+        some = table.rows(half)
+        try:
+            found = rule.forbids(some, stage)
+            reasons: dict[int, Exception] = {}
+        except Exception as reason:  # whatever a formula raises
+            found, reasons = _one_by_one(rule, some, stage, reason)
+        if found is not None:
+            wrong[half] = found
+        failed |= {int(half[place]): one for place, one in reasons.items()}
+    return wrong, failed
 
 
 def all_of(*rules: "Asked[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:

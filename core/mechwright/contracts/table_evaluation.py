@@ -4,6 +4,7 @@ Designs of one structure make a table (:mod:`mechwright.contracts.design_table`)
 family take as they take one design.
 """
 
+import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any, ClassVar, Protocol
@@ -22,6 +23,9 @@ from mechwright.contracts.motion import Channel
 from mechwright.contracts.rule_list import Rules
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.singly import Asked, singly
+
+FAULT = "fault"
+"""What forbids a design for which a formula of its family fails, before the code of the rule."""
 
 ENDS: Mapping[str, Callable[[Array], Array]] = {
     "least": lambda values: values.min(axis=-1),
@@ -70,7 +74,7 @@ def answer(family: Evaluated, designs: Designs, columns: Collection[str], stage:
     """Give what forbids designs, and their columns; see :mod:`mechwright.contracts.by_arrays`."""
     found = Answer(len(designs))
     for places, params in tables(designs, family.structure, family.counts):
-        _judged(family, family.table(params, places.size), columns, stage, found, places)
+        _Judge(family, designs, places, found).take(family.table(params, places.size), columns, stage)
     return found
 
 
@@ -117,25 +121,59 @@ def _of(params: Any, name: str) -> Any:
     return params
 
 
-def _judged(
-    family: Evaluated,
-    table: DesignTable[Any],
-    columns: Collection[str],
-    stage: Stage,
-    found: Answer,
-    places: NDArray[np.intp],
-) -> None:
-    """Take the answer on the designs of one table, which are at ``places``."""
+class _Judge:
+    """Takes the answer on the designs of one table.
 
-    def forbid(code: str, which: NDArray[np.intp]) -> None:
-        found.forbid(code, np.ones(which.size, bool), places[which])
+    Parameters
+    ----------
+    family
+        Theirs.
+    designs
+        All designs of the call.
+    places
+        (n,) where those of the table are.
+    """
 
-    table, left = family.rules().allowed(table, stage, forbid)
-    places = places[left]
-    if not places.size:
-        return
-    for name, values in columns_of(family, table, columns, stage).items():
-        found.give(name, values, places)
+    def __init__(self, family: Evaluated, designs: Designs, places: NDArray[np.intp], found: Answer) -> None:
+        self.family, self.designs, self.places, self.found = family, designs, places, found
+        self._seen: set[str] = set()
+
+    def forbid(self, code: str, which: NDArray[np.intp]) -> None:
+        """Take what forbids some of them."""
+        self.found.forbid(code, np.ones(which.size, bool), self.places[which])
+
+    def fail(self, code: str, place: int, reason: Exception) -> None:
+        """Take a design for which a formula fails; the first of each rule is a warning."""
+        self.forbid(f"{FAULT}.{code}", np.array([place]))
+        if code not in self._seen:
+            self._seen.add(code)
+            row = int(self.places[place])
+            design = ", ".join(f"{name} = {values[row]}" for name, values in self.designs.varied.items())
+            said = f"{type(reason).__name__}: {reason}".removeprefix("RuleError: ")
+            warnings.warn(f"{code} fails for the design {design} (row {row + 1}): {said}", stacklevel=2)
+
+    def take(self, table: DesignTable[Any], columns: Collection[str], stage: Stage) -> None:
+        """Take what rules forbid, and the columns of the rest."""
+        table, left = self.family.rules().allowed(table, stage, self.forbid, self.fail)
+        if left.size:
+            self._give(table, left, columns, stage)
+
+    def _give(
+        self, table: DesignTable[Any], places: NDArray[np.intp], columns: Collection[str], stage: Stage
+    ) -> None:
+        try:
+            values = columns_of(self.family, table, columns, stage)
+        except MemoryError:
+            raise
+        except Exception as error:  # whatever a formula raises of one of them, the others stand
+            if table.size == 1:
+                self.fail("figures", int(places[0]), error)
+                return
+            for half in np.array_split(np.arange(table.size), 2):
+                self._give(table.rows(half), places[half], columns, stage)
+            return
+        for name, some in values.items():
+            self.found.give(name, some, self.places[places])
 
 
 def columns_of(
