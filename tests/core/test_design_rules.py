@@ -178,12 +178,22 @@ class TestOneRule:
             return t.params.a
 
         one = rule(value=exact, bound=lambda t: (t.params.a - 2, t.params.a + 2))
-        assert one.forbids(table(a=[-5, -1, 1, 5]), Stage.PARTS).tolist() == [True, True, False, False]
+        assert allowed(all_of(one), table(a=[-5, -1, 1, 5])) == ["r", "r", "", ""]
         assert seen == [-1, 1]
         seen.clear()
         assert not list(one.findings(DesignTable(Params(a=5)), quick=False))
         assert seen == []
         assert list(one.findings(DesignTable(Params(a=-5)), quick=False))
+
+    def test_a_bound_of_what_may_be_at_most_a_limit(self):
+        seen = []
+        one = rule(
+            value=lambda t: seen.extend(np.ravel(t.params.a)) or t.params.a,
+            bound=lambda t: (t.params.a - 2, t.params.a + 2),
+            must_be="at most",
+        )
+        assert allowed(all_of(one), table(a=[-5, -1, 1, 5])) == ["", "", "r", "r"]
+        assert seen == [-1, 1]
 
     def test_warnings_and_later_stages_forbid_nothing(self):
         some = table(a=[-1.0])

@@ -168,15 +168,29 @@ class DesignRule(Generic[D]):
         wrong[places] = self._fails(table.rows(places))
         return wrong
 
+    @property
+    def sure(self) -> "DesignRule[D] | None":
+        """The same rule as far as its bound breaks it: it is asked of a table before; None without a bound."""
+        if self.bound is None:
+            return None
+        best = 1 if self.must_be in ("at least", "above") else 0
+        return self.but(value=lambda table: self._bounds(table)[best], bound=None)
+
+    def _bounds(self, table: D) -> tuple[Any, Any]:
+        """Give what the value is at least and at most; it goes along with the rows of the table."""
+        assert self.bound is not None  # noqa: S101 - it is asked of rules that have one
+        bound = self.bound
+        return table.once(("bound", self.code, id(bound)), lambda: bound(table))
+
     def _fails(self, table: D) -> Bools:
         """Give the designs (n,) that break it, of those that are asked."""
         if self.bound is None:
             return self._compared(table)
-        low, high = self.bound(table)
-        limit = self._limit(table)
-        least, most = (_truth(_breaks(self.must_be, one, limit), table.size) for one in (low, high))
-        unsure = np.flatnonzero(least != most)
-        wrong = least & most
+        worst = self._bounds(table)[0 if self.must_be in ("at least", "above") else 1]
+        doubt = _truth(_breaks(self.must_be, worst, self._limit(table)), table.size)
+        if doubt.all():
+            return self._compared(table)
+        wrong, unsure = np.zeros(table.size, bool), np.flatnonzero(doubt)
         if unsure.size:
             wrong[unsure] = self._compared(table.rows(unsure))
         return wrong
@@ -194,10 +208,8 @@ class DesignRule(Generic[D]):
         """Give what breaks it of one design; see :class:`Asked`."""
         if (self.when is not None and not np.any(self.when(m))) or (quick and self.slow == "value"):
             return
-        if self.bound is not None:
-            limit = self._limit(m)
-            if not any(np.any(_breaks(self.must_be, one, limit)) for one in self.bound(m)):
-                return
+        if self.bound is not None and not self._fails(m).any():
+            return
         value, limit = self.value(m), self._limit(m)
         if np.isnan(value).any():
             raise RuleError(self.code, value, m)

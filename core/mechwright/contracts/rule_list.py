@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.contracts.design_rule import Asked
+from mechwright.contracts.design_rule import Asked, DesignRule
 from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Severity, Stage
 
@@ -47,8 +47,10 @@ class Rules(Generic[D]):
         for one in self.every:
             if isinstance(one, Rules):
                 yield from one.of(table)
-            else:
-                yield one
+                continue
+            if isinstance(one, DesignRule) and one.sure is not None:
+                yield one.sure
+            yield one
 
     def findings(self, m: D, *, quick: bool = False) -> list[Finding]:
         """Give what there is to say of one design, in order."""

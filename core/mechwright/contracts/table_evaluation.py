@@ -37,6 +37,7 @@ ENDS: Mapping[str, Callable[[Array], Array]] = {
 class Evaluated(Asked, Protocol):
     """A family whose designs are evaluated as tables."""
 
+    batch: ClassVar[int]
     structure: ClassVar[frozenset[str]]
     counts: ClassVar[frozenset[str]]
     block: ClassVar[int]
@@ -66,7 +67,7 @@ class Evaluated(Asked, Protocol):
 def evaluated(family: Evaluated, batch: Batch[Any], columns: Collection[str], stage: Stage) -> Columns:
     """Give what :meth:`Family.evaluate` says: by tables, or design by design if a family lists no rules."""
     if family.rules().every:
-        return by_arrays(family, batch, columns, stage, partial(answer, family), chunk=family.block)
+        return by_arrays(family, batch, columns, stage, partial(answer, family), chunk=family.batch)
     return singly(family, batch, columns, stage, np.arange(len(batch)))
 
 
@@ -74,7 +75,11 @@ def answer(family: Evaluated, designs: Designs, columns: Collection[str], stage:
     """Give what forbids designs, and their columns; see :mod:`mechwright.contracts.by_arrays`."""
     found = Answer(len(designs))
     for places, params in tables(designs, family.structure, family.counts):
-        _Judge(family, designs, places, found).take(family.table(params, places.size), columns, stage)
+        table = family.table(params, places.size)
+        for start in range(0, places.size, family.block):
+            some = np.arange(start, min(start + family.block, places.size))
+            part = table if some.size == places.size else table.rows(some)
+            _Judge(family, designs, places[some], found).take(part, columns, stage)
     return found
 
 
