@@ -170,7 +170,7 @@ class DesignRule(Generic[D]):
 
     @property
     def sure(self) -> "DesignRule[D] | None":
-        """The same rule as far as its bound breaks it: it is asked of a table before; None without a bound."""
+        """The same rule as far as its bound breaks it, which is asked before; None without a bound."""
         if self.bound is None:
             return None
         best = 1 if self.must_be in ("at least", "above") else 0
