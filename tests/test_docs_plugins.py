@@ -103,7 +103,7 @@ def test_the_family_moves_is_made_and_is_refused_where_it_has_to_be(flywheel):
     family = flywheel.design.family
     assert list(family.check(family.Params())) == []
     (fault,) = errors(family.check(family.Params(bore=72)))
-    assert (fault.value, fault.remedy) == (4, "use at most 70 mm")
+    assert (fault.value, fault.remedy) == (4, "make bore at most 70")
     assert list(family.check(family.Params(bore=70))) == []
     assert flywheel.motion.channels["time"].values[-1] == pytest.approx(0.1)
     (part,) = flywheel.parts
