@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import rule_page
 from imported import sources
 
 import mechwright
@@ -99,6 +100,16 @@ def test_every_public_class_of_the_contracts_is_documented():
     assert {"Family", "Control", "Exporter", "Page", "FamilyContract", "Outline", "Finding"} <= set(names)
     text = PLUGINS.read_text(encoding="utf-8")
     assert [name for name in names if not re.search(rf"`{name}\b", text)] == []
+
+
+def test_the_page_of_rules_is_what_families_declare():
+    assert rule_page.PAGE.read_text(encoding="utf-8") == rule_page.page(), (
+        "python docs/rule_page.py writes it anew"
+    )
+    declared = set(re.findall(r"`((?:bore|geneva)\.[\w-]+)`", rule_page.page()))
+    listed = set(re.findall(r"`((?:bore|geneva)\.[\w-]+)`", (ROOT / "docs" / "geneva.md").read_text("utf-8")))
+    assert declared - listed == set()
+    assert listed - declared == {"geneva.as-made", "geneva.as-made-lock", "geneva.requirement"}
 
 
 def test_every_public_name_is_documented_and_can_be_imported():
