@@ -1,4 +1,4 @@
-"""Rules that are declared once: of one design, of a table, in order, with bounds, items and faults."""
+"""Rules that are declared once: of one design, of a table, in order, with items and faults."""
 
 import math
 import warnings
@@ -177,7 +177,7 @@ class TestOneRule:
             seen.extend(np.ravel(t.params.a).tolist())
             return t.params.a
 
-        one = rule(value=exact, bound=lambda t: (t.params.a - 2, t.params.a + 2))
+        one = rule(value=exact, worst=lambda t: t.params.a - 2, best=lambda t: t.params.a + 2)
         assert allowed(all_of(one), table(a=[-5, -1, 1, 5])) == ["r", "r", "", ""]
         assert seen == [-1, 1]
         seen.clear()
@@ -189,7 +189,8 @@ class TestOneRule:
         seen = []
         one = rule(
             value=lambda t: seen.extend(np.ravel(t.params.a)) or t.params.a,
-            bound=lambda t: (t.params.a - 2, t.params.a + 2),
+            best=lambda t: t.params.a - 2,
+            worst=lambda t: t.params.a + 2,
             must_be="at most",
         )
         assert allowed(all_of(one), table(a=[-5, -1, 1, 5])) == ["", "", "r", "r"]
@@ -270,7 +271,9 @@ class TestLists:
             limit = data.draw(st.integers(-2, 2))
             more = {"when": lambda t: np.asarray(t.params.c) > 0} if data.draw(st.booleans()) else {}
             if data.draw(st.booleans()):
-                more["bound"] = lambda t: (getattr(t.params, name) - 1, getattr(t.params, name) + 1)
+                more["worst"] = lambda t: getattr(t.params, name) - 1
+            if data.draw(st.booleans()):
+                more["best"] = lambda t: getattr(t.params, name) + 1
             return rule(f"r{number}", value=lambda t: getattr(t.params, name), limit=limit, **more)
 
         def rules(depth, start):

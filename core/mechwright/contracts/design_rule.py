@@ -25,8 +25,8 @@ Glossary
 value, limit
     Numbers or columns (n, 1) of a table; (n, k) of a rule that is asked of k items of each design, such as
     pins or pairs.
-bound
-    Two columns between which the value lies, found cheaply: rows that they decide need no value.
+best, worst
+    Columns that the value does not pass, found cheaply: rows that they decide need no value.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -120,8 +120,8 @@ class DesignRule(Generic[D]):
         The value and limit that the finding says, where they are not those that are compared.
     proposed
         Changes that should help.
-    bound
-        The least and the greatest that the value can be.
+    best, worst
+        What the value is at best and at worst, found cheaply: rows that this decides need no value.
     each
         Whether each item that fails is a finding; else the first.
     slow
@@ -142,7 +142,8 @@ class DesignRule(Generic[D]):
     when: Callable[[D], Any] | None = None
     reported: "Callable[[Failure[D]], tuple[float | None, float | None]] | None" = None
     proposed: Callable[[Failure[D]], Iterable[Change]] | None = None
-    bound: Callable[[D], tuple[Any, Any]] | None = None
+    best: Callable[[D], Any] | None = None
+    worst: Callable[[D], Any] | None = None
     each: bool = True
     slow: str = ""
 
@@ -169,25 +170,15 @@ class DesignRule(Generic[D]):
         return wrong
 
     @property
-    def sure(self) -> "DesignRule[D] | None":
-        """The same rule as far as its bound breaks it, which is asked before; None without a bound."""
-        if self.bound is None:
-            return None
-        best = 1 if self.must_be in ("at least", "above") else 0
-        return self.but(value=lambda table: self._bounds(table)[best], bound=None)
-
-    def _bounds(self, table: D) -> tuple[Any, Any]:
-        """Give what the value is at least and at most; it goes along with the rows of the table."""
-        assert self.bound is not None  # noqa: S101 - it is asked of rules that have one
-        bound = self.bound
-        return table.once(("bound", self.code, id(bound)), lambda: bound(table))
+    def surely(self) -> "DesignRule[D] | None":
+        """The same rule of what the value is at best, which a table is asked before; None without that."""
+        return None if self.best is None else self.but(value=self.best, best=None, worst=None)
 
     def _fails(self, table: D) -> Bools:
         """Give the designs (n,) that break it, of those that are asked."""
-        if self.bound is None:
+        if self.worst is None:
             return self._compared(table)
-        worst = self._bounds(table)[0 if self.must_be in ("at least", "above") else 1]
-        doubt = _truth(_breaks(self.must_be, worst, self._limit(table)), table.size)
+        doubt = _truth(_breaks(self.must_be, self.worst(table), self._limit(table)), table.size)
         if doubt.all():
             return self._compared(table)
         wrong, unsure = np.zeros(table.size, bool), np.flatnonzero(doubt)
@@ -208,7 +199,7 @@ class DesignRule(Generic[D]):
         """Give what breaks it of one design; see :class:`Asked`."""
         if (self.when is not None and not np.any(self.when(m))) or (quick and self.slow == "value"):
             return
-        if self.bound is not None and not self._fails(m).any():
+        if self.worst is not None and not self._fails(m).any():
             return
         value, limit = self.value(m), self._limit(m)
         if np.isnan(value).any():

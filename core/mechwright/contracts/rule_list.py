@@ -48,8 +48,8 @@ class Rules(Generic[D]):
             if isinstance(one, Rules):
                 yield from one.of(table)
                 continue
-            if isinstance(one, DesignRule) and one.sure is not None:
-                yield one.sure
+            if isinstance(one, DesignRule) and (surely := one.surely) is not None:
+                yield surely
             yield one
 
     def findings(self, m: D, *, quick: bool = False) -> list[Finding]:

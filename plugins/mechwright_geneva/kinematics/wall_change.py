@@ -8,7 +8,6 @@ the clearance. Each change is taken by itself, as if the roller had lain on the 
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
@@ -81,13 +80,11 @@ def _shares(m: Mechanism, stroke: int) -> list[float]:
     values = torque(m, grid, stroke)
     least = _NOTHING * float(np.abs(values).max())
     there = np.flatnonzero(np.abs(values) > least)
-    found = []
-    for one, two in pairwise(there.tolist()):
-        if values[one] * values[two] < 0:
-            ends = float(grid[one]), float(grid[two])
-            found.append(
-                float(brentq(lambda u: float(torque(m, np.array([u]), stroke)[0]), *ends, xtol=1e-15))
-            )
+    changes = np.flatnonzero(values[there[:-1]] * values[there[1:]] < 0)
+    found = [
+        float(brentq(lambda u: float(torque(m, np.array([u]), stroke)[0]), *ends, xtol=1e-15))
+        for ends in zip(grid[there[changes]].tolist(), grid[there[changes + 1]].tolist(), strict=True)
+    ]
     if not m.straight:
         middle = 0.5
         near = [u for u in found if abs(u - middle) < _AFTER**2]

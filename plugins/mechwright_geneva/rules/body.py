@@ -146,12 +146,11 @@ def _lock_fault(m: Mechanism) -> str:
     return ""
 
 
-def _drawable(m: Mechanism) -> tuple[Any, Any]:
-    """Whether the disc surely can, and whether it perhaps can; of other laws only drawing tells it."""
+def _drawn(m: Mechanism) -> Any:
+    """1 where the disc surely can be drawn, -1 where not; of other laws only drawing tells it, 0."""
     if not m.straight and m.given.law not in LAWS:
-        return 0, 1
-    found = m.each(drawn, BLOCK)[:, None]
-    return found > 0, found >= 0
+        return 0
+    return m.once("drawn", lambda: m.each(drawn, BLOCK)[:, None])
 
 
 LOCK_LOOP = Rule(
@@ -166,7 +165,8 @@ LOCK_LOOP = Rule(
         if f.m.greatest_lock >= f.m.lock
         else f"make lock_radius at most {rounded_down(f.m.greatest_lock)}, or leave it out"
     ),
-    bound=_drawable,
+    best=lambda m: _drawn(m) >= 0,
+    worst=lambda m: _drawn(m) > 0,
     reported=lambda f: (f.m.lock, f.m.greatest_lock),
 )
 HUB_ROOM = Rule(

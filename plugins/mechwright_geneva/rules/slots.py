@@ -85,12 +85,11 @@ def _critical_radii(m: Mechanism) -> Any:
     return np.concatenate((m.measures.island_limit, m.measures.hub_limit), axis=1)
 
 
-def _critical_bound(m: Mechanism) -> tuple[Any, Any]:
-    """Critical radii are at most those of some samples; few samples of half a stroke cost no more."""
+def _critical_radius_at_best(m: Mechanism) -> Any:
+    """That of some samples; few samples of half a stroke cost no more than these."""
     if m.samples < FINE_SAMPLES:
-        return 0.0, np.inf
-    tightest = m.each(lambda some: sharpest_bend(some.frame.columns(some.size), some.law), BLOCK)
-    return 0.0, (1 + SURE) / tightest
+        return np.inf
+    return (1 + SURE) / m.each(lambda some: sharpest_bend(some.frame.columns(some.size), some.law), BLOCK)
 
 
 def _undercut_message(f: Fails) -> str:
@@ -149,7 +148,7 @@ UNDERCUT = Rule(
     unit="mm",
     must_be="above",
     reported=lambda f: (f.m.roller, f.value - f.m.params.groove_clearance / 2),
-    bound=_critical_bound,
+    best=_critical_radius_at_best,
     each=False,
 )
 LOOP = Rule(
