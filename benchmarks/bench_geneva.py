@@ -12,7 +12,7 @@ import numpy as np
 from harness import race, report, require
 
 from mechwright import Array
-from mechwright_geneva.defaults.dimensions import mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import complete, mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.kinematics.slot_limits import SWEEP_SAMPLES
 from mechwright_geneva.parameters import GenevaParams
@@ -60,7 +60,7 @@ def measured_throughout() -> int:
 
 def _valid(half: Array, offset: Array, radius: Array) -> int:
     columns = {"crank_half_angle": half, "offset_angle": offset, "roller_radius": radius}
-    return int(allowed(trial(sized(GenevaParams()), DESIGNS, SWEEP_SAMPLES, **columns)).sum())
+    return int(allowed(trial(complete(GenevaParams()), DESIGNS, SWEEP_SAMPLES, **columns)).sum())
 
 
 def main() -> int:

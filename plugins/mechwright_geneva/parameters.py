@@ -284,7 +284,7 @@ class GenevaParams(Parameters):
 
 
 class Sizes(GenevaParams):
-    """A design table that leaves no dimension open; :func:`mechwright_geneva.sizes.sized` completes one."""
+    """A design table that leaves no dimension open; :mod:`mechwright_geneva.defaults.dimensions` completes one."""
 
     crank_half_angle: float
     offset_angle: float

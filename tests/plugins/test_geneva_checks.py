@@ -9,7 +9,7 @@ from by_night import examples
 from mechwright import Stage
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.defaults.dimensions import sized
+from mechwright_geneva.defaults.dimensions import complete
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.kinematics.slot_limits import SWEEP_SAMPLES
 from mechwright_geneva.parameters import GenevaParams
@@ -307,7 +307,7 @@ class TestSweepAgainstCheck:
     def table(self, count):
         names = ("crank_half_angle", "offset_angle", "roller_radius")
         return trial(
-            sized(GenevaParams(**REFERENCE | {"pin_diameter": 1})),
+            complete(GenevaParams(**REFERENCE | {"pin_diameter": 1})),
             count,
             SWEEP_SAMPLES,
             **dict(zip(names, self.designs(count), strict=True)),

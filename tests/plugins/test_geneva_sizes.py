@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mechwright import GeometryError, Severity, Stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva.defaults.dimensions import LEFT_OPEN, mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import LEFT_OPEN, complete, mechanism_of
 from mechwright_geneva.defaults.preferred_sizes import PINS, ROLLERS
 from mechwright_geneva.defaults.proportions import ANGLES
 from mechwright_geneva.family import Geneva
@@ -40,7 +40,7 @@ def check(**table):
 )
 def test_a_thin_wheel_has_a_thin_floor(thickness, floor):
     table = GenevaParams(thickness=thickness)
-    assert table.floor == sized(table).floor == pytest.approx(floor)
+    assert table.floor == complete(table).floor == pytest.approx(floor)
     assert table.roller_length >= 0.7 * thickness - 0.5 - 1e-9
     assert not errors(GENEVA.check(table), Stage.PARTS)
     assert GenevaParams(thickness=thickness, floor=1.0).floor == 1.0
@@ -52,7 +52,7 @@ def test_slots_and_law_are_enough(slots, law):
     params = GenevaParams(slots=slots, law=law)
     assert errors(GENEVA.check(params)) == []
     assert {"wheel", "locking-disc", "crank", "roller"} <= {part.name for part in GENEVA.parts(params)}
-    sizes = sized(params)
+    sizes = complete(params)
     assert 2 * sizes.roller_radius in ROLLERS
     assert {sizes.pin_diameter, sizes.bore, sizes.driver_bore} <= set(PINS)
     assert sizes.fixing in (*PINS, 0.0)
@@ -71,12 +71,12 @@ def test_a_law_of_ones_own_is_enough_too(slots, law):
 @pytest.mark.parametrize("slots", SLOTS)
 def test_the_usual_angles_suit_every_law(slots, law):
     """No law needs other angles than the table's; the roller follows the law."""
-    sizes = sized(GenevaParams(slots=slots, law=law))
+    sizes = complete(GenevaParams(slots=slots, law=law))
     assert (sizes.crank_half_angle, sizes.offset_angle, sizes.entry_radius) == (*ANGLES[slots], 100)
 
 
 def test_four_slots_are_the_worked_reference():
-    sizes = sized(GenevaParams())
+    sizes = complete(GenevaParams())
     expected = {
         "crank_half_angle": 50,
         "offset_angle": 5,
@@ -97,7 +97,7 @@ def test_what_is_left_out_is_told():
     assert note.severity is Severity.NOTE
     assert "crank_half_angle 60, offset_angle 10, entry_radius 100" in note.message
     assert " bore " not in note.message
-    whole = {key: getattr(sized(GenevaParams()), key) for key in LEFT_OPEN}
+    whole = {key: getattr(complete(GenevaParams()), key) for key in LEFT_OPEN}
     assert "geneva.left-out" not in [finding.code for finding in check(**whole)]
 
 
@@ -110,7 +110,7 @@ laws = st.sampled_from([*LAWS, "straight"])
 def test_a_wheel_of_any_size_is_kept_inside_the_published_bounds(slots, law, radius):
     """Curved slots on every wheel; straight ones where the driver has room, else the least wheel is named."""
     params = GenevaParams(slots=slots, law=law, entry_radius=radius, load_inertia=0)
-    sizes = sized(params)
+    sizes = complete(params)
     assert sizes.entry_radius == radius
     GenevaParams(**{key: getattr(sizes, key) for key in LEFT_OPEN if key != "centre_distance"})
     found = errors(GENEVA.check(params), Stage.PARTS)
@@ -149,7 +149,7 @@ def test_a_centre_distance_is_kept(slots, law, axes):
 def test_what_is_given_is_kept_or_refused_by_its_name_with_what_works(slots, law, table):
     params = GenevaParams(slots=slots, law=law, **table)
     if not set(table) - {"crank_half_angle"} or "roller_radius" not in table:
-        sizes = sized(params)
+        sizes = complete(params)
         assert {key: getattr(sizes, key) for key in table} == table
     for finding in errors(GENEVA.check(params), Stage.PARTS):
         assert finding.parameter in table, finding
@@ -171,17 +171,17 @@ def test_both_sizes_tell_the_crank():
     params = GenevaParams(slots=5, entry_radius=85, centre_distance=100)
     assert errors(GENEVA.check(params)) == []
     assert mechanism_of(params).axes == pytest.approx(100, abs=1e-9)
-    assert sized(params).crank_half_angle == pytest.approx(55.937160, abs=1e-5)
+    assert complete(params).crank_half_angle == pytest.approx(55.937160, abs=1e-5)
 
 
 def test_a_large_roller_has_a_large_wheel():
-    sizes = sized(GenevaParams(slots=8, roller_radius=9.5))
+    sizes = complete(GenevaParams(slots=8, roller_radius=9.5))
     assert (sizes.roller_radius, sizes.entry_radius) == (9.5, 190)
     assert errors(check(slots=8, roller_radius=9.5)) == []
 
 
 def test_several_rollers_have_shorter_strokes():
-    sizes = sized(GenevaParams(rollers=4))
+    sizes = complete(GenevaParams(rollers=4))
     assert sizes.crank_half_angle <= 42.5
     assert errors(check(rollers=4)) == []
 
@@ -259,8 +259,8 @@ def test_a_disc_that_the_horns_cut_is_refused_with_one_that_they_miss():
 
 @pytest.mark.parametrize(("radius", "inertia"), [(20.0, 1.6e-5), (100.0, 0.01), (400.0, 0.01)])
 def test_a_load_that_is_left_out_is_in_proportion_to_a_small_wheel(radius: float, inertia: float) -> None:
-    assert sized(GenevaParams(entry_radius=radius)).load_inertia == pytest.approx(inertia)
-    assert sized(GenevaParams(entry_radius=radius, load_inertia=0.02)).load_inertia == 0.02
+    assert complete(GenevaParams(entry_radius=radius)).load_inertia == pytest.approx(inertia)
+    assert complete(GenevaParams(entry_radius=radius, load_inertia=0.02)).load_inertia == 0.02
 
 
 def test_a_small_mechanism_bears_its_load_by_default() -> None:
@@ -272,5 +272,5 @@ def test_a_small_mechanism_bears_its_load_by_default() -> None:
 @pytest.mark.parametrize(("axes", "dowel", "crank"), [(40.0, 2.0, 5.25), (60.0, 2.5, 8.0), (200.0, 4.0, 8.0)])
 def test_what_is_chosen_for_a_small_mechanism_can_be_cut(axes: float, dowel: float, crank: float) -> None:
     """Holes of dowels of 2 mm are drilled; those of pins of 1.5 mm are milled, in a plate that is not too thick."""
-    table = sized(GenevaParams(centre_distance=axes))
+    table = complete(GenevaParams(centre_distance=axes))
     assert (table.fixing, table.crank_thickness) == (dowel, crank)

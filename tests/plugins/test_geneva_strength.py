@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity
-from mechwright_geneva.defaults.dimensions import mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import complete, mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.kinematics.contact_forces import loads
 from mechwright_geneva.rules.strength import arm, key_stresses, stud_slopes, stud_stresses
@@ -25,7 +25,7 @@ CODES = ("geneva.stud", "geneva.stud-slope", "geneva.key")
 
 
 def sizes_of(**table):
-    return sized(Params(**STRAIGHT | table))
+    return complete(Params(**STRAIGHT | table))
 
 
 def test_the_stud_is_that_of_the_reference():
@@ -46,7 +46,7 @@ def test_the_stud_is_that_of_the_reference():
 def test_the_contact_gives_the_wheel_the_torque_that_it_takes():
     """At constant speed J θw'' ω² at its greatest, and the load where that is all there is."""
     for table in ({"law": "cycloidal", "entry_radius": 100.0}, STRAIGHT):
-        sizes = sized(Params(**table, load_torque=0.0))
+        sizes = complete(Params(**table, load_torque=0.0))
         mechanism = mechanism_of(sizes)
         motion = Geneva().solve(Params(**table, load_torque=0.0), 7201)
         alpha = np.abs(motion.channels["alpha_w"].values).max()

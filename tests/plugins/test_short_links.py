@@ -15,7 +15,7 @@ from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.sized import SizedParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
-from mechwright_geneva.defaults.dimensions import sized
+from mechwright_geneva.defaults.dimensions import complete
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import filled_in, sizes_of
 
@@ -141,7 +141,7 @@ def test_loads_of_many_slider_cranks_give_each_its_pin():
 def test_small_geneva_wheels_have_pins_and_dowels_whose_holes_can_be_made(law, wheel):
     made = mw.design("geneva", law=law, entry_radius=wheel, thickness=5, load_inertia=1e-6)
     assert not made.findings.errors
-    sizes = sized(made.design.params)
+    sizes = complete(made.design.params)
     assert sizes.pin_diameter >= 1.2
     assert sizes.crank_thickness < 6
     assert sizes.fixing == 0 or sizes.fixing >= 1

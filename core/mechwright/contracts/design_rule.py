@@ -75,7 +75,7 @@ Text = str | Callable[[Failure[D]], str]
 """Words; a text is filled in with the fields of the :class:`Failure`, as ``"{value:.3f} of {m.axes}"``."""
 
 
-class Asked(Protocol[E]):
+class RuleLike(Protocol[E]):
     """What a list of rules consists of."""
 
     @property
@@ -157,7 +157,7 @@ class DesignRule(Generic[D]):
         return (self.code,)
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
-        """Give the designs (n,) that break it; see :class:`Asked`."""
+        """Give the designs (n,) that break it; see :class:`RuleLike`."""
         if self.severity is not Severity.ERROR or _is_later(self.stage, stage) or self.slow == "value":
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
@@ -196,7 +196,7 @@ class DesignRule(Generic[D]):
         return self.limit(table) if callable(self.limit) else self.limit
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
-        """Give what breaks it of one design; see :class:`Asked`."""
+        """Give what breaks it of one design; see :class:`RuleLike`."""
         if (self.when is not None and not np.any(self.when(m))) or (quick and self.slow == "value"):
             return
         if self.worst is not None and not self._fails(m).any():
@@ -272,7 +272,7 @@ class Procedure(Generic[D]):
         )
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
-        """Give what it finds of one design; see :class:`Asked`."""
+        """Give what it finds of one design; see :class:`RuleLike`."""
         if (self.when is None or np.any(self.when(m))) and not (quick and self.slow):
             yield from self.inspect(m)
 
@@ -306,10 +306,10 @@ class Note(Generic[D]):
         return (self.code,)
 
     def forbids(self, table: D, stage: Stage) -> None:
-        """Give None; see :class:`Asked`."""
+        """Give None; see :class:`RuleLike`."""
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
-        """Give the note of one design; see :class:`Asked`."""
+        """Give the note of one design; see :class:`RuleLike`."""
         if quick or (self.when is not None and not np.any(self.when(m))):
             return
         value = None if self.value is None else float(self.value(m))

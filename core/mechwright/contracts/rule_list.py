@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.contracts.design_rule import Asked, DesignRule
+from mechwright.contracts.design_rule import DesignRule, RuleLike
 from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Severity, Stage
 
@@ -36,11 +36,11 @@ class Rules(Generic[D]):
         Whether they are asked at all, by what the designs of a table have in common.
     """
 
-    every: Sequence["Asked[D] | Rules[D]"]
+    every: Sequence["RuleLike[D] | Rules[D]"]
     turns: bool
     when: Callable[[D], bool] | None = None
 
-    def of(self, table: D) -> "Iterator[Asked[D]]":
+    def of(self, table: D) -> "Iterator[RuleLike[D]]":
         """Give the rules that are asked of a table, in order."""
         if self.when is not None and not self.when(table):
             return
@@ -112,7 +112,7 @@ class Rules(Generic[D]):
 
 
 def _one_by_one(
-    rule: Asked[D], table: D, stage: Stage, error: Exception
+    rule: RuleLike[D], table: D, stage: Stage, error: Exception
 ) -> tuple[NDArray[np.bool_], dict[int, Exception]]:
     """Which designs (n,) a rule forbids, and the places at which it raises, found by halving the table."""
     if table.size == 1:
@@ -132,11 +132,11 @@ def _one_by_one(
     return wrong, failed
 
 
-def all_of(*rules: "Asked[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
+def all_of(*rules: "RuleLike[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
     """Rules that are all asked."""
     return Rules(rules, turns=False, when=when)
 
 
-def in_turn(*rules: "Asked[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
+def in_turn(*rules: "RuleLike[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
     """Rules of which each is asked only if none before it found an error."""
     return Rules(rules, turns=True, when=when)

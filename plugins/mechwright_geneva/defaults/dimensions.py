@@ -46,7 +46,7 @@ _Able = NDArray[np.bool_]
 
 
 @kept
-def sized(params: GenevaParams) -> Sizes:
+def complete(params: GenevaParams) -> Sizes:
     """The table of one design with all that it leaves out. Its law has been found free of faults before."""
     return completed(params)
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from mechwright import Finding, Severity, kept
 from mechwright.contracts.finding import errors
-from mechwright_geneva.defaults.dimensions import mechanism_of, sized
+from mechwright_geneva.defaults.dimensions import complete, mechanism_of
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.rules.rule_table import RULES
 from mechwright_geneva.rules.slot_search import slot_remedy
@@ -63,7 +63,7 @@ def without_sizes(params: GenevaParams) -> tuple[str, str]:
         table = {k: v for k, v in params.model_dump(exclude_unset=True).items() if k not in omitted}
         if not _valid(table):
             continue
-        sizes = sized(GenevaParams.model_validate(table))
+        sizes = complete(GenevaParams.model_validate(table))
         values = {key: getattr(sizes, key) for key in GenevaParams.model_fields if key in omitted}
         if len(values) == 1:
             values = {key: _nearest(table, key, getattr(params, key), value) for key, value in values.items()}

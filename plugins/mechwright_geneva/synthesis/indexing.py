@@ -73,44 +73,46 @@ class _Tried:
         return _Tried(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
 
 
-def from_indexing(wanted: IndexingRequirement, progress: Progress) -> Synthesis[GenevaParams]:
+def from_indexing(requirement: IndexingRequirement, progress: Progress) -> Synthesis[GenevaParams]:
     """Designs that meet a requirement, that with the least Hertz pressure first."""
-    limit = wanted.pressure_limit or strength(wanted.material, wanted.roller_material)
-    longest = min(GREATEST_HALF, 180 * wanted.index_time * wanted.speed / 60)
+    limit = requirement.pressure_limit or strength(requirement.material, requirement.roller_material)
+    longest = min(GREATEST_HALF, 180 * requirement.index_time * requirement.speed / 60)
     if longest < LEAST_HALF:
-        return Synthesis((), (_too_fast(wanted, longest),))
+        return Synthesis((), (_too_fast(requirement, longest),))
     rejected = Rejected()
     near: list[_Tried] = []
     # A driver whose plates are held by dowels is the better one.
     for dowel in (dowel_of(WHEEL), 0.0):
         near, found = [], []
-        for number, law in enumerate(wanted.laws):
-            progress(number / len(wanted.laws), f"sweep of the {law} law")
-            tried = _sweep(wanted, law, dowel, *_grid(wanted, longest))
+        for number, law in enumerate(requirement.laws):
+            progress(number / len(requirement.laws), f"sweep of the {law} law")
+            tried = _sweep(requirement, law, dowel, *_grid(requirement, longest))
             near.append(tried)
-            good = _good(wanted, tried, limit)
+            good = _good(requirement, tried, limit)
             if not good.half.size:
                 continue
             best = good.take(np.argsort(good.pressure, kind="stable")[:KEPT])
-            finer = _good(wanted, _sweep(wanted, law, dowel, *_about(best, longest)), limit)
+            finer = _good(requirement, _sweep(requirement, law, dowel, *_about(best, longest)), limit)
             order = np.argsort(finer.pressure, kind="stable")
-            found += _checked(wanted, law, finer.take(order), limit, rejected)
+            found += _checked(requirement, law, finer.take(order), limit, rejected)
         if found:
             break
     progress(1.0, "done")
     if not found:
-        return Synthesis((), (_none(wanted, near, limit),), rejected.reasons)
+        return Synthesis((), (_none(requirement, near, limit),), rejected.reasons)
     ranked = sorted(found, key=lambda one: one.figures["contact_pressure"].value)
-    rejected.beyond(wanted.designs, len(ranked) - wanted.designs)
-    return Synthesis(tuple(ranked[: wanted.designs]), (), rejected.reasons)
+    rejected.beyond(requirement.designs, len(ranked) - requirement.designs)
+    return Synthesis(tuple(ranked[: requirement.designs]), (), rejected.reasons)
 
 
-def _grid(wanted: IndexingRequirement, longest: float) -> tuple[Array, Array, Array]:
+def _grid(requirement: IndexingRequirement, longest: float) -> tuple[Array, Array, Array]:
     """Angles, and the rollers that may suit a wheel of the size that is asked for."""
     half = np.linspace(LEAST_HALF, longest, HALVES)
     offset = np.linspace(-GREATEST_OFFSET, GREATEST_OFFSET, OFFSETS)
     most = min(
-        wanted.longest / 2, wanted.centre_distance or math.inf, (wanted.wheel_diameter or math.inf) / 2
+        requirement.longest / 2,
+        requirement.centre_distance or math.inf,
+        (requirement.wheel_diameter or math.inf) / 2,
     )
     # Twice the wheel and more is the overall length; the wheel of the smallest angles is a quarter of it.
     radii = [one / 2 for one in ROLLERS if LEAST_SHARE * most / 4 <= one / 2 <= GREATEST_SHARE * most]
@@ -129,16 +131,16 @@ def _about(best: _Tried, longest: float) -> tuple[Array, Array, Array]:
     return np.clip(half, 5, longest).ravel(), offset.ravel(), radius.ravel()
 
 
-def _wheels(wanted: IndexingRequirement, unit: Frame, radius: Array) -> Array:
+def _wheels(requirement: IndexingRequirement, unit: Frame, radius: Array) -> Array:
     """Radius of the wheel of each design, mm, in hundredths; 0 where it cannot be as long as is allowed."""
     length, axes = (1 + unit.axes + unit.crank)[:, 0], unit.axes[:, 0]
     pins = np.array([largest(PINS, PIN * one) for one in radius])
     # The boss about a pin is as large as the roller, or the pin and a wall.
-    allowed = (wanted.longest - np.maximum(radius, pins / 2 + wanted.least_wall)) / length
-    if wanted.wheel_diameter is not None:
-        rim = np.full(radius.shape, wanted.wheel_diameter / 2)
-    elif wanted.centre_distance is not None:
-        rim = wanted.centre_distance / axes
+    allowed = (requirement.longest - np.maximum(radius, pins / 2 + requirement.least_wall)) / length
+    if requirement.wheel_diameter is not None:
+        rim = np.full(radius.shape, requirement.wheel_diameter / 2)
+    elif requirement.centre_distance is not None:
+        rim = requirement.centre_distance / axes
     else:
         rim = allowed = np.floor(allowed * 10**_ROUND) / 10**_ROUND
     wheels: Array = np.where(rim <= allowed, rim, 0.0)
@@ -146,20 +148,20 @@ def _wheels(wanted: IndexingRequirement, unit: Frame, radius: Array) -> Array:
 
 
 def _sweep(
-    wanted: IndexingRequirement, law: str, dowel: float, half: Array, offset: Array, radius: Array
+    requirement: IndexingRequirement, law: str, dowel: float, half: Array, offset: Array, radius: Array
 ) -> _Tried:
     """Rank designs of one law: scale, soundness, pressure, acceleration."""
     half, offset = half.round(_ROUND), offset.round(_ROUND)
-    wheel = math.pi / wanted.slots
-    able = (180 / wanted.slots + offset + half / 2 < 89) & (180 / wanted.slots + offset > 1)
+    wheel = math.pi / requirement.slots
+    able = (180 / requirement.slots + offset + half / 2 < 89) & (180 / requirement.slots + offset > 1)
     half, offset, radius = half[able], offset[able], radius[able]
-    rim = _wheels(wanted, Frame.of(wheel, np.radians(half), np.radians(offset), 1.0), radius)
-    defaults = GenevaParams(law=law, slots=wanted.slots)
+    rim = _wheels(requirement, Frame.of(wheel, np.radians(half), np.radians(offset), 1.0), radius)
+    defaults = GenevaParams(law=law, slots=requirement.slots)
     of = LAWS[law]()
     valid = (rim >= 5) & (radius <= GREATEST_SHARE * rim) & (radius >= LEAST_SHARE * rim)
     rows = np.flatnonzero(valid)
     if rows.size:
-        given = {name: getattr(wanted, name) for name in ("least_wall", "bore", "driver_bore")}
+        given = {name: getattr(requirement, name) for name in ("least_wall", "bore", "driver_bore")}
         columns = {
             "crank_half_angle": half,
             "offset_angle": offset,
@@ -173,14 +175,14 @@ def _sweep(
     if rows.size:
         frame = Frame.of(wheel, np.radians(half[rows]), np.radians(offset[rows]), rim[rows])
         run = stroke(frame, of, np.linspace(0, 1, _STROKE))
-        omega = wanted.speed * math.tau / 60
+        omega = requirement.speed * math.tau / 60
         drive = Drive(
             omega,
-            wanted.load_inertia,
-            wanted.load_torque,
+            requirement.load_inertia,
+            requirement.load_torque,
             radius[rows, None],
-            max(wanted.thickness - wanted.floor - defaults.axial_gap, 0.1),
-            stiffness(wanted.material, wanted.roller_material),
+            max(requirement.thickness - requirement.floor - defaults.axial_gap, 0.1),
+            stiffness(requirement.material, requirement.roller_material),
         )
         pressure[rows] = curved(run, drive).pressure.max(axis=-1)
         crank = np.radians(half[rows])
@@ -188,20 +190,20 @@ def _sweep(
     return _Tried(half, offset, rim, radius, pressure, acceleration, valid)
 
 
-def _good(wanted: IndexingRequirement, tried: _Tried, limit: float) -> _Tried:
+def _good(requirement: IndexingRequirement, tried: _Tried, limit: float) -> _Tried:
     able = tried.valid & (tried.pressure <= limit)
-    if wanted.acceleration_limit is not None:
-        able &= tried.acceleration <= wanted.acceleration_limit
+    if requirement.acceleration_limit is not None:
+        able &= tried.acceleration <= requirement.acceleration_limit
     return tried.take(np.flatnonzero(able))
 
 
 def _checked(
-    wanted: IndexingRequirement, law: str, tried: _Tried, limit: float, rejected: Rejected
+    requirement: IndexingRequirement, law: str, tried: _Tried, limit: float, rejected: Rejected
 ) -> list[Candidate[GenevaParams]]:
     """The first designs that every check lets pass, computed in full."""
     passed: list[Candidate[GenevaParams]] = []
     for row in range(min(tried.half.size, _LOOKED_AT)):
-        params = _params(wanted, law, tried, row)
+        params = _params(requirement, law, tried, row)
         if any(_alike(params, other.params) for other in passed) or rejected.by(
             RULES.findings(mechanism_of(params), quick=True)
         ):
@@ -209,7 +211,7 @@ def _checked(
         m = mechanism_of(params)
         load, omega = loads(m), params.speed * math.tau / 60
         fastest = peaks_of(m).a * omega**2
-        if load.pressure > limit or fastest > (wanted.acceleration_limit or math.inf):
+        if load.pressure > limit or fastest > (requirement.acceleration_limit or math.inf):
             continue
         figures = {
             "contact_pressure": Scalar(load.pressure, "MPa"),
@@ -219,7 +221,7 @@ def _checked(
             "centre_distance": Scalar(m.axes, "mm"),
         }
         passed.append(Candidate(params, Scalar(0.0, "mm"), figures))
-        if len(passed) == wanted.designs:
+        if len(passed) == requirement.designs:
             break
     return passed
 
@@ -231,20 +233,20 @@ def _alike(one: GenevaParams, two: GenevaParams) -> bool:
     return one.roller_radius == two.roller_radius and all(angle < APART for angle in apart)
 
 
-def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> GenevaParams:
+def _params(requirement: IndexingRequirement, law: str, tried: _Tried, row: int) -> GenevaParams:
     """A design with all that the requirement says of it."""
     radius = float(tried.radius[row])
     asked = {*GenevaParams.model_fields} - {"centre_distance"}
     return GenevaParams.model_validate(
         {
-            **wanted.model_dump(include=asked),
+            **requirement.model_dump(include=asked),
             "law": law,
             "crank_half_angle": float(tried.half[row]),
             "offset_angle": float(tried.offset[row]),
             # The angles are in hundredths: they tell the wheel between axes that are given.
             **(
-                {"centre_distance": wanted.centre_distance}
-                if wanted.centre_distance
+                {"centre_distance": requirement.centre_distance}
+                if requirement.centre_distance
                 else {"entry_radius": float(tried.rim[row])}
             ),
             "roller_radius": radius,
@@ -253,26 +255,27 @@ def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> G
     )
 
 
-def _too_fast(wanted: IndexingRequirement, longest: float) -> Finding:
-    least = LEAST_HALF / 180 * 60 / wanted.speed
+def _too_fast(requirement: IndexingRequirement, longest: float) -> Finding:
+    least = LEAST_HALF / 180 * 60 / requirement.speed
     return Finding.error(
         "geneva.requirement",
         "index_time",
-        f"a movement within {wanted.index_time:g} s is over after {2 * longest:.3g} degrees of the crank",
-        wanted.index_time,
+        f"a movement within {requirement.index_time:g} s is over after {2 * longest:.3g} degrees of the "
+        "crank",
+        requirement.index_time,
         least,
         "s",
         f"allow at least {math.ceil(least * 1e4) / 1e4:g} s, or a lower speed",
     )
 
 
-def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Finding:
+def _none(requirement: IndexingRequirement, near: list[_Tried], limit: float) -> Finding:
     """Which limit stands in the way, and the nearest value that could be met."""
     total = sum(tried.half.size for tried in near)
     able = [tried.take(np.flatnonzero(tried.valid)) for tried in near]
     count = sum(tried.half.size for tried in able)
     if count == 0:
-        size, value = _size(wanted)
+        size, value = _size(requirement)
         return Finding.error(
             "geneva.requirement",
             size,
@@ -281,7 +284,7 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             unit="mm",
             remedy=f"allow more {size} or index_time, or smaller bore and least_wall",
         )
-    most = wanted.acceleration_limit
+    most = requirement.acceleration_limit
     slowest = min(float(tried.acceleration.min()) for tried in able if tried.half.size)
     if most is not None and slowest > most:
         return Finding.error(
@@ -305,23 +308,23 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             limit,
             least,
             "MPa",
-            f"allow more {_size(wanted)[0]}, a thicker wheel or a longer index_time, or take a stronger "
+            f"allow more {_size(requirement)[0]}, a thicker wheel or a longer index_time, or take a stronger "
             "material",
         )
     return Finding.error(
         "geneva.requirement",
         "driver_bore",
         f"{count} designs have sound slots, but none a driver that can be made",
-        wanted.driver_bore,
+        requirement.driver_bore,
         unit="mm",
-        remedy=f"make driver_bore or bore smaller, or allow more {_size(wanted)[0]}",
+        remedy=f"make driver_bore or bore smaller, or allow more {_size(requirement)[0]}",
     )
 
 
-def _size(wanted: IndexingRequirement) -> tuple[str, float]:
+def _size(requirement: IndexingRequirement) -> tuple[str, float]:
     """The key that says how large the mechanism may be, and its value, mm."""
     for name in ("wheel_diameter", "centre_distance"):
-        given = getattr(wanted, name)
+        given = getattr(requirement, name)
         if given is not None:
             return name, given
-    return "overall_length", wanted.longest
+    return "overall_length", requirement.longest

@@ -19,7 +19,7 @@ PLACES = 4
 """Digits behind the point of what a drag writes, mm and s."""
 
 
-def targets_of(wanted: IndexingRequirement) -> tuple[Target, ...]:
+def targets_of(requirement: IndexingRequirement) -> tuple[Target, ...]:
     """The size that is given, and how far the driver turns while the wheel moves.
 
     >>> size, turn = targets_of(IndexingRequirement(slots=4, centre_distance=100, speed=60, index_time=0.25))
@@ -28,27 +28,30 @@ def targets_of(wanted: IndexingRequirement) -> tuple[Target, ...]:
     >>> size.moved((120.0, 3.0)), turn.moved((100.0, 50.0))
     ({'centre_distance': 120.0}, {'index_time': 0.5})
     """
-    half = math.pi / wanted.slots
+    half = math.pi / requirement.slots
     wheel, crank = math.cos(half), math.sin(half)  # per mm of the distance of the axes
-    if wanted.wheel_diameter is not None:
+    if requirement.wheel_diameter is not None:
         key, name, share, distance = (
             "wheel_diameter",
             "rim of the wheel",
             -0.5,
-            wanted.wheel_diameter / 2 / wheel,
+            requirement.wheel_diameter / 2 / wheel,
         )
-    elif wanted.centre_distance is not None:
-        key, name, share, distance = "centre_distance", "axis of the driver", 1.0, wanted.centre_distance
+    elif requirement.centre_distance is not None:
+        key, name, share, distance = "centre_distance", "axis of the driver", 1.0, requirement.centre_distance
     else:
         key, name = "overall_length", "end of the driver"
-        distance = wanted.longest / (1 + wheel + crank)
+        distance = requirement.longest / (1 + wheel + crank)
         share = (1 + crank) / (1 + wheel + crank)
-    size = share * (getattr(wanted, key) or wanted.longest)
-    turned = min(math.pi, math.pi * wanted.speed / 60 * wanted.index_time)
+    size = share * (getattr(requirement, key) or requirement.longest)
+    turned = min(math.pi, math.pi * requirement.speed / 60 * requirement.index_time)
     enters = distance + distance * crank * cmath.exp(1j * (math.pi - turned))
+    moves = requirement, distance
     return (
         Target(name, (size, 0.0), partial(_sized, key, share)),
-        Target("driver where a move ends", (enters.real, enters.imag), partial(_timed, wanted, distance)),
+        Target(
+            "driver where a move ends", (enters.real, enters.imag), partial(_timed, requirement, distance)
+        ),
     )
 
 
@@ -56,6 +59,6 @@ def _sized(key: str, share: float, place: tuple[float, ...]) -> dict[str, float]
     return {key: round(max(place[0] / share, SHORTEST), PLACES)}
 
 
-def _timed(wanted: IndexingRequirement, distance: float, place: tuple[float, ...]) -> dict[str, float]:
+def _timed(requirement: IndexingRequirement, distance: float, place: tuple[float, ...]) -> dict[str, float]:
     turned = abs(cmath.phase(distance - complex(*place)))
-    return {"index_time": round(max(turned, SHORTEST) / math.pi * 60 / wanted.speed, PLACES)}
+    return {"index_time": round(max(turned, SHORTEST) / math.pi * 60 / requirement.speed, PLACES)}
