@@ -284,7 +284,7 @@ class GenevaParams(Parameters):
 
 
 class Sizes(GenevaParams):
-    """A design table that leaves no dimension open; :mod:`mechwright_geneva.defaults.dimensions` completes one."""
+    """A design table without open dimensions; :mod:`mechwright_geneva.defaults.dimensions` completes one."""
 
     crank_half_angle: float
     offset_angle: float

@@ -46,7 +46,6 @@ def targets_of(requirement: IndexingRequirement) -> tuple[Target, ...]:
     size = share * (getattr(requirement, key) or requirement.longest)
     turned = min(math.pi, math.pi * requirement.speed / 60 * requirement.index_time)
     enters = distance + distance * crank * cmath.exp(1j * (math.pi - turned))
-    moves = requirement, distance
     return (
         Target(name, (size, 0.0), partial(_sized, key, share)),
         Target(
