@@ -1,6 +1,5 @@
 """The lock as made: how far the disc stands from the concave arcs, and what turn it leaves."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,8 +57,6 @@ class Lock:
     def play(self, off_centre: float = 0.0, more: float = 0.0) -> float:
         """Turn of the locked wheel either way, rad, in the middle of the dwell.
 
-        A horn, where the concave arc meets the rim, leaves the arc's circle and meets that of the disc.
-
         Parameters
         ----------
         off_centre
@@ -67,15 +64,8 @@ class Lock:
         more
             Added to the clearance, mm.
         """
-        a, l = self.m.axes, self.m.rim
-        horn = _cosine(a, l, self.arc + more)
-        met = _cosine(a + off_centre, l, self.disc)
-        return math.acos(horn) - math.acos(met)
-
-
-def _cosine(a: float, l: float, radius: float) -> float:
-    """Cosine of the polar angle at which a circle about the crank's axis cuts the rim."""
-    return (a * a + l * l - radius * radius) / (2 * a * l)
+        play: float = self.m.lock_play(self.arc + more, self.disc, off_centre)
+        return play
 
 
 def _about_bore(part: MadePart, diameter: float) -> Array:

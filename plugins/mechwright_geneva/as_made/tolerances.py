@@ -15,13 +15,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mechwright import Array, Contributor, GeometryError, Output, ToleranceModel, Tolerances
+from mechwright import Array, Contributor, Output, ToleranceModel, Tolerances
 from mechwright_geneva.as_made.tube import Tube, bend, levers, normals, way
 from mechwright_geneva.defaults.dimensions import mechanism_of
-from mechwright_geneva.kinematics.geometry import Points, Stroke
+from mechwright_geneva.kinematics.geometry import Points, Stroke, corner_angle
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.parameters import GenevaParams
-from mechwright_geneva.parts.wheel_outline import Wheel
 
 WHEEL = Output("wheel angle", "rad")
 PLAY = Output("play in the slot", "rad", figure="least")
@@ -178,32 +177,20 @@ class GenevaTolerances(ToleranceModel):
 
     def _lock_play(self, wheel: Array | float, disc: Array | float, along: Array | float) -> Array:
         """Play (...), rad, of the locked wheel to each side: a horn leaves its arc and meets the disc."""
-        m = self.m
-        return np.asarray(self._polar(m.axes, m.arc - wheel) - self._polar(m.axes + along, m.lock + disc))
-
-    def _polar(self, axes: Array | float, radius: Array | float) -> Array:
-        """Polar angle (...), rad, at which a circle about the crank's axis cuts the wheel's rim."""
-        rim = self.m.rim
-        with np.errstate(invalid="ignore"):
-            return np.asarray(np.arccos((axes**2 + rim**2 - radius**2) / (2 * axes * rim)))
+        return np.asarray(self.m.lock_play(self.m.arc - wheel, self.m.lock + disc, along))
 
     def _lock_rates(self) -> tuple[float, float, float]:
         """Derivatives of the play of the lock by the wall of the wheel, that of the disc, and the axes."""
         m = self.m
         a, rim, lock = m.axes, m.rim, m.lock
-        horn, stop = (a * rim * math.sin(float(self._polar(a, radius))) for radius in (m.arc, lock))
+        horn, stop = (a * rim * math.sin(corner_angle(a, rim, radius)) for radius in (m.arc, lock))
         return -m.arc / horn, -lock / stop, (a * a - rim * rim + lock * lock) / (2 * a * stop)
 
 
 def _locks(m: Mechanism) -> bool:
     """Whether the disc covers both horns of an arc in the middle of a dwell."""
     middle = m.pitch / 2 - m.crank_half
-    if middle <= 0 or not m.axes - m.rim < m.lock < m.axes + m.rim:
-        return False
-    try:
-        return middle >= Wheel(m).arc_half
-    except GeometryError:  # the disc meets no horn, as the check of its parts says
-        return False
+    return middle > 0 and m.axes - m.rim < m.lock < m.axes + m.rim and middle >= m.arc_half
 
 
 _TINY = 1e-9

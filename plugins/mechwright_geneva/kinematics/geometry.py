@@ -33,16 +33,17 @@ Every array has the design axis first and the sample axis last.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array
-from mechwright.contracts.design_table import Rowwise
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright.mechanics.envelope import LEFT, RIGHT, Points, left_normal, regularity, touched, way_curvature
 from mechwright.mechanics.laws import Law
 
-__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "regime", "stroke"]
+__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "corner_angle", "regime", "stroke"]
 
 
 @dataclass(frozen=True)
@@ -181,6 +182,12 @@ class Stroke:
     def regularity(self, radius: ArrayLike, side: int) -> Array:
         """1 - κ r on the left, 1 + κ r on the right: the wall turns back where this is below 0."""
         return regularity(self.curvature, radius, side)
+
+
+def corner_angle(one: Any, two: Any, opposite: Any) -> Any:
+    """Angle (...), rad, between two sides of a triangle, by its third side; NaN where they do not meet."""
+    with np.errstate(invalid="ignore"):
+        return number(np.arccos((one**2 + two**2 - opposite**2) / (2 * one * two)))
 
 
 def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
