@@ -141,11 +141,12 @@ def roller_motion(m: Mechanism, rates: Rates, cam: int) -> tuple[Vector, Vector,
     The second roller of a pair goes towards the cam where the first one goes away.
     """
     sign = -1.0 if cam else 1.0
-    lift = m.start - m.apart * cam + rates.s
+    lowest = m.start - m.apart * cam
     if m.slides:
-        return (m.offset, lift), (0.0, rates.v), (0.0, rates.a), (0.0, sign)
-    # exp(-i angle); the centre is at c - L times it
-    arm, x, y = m.arm, np.cos(lift), -np.sin(lift)
+        return (m.offset, lowest + rates.s), (0.0, rates.v), (0.0, rates.a), (0.0, sign)
+    # The centre is at c - L exp(-i angle); sine and cosine are those of a sum, of a column and of a row.
+    arm, c, s, u, v = m.arm, np.cos(lowest), np.sin(lowest), np.cos(rates.s), np.sin(rates.s)
+    x, y = c * u - s * v, -(s * u + c * v)
     first = -arm * rates.v * y, arm * rates.v * x
     square = rates.v * rates.v
     second = arm * (square * x - rates.a * y), arm * (square * y + rates.a * x)
