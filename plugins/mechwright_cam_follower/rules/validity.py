@@ -53,8 +53,12 @@ def is_valid(m: Mechanism, *, steep: bool) -> Bools:
 
 def first_good(good: Good, ladder: Sequence[float]) -> tuple[float, float] | None:
     """Give the first value of a ladder that is good, after the one before it; None if none is."""
-    fits = np.flatnonzero(good(np.array(ladder)))
-    return None if not fits.size else (ladder[max(fits[0] - 1, 0)], ladder[fits[0]])
+    if good(np.array(ladder[:1])).all():
+        return ladder[0], ladder[0]
+    if not ladder[1:] or not (fits := good(np.array(ladder[1:]))).any():
+        return None
+    place = int(np.argmax(fits))
+    return ladder[place], ladder[place + 1]
 
 
 def bisected(good: Good, bad: float, fine: float, halvings: int = HALVINGS, at_once: int = _AT_ONCE) -> float:
@@ -63,7 +67,7 @@ def bisected(good: Good, bad: float, fine: float, halvings: int = HALVINGS, at_o
     >>> round(bisected(lambda values: values > 0.3, 0.0, 1.0), 6)
     0.3
     """
-    for done in range(0, halvings, at_once):
+    for done in range(0, halvings if bad != fine else 0, at_once):
         parts = 2 ** min(at_once, halvings - done)
         values = bad + (fine - bad) * np.arange(parts + 1) / parts
         values[-1] = fine
