@@ -84,23 +84,18 @@ class Contact:
     @property
     def point(self) -> Points:
         """The contact as complex numbers."""
-        return _complex(self._point)
+        (x, y), (u, v) = self.middle, self.normal
+        return _complex((x - self.roller * u, y - self.roller * v))
 
     @property
     def outward(self) -> Points:
         """Normal off the cam as complex numbers."""
         return _complex(self.normal)
 
-    @property
-    def _point(self) -> Vector:
-        (x, y), (u, v) = self.middle, self.normal
-        return x - self.roller * u, y - self.roller * v
-
     @cached_property
     def distance(self) -> Array:
         """Of the contact from the cam's axis, mm."""
-        x, y = self._point
-        return np.asarray(np.sqrt(x * x + y * y))
+        return np.asarray(np.abs(self.point))
 
     @property
     def radius(self) -> Array:
@@ -126,7 +121,9 @@ class Contact:
 
 
 def _complex(vector: Vector) -> Points:
-    return np.asarray(vector[0] + 1j * vector[1], dtype=np.complex128)
+    found = np.empty(np.broadcast(*vector).shape, np.complex128)
+    found.real, found.imag = vector
+    return found
 
 
 def contact_of(m: Mechanism, rates: Rates, cam: int = 0) -> Contact:
@@ -141,12 +138,13 @@ def roller_motion(m: Mechanism, rates: Rates, cam: int) -> tuple[Vector, Vector,
     The second roller of a pair goes towards the cam where the first one goes away.
     """
     sign = -1.0 if cam else 1.0
-    lowest = m.start - m.apart * cam
+    lift = m.start + rates.s
+    if cam:
+        lift = lift - m.apart
     if m.slides:
-        return (m.offset, lowest + rates.s), (0.0, rates.v), (0.0, rates.a), (0.0, sign)
-    # The centre is at c - L exp(-i angle); sine and cosine are those of a sum, of a column and of a row.
-    arm, c, s, u, v = m.arm, np.cos(lowest), np.sin(lowest), np.cos(rates.s), np.sin(rates.s)
-    x, y = c * u - s * v, -(s * u + c * v)
+        return (m.offset, lift), (0.0, rates.v), (0.0, rates.a), (0.0, sign)
+    # exp(-i angle); the centre is at c - L times it
+    arm, x, y = m.arm, np.cos(lift), -np.sin(lift)
     first = -arm * rates.v * y, arm * rates.v * x
     square = rates.v * rates.v
     second = arm * (square * x - rates.a * y), arm * (square * y + rates.a * x)
@@ -164,7 +162,7 @@ def _roller(m: Mechanism, rates: Rates, cam: int) -> Contact:
     vx, vy = velocity_of(m, middle, first)
     ax, ay = second[0] + 2 * sigma * first[1] - middle[0], second[1] - 2 * sigma * first[0] - middle[1]
     square = vx * vx + vy * vy
-    speed = np.sqrt(square)
+    speed = np.abs(_complex((vx, vy)))
     pitch = square * speed / (-sigma * (vx * ay - vy * ax))
     # Over the cam, rollers go against its turn: the cam is on their right where σ is 1.
     scale = sigma / np.maximum(speed, TINY)
