@@ -20,7 +20,6 @@ from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.locking_disc import lock_loop
-from mechwright_geneva.parts.wheel_outline import Wheel
 
 DESIGNS = {
     "reference": {"lock_radius": 70},
@@ -46,8 +45,8 @@ def play_after(m, after):
     the wheel's axis: abs(R_L d - a (exp(it) - 1)) = R_L + c, d the direction of the arc's end.
     """
     eta = min(after, m.pitch - 2 * m.crank_half - after)
-    if eta >= Wheel(m).arc_half:
-        return Wheel(m).free_play
+    if eta >= m.arc_half:
+        return float(m.lock_play())
 
     def miss(turn):
         x = -m.lock * math.cos(eta) - m.axes * (math.cos(turn) - 1)
@@ -71,7 +70,7 @@ def test_nothing_overlaps_and_the_wheel_is_locked(table):
     # The disc's closed form is an upper limit, and exact where both horns are covered.
     limit = np.array([play_after(m, after) for after in proof.dwell])
     assert (proof.play <= limit * 1.02 + 1e-5).all()
-    inner = np.minimum(proof.dwell, m.pitch - 2 * m.crank_half - proof.dwell) > Wheel(m).arc_half
+    inner = np.minimum(proof.dwell, m.pitch - 2 * m.crank_half - proof.dwell) > m.arc_half
     assert proof.play[inner] == pytest.approx(limit[inner], rel=0.03)
     assert proof.play.max() < math.radians(0.5)
 

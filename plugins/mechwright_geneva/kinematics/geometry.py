@@ -42,7 +42,7 @@ from mechwright.contracts.design_table import Rowwise
 from mechwright.mechanics.envelope import LEFT, RIGHT, Points, left_normal, regularity, touched, way_curvature
 from mechwright.mechanics.laws import Law
 
-__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "regime", "stroke"]
+__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "horn_angle", "regime", "stroke"]
 
 
 @dataclass(frozen=True)
@@ -173,6 +173,11 @@ class Stroke:
         points: Points = touched(self.centre, self.normal, radius, side) * self.to_wheel
         return points
 
+    def lever(self, normal: Points) -> Array:
+        """Lever of a normal about the wheel's axis, mm; above 0 where a push along it turns the wheel on."""
+        value: Array = (np.conj(self.centre) * normal).imag
+        return value
+
     @cached_property
     def curvature(self) -> Array:
         """κ of the roller's way, 1/mm, positive where it bends to the left."""
@@ -192,6 +197,17 @@ def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     phi = frame.crank_half - time * u
     first, second, third = way / time * rates.v, way / time**2 * rates.a, way / time**3 * rates.j
     return Stroke(frame, phi, way * rates.s, first, second, third)
+
+
+def horn_angle(axes: ArrayLike, rim: ArrayLike, radius: ArrayLike) -> Array:
+    """Polar angle (...), rad, from the line of centres at which a circle about the crank's axis cuts the rim.
+
+    NaN where it does not reach the rim.
+    """
+    a, l = np.asarray(axes, dtype=float), np.asarray(rim, dtype=float)
+    with np.errstate(invalid="ignore"):
+        angle: Array = np.arccos((a**2 + l**2 - np.asarray(radius) ** 2) / (2 * a * l))
+    return angle
 
 
 def regime(frame: Frame, law: Law) -> NDArray[np.int_]:

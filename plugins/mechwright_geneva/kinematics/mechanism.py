@@ -5,6 +5,7 @@ Every quantity is a number for one mechanism and a column (n, 1) for many; lengt
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, cast
 
@@ -14,7 +15,7 @@ from mechwright import Array
 from mechwright.contracts.design_table import DesignTable, number, plain
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics.drive import Driver, driver_of
-from mechwright_geneva.kinematics.geometry import Frame, Stroke, regime, stroke
+from mechwright_geneva.kinematics.geometry import Frame, Points, Stroke, horn_angle, regime, stroke
 from mechwright_geneva.kinematics.horn_clearance import greatest_discs
 from mechwright_geneva.kinematics.laws import law_of
 from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, Measures, measure, sharpened
@@ -246,14 +247,52 @@ class Mechanism(DesignTable[GenevaParams]):
         """Radius of the wheel's concave arcs."""
         return self.lock + self.params.lock_clearance
 
-    @property
-    def horn_cosine(self) -> float:
-        """Cosine of the angle from the middle of a concave arc to its corner with the rim."""
-        return (self.axes**2 + self.rim**2 - self.arc**2) / (2 * self.axes * self.rim)
+    @cached_property
+    def horn_angle(self) -> float:
+        """Polar angle ψ_L of a horn, the corner between concave arc and rim, from the middle of the arc."""
+        return number(horn_angle(self.axes, self.rim, self.arc))
+
+    @cached_property
+    def arc_half(self) -> float:
+        """Half the angle of a concave arc, about the crank's axis; past it both horns are covered."""
+        psi = self.horn_angle
+        return number(np.arctan2(self.rim * np.sin(psi), self.axes - self.rim * np.cos(psi)))
+
+    def lock_play(
+        self, wheel: "float | Array" = 0.0, disc: "float | Array" = 0.0, apart: "float | Array" = 0.0
+    ) -> Array:
+        """Turn (...), rad, of the locked wheel either way where the disc covers both horns.
+
+        A horn leaves the circle of its concave arc, R_L + c, and meets that of the disc, R_L.
+
+        Parameters
+        ----------
+        wheel, disc
+            Stock (...) that stays on the arc and on the disc, mm.
+        apart
+            By how much (...) the axes are too far apart, mm.
+        """
+        horn = horn_angle(self.axes, self.rim, self.arc - wheel)
+        return horn - horn_angle(self.axes + apart, self.rim, self.lock + disc)
 
     def stroke(self, u: Array) -> Stroke:
         """The stroke at shares u (k,)."""
         return stroke(self.frame, self.law, u)
+
+    def way(self, angle: Array) -> Stroke:
+        """The stroke at crank angles (...), rad, from its start; before and after it the wheel rests."""
+        share = angle / (2 * self.crank_half)
+        run, moves = self.stroke(np.clip(share, 0, 1)), (share >= 0) & (share <= 1)
+        rates = {name: np.where(moves, getattr(run, name), 0.0) for name in ("first", "second", "third")}
+        return replace(run, phi=np.where(moves, run.phi, self.crank_half - angle), **rates)
+
+    def slot_normal(self, run: Stroke) -> Points:
+        """Unit normal (...) of the slot, fixed axes; of a straight one also where the roller turns back."""
+        return np.asarray(1j * run.centre / np.abs(run.centre)) if self.straight else run.normal
+
+    def lever(self, run: Stroke) -> Array:
+        """Lever (...) of that normal about the wheel's axis, mm, signed."""
+        return run.lever(self.slot_normal(run))
 
     def value_of_blocks(self, function: "Callable[[Mechanism], Array]") -> float:
         """What a function gives (b, 1) of blocks of mechanisms, as a number or a column (n, 1)."""

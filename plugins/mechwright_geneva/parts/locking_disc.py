@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 
 from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Segment
 from mechwright.geometry.fit import fit_curves
-from mechwright_geneva.kinematics.geometry import Points
+from mechwright_geneva.kinematics.geometry import Points, horn_angle
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.parts.mirror import mirrored
 from mechwright_geneva.parts.slot_outline import FIT
@@ -80,8 +80,7 @@ class Half:
     def horn_angle(self) -> Array:
         """Polar angle ψ of the grown wheel's horn from the middle of its bite."""
         m = self.mechanism
-        rim = m.rim + m.params.lock_clearance
-        return np.asarray(np.arccos((m.axes**2 + rim**2 - m.lock**2) / (2 * m.axes * rim)))
+        return horn_angle(m.axes, m.rim + m.params.lock_clearance, m.lock)
 
     def envelope(self, u: Array) -> Points:
         """E at u."""

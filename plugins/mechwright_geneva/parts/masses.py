@@ -93,10 +93,8 @@ class Weights:
     def _round(self) -> Any:
         """The wheel without slots: rim and concave arcs."""
         m = self.m
-        horn = np.arccos((m.axes**2 + m.rim**2 - m.arc**2) / (2 * m.axes * m.rim))
-        half = np.arctan2(m.rim * np.sin(horn), m.axes - m.rim * np.cos(horn))
-        bite = m.arc * m.axes * np.sin(half) - half * m.arc**2
-        return m.slots * (m.rim**2 * (m.wheel_half - horn) + bite)
+        bite = m.arc * m.axes * np.sin(m.arc_half) - m.arc_half * m.arc**2
+        return m.slots * (m.rim**2 * (m.wheel_half - m.horn_angle) + bite)
 
     def _straight_slot(self) -> Any:
         m, r = self.m, self.m.groove

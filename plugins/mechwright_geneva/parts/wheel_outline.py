@@ -21,39 +21,20 @@ class Wheel:
         """Slot 0 as it is cut, clearance included."""
         return Slot(self.mechanism, self.mechanism.groove)
 
-    def _horn(self, radius: float) -> float:
-        """Polar angle, rad, at which a circle of this radius about the crank's axis cuts the rim."""
+    @property
+    def horn_angle(self) -> float:
+        """Polar angle ψ_L of the corner between concave arc and rim from the middle of the arc."""
         m = self.mechanism
-        cosine = (m.axes**2 + m.rim**2 - radius**2) / (2 * m.axes * m.rim)
-        if not -1 < cosine < 1:
+        if not 0 < m.horn_angle < math.pi:
             raise GeometryError(
                 f"a locking disc of {m.lock:.3f} mm does not reach the wheel, whose axis is {m.axes:.3f} mm "
                 f"away and whose radius is {m.rim:.3f} mm"
             )
-        return math.acos(cosine)
-
-    @cached_property
-    def horn_angle(self) -> float:
-        """Polar angle ψ_L of the corner between concave arc and rim from the middle of the arc."""
-        return self._horn(self.mechanism.arc)
-
-    @property
-    def free_play(self) -> float:
-        """Angle, rad, by which the locked wheel can turn either way where the disc covers both horns.
-
-        A horn then leaves the circle of the concave arc, R_L + c, and meets that of the disc, R_L.
-        """
-        return self.horn_angle - self._horn(self.mechanism.lock)
-
-    @cached_property
-    def arc_half(self) -> float:
-        """Half the angle of a concave arc, about the crank's axis; past it both horns are covered."""
-        m, psi = self.mechanism, self.horn_angle
-        return math.atan2(m.rim * math.sin(psi), m.axes - m.rim * math.cos(psi))
+        return m.horn_angle
 
     def _bite(self) -> Segment:
         """Concave arc 0, from its lower horn to its upper one."""
-        half = self.arc_half
+        half = self.mechanism.arc_half
         return Arc((self.mechanism.axes, 0.0), self.mechanism.arc, math.pi + half, -2 * half, "lock")
 
     def _rim(self, start: float, end: float) -> Segment:

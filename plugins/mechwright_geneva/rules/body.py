@@ -129,7 +129,7 @@ RIM = Rule(
     "geneva.horn",
     "lock_radius",
     "neighbouring concave arcs leave no rim between them",
-    value=lambda m: (m.wheel_half - np.arccos(np.clip(m.horn_cosine, -1, 1))) * m.rim,
+    value=lambda m: (m.wheel_half - m.horn_angle) * m.rim,
     limit=lambda m: m.params.least_wall / 2,
     unit="mm",
     remedy=lambda f: "leave lock_radius out" if f.m.params.lock_radius else "",

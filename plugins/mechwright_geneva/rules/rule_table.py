@@ -8,7 +8,6 @@ from mechwright.contracts.design_rule import Note
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright_geneva.kinematics.figures import dwell_share, peaks_of
 from mechwright_geneva.kinematics.mechanism import Mechanism
-from mechwright_geneva.parts.wheel_outline import Wheel
 from mechwright_geneva.rules.body import BODY
 from mechwright_geneva.rules.clearances import CLEARANCES
 from mechwright_geneva.rules.feasibility import FEASIBLE
@@ -25,16 +24,15 @@ def _motion_message(m: Mechanism) -> str:
 
 
 def _play_message(m: Mechanism) -> str:
-    wheel = Wheel(m)
     return (
         f"in the middle of the dwell the locked wheel can turn by {_play(m):.4f} degrees either way; within "
-        f"{math.degrees(wheel.arc_half):.1f} degrees of its ends the disc covers one horn only, and it is "
+        f"{math.degrees(m.arc_half):.1f} degrees of its ends the disc covers one horn only, and it is "
         "more"
     )
 
 
 def _play(m: Mechanism) -> float:
-    return math.degrees(Wheel(m).free_play)
+    return math.degrees(m.lock_play())
 
 
 def _island_limit(m: Mechanism) -> float:
