@@ -1,10 +1,10 @@
 """How far the wheel can turn while the roller stands in its slot.
 
 The wheel may turn by x either way as long as the roller has room. In a slot as drawn the room is half the
-clearance, h, less the distance of the roller's centre from its exact way over the wheel. In a slot as made the
-room is the distance from the walls less the roller's radius. A straight slot, or a curved one off its middle,
-gives x = h / lever, with the lever of the wall's normal about the wheel's axis. At mid stroke of a curved slot
-the lever is 0 and x of order √h, so x is found where it is: on the walls.
+clearance, h, less the distance of the roller's centre from its exact way over the wheel. In a slot as made
+the room is the distance from the walls less the roller's radius. A straight slot, or a curved one off its
+middle, gives x = h / lever, with the lever of the wall's normal about the wheel's axis. At mid stroke of a
+curved slot the lever is 0 and x of order √h, so x is found where it is: on the walls.
 """
 
 from collections.abc import Callable

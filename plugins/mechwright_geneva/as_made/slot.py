@@ -101,12 +101,11 @@ def as_made(params: GenevaParams, made: Mapping[str, Sequence[MadePart]]) -> AsM
     return AsMade((*figures, *_locked(m, lock, slots)), (curve,), findings)
 
 
-def _turn(
-    name: str, title: str, design: float | None, found: float, low: float, high: float, rule: str
-) -> MadeFigure:
-    """The figure of an angle, rad."""
+def _turn(name: str, title: str, rule: str, design: float | None, *values: float) -> MadeFigure:
+    """The figure of an angle, rad: as drawn, as made, and its least and greatest value."""
     drawn = None if design is None else design * MICRO
-    return MadeFigure(name, title, "µrad", None, drawn, found * MICRO, low * MICRO, high * MICRO, rule)
+    found, low, high = (value * MICRO for value in values)
+    return MadeFigure(name, title, "µrad", None, drawn, found, low, high, rule)
 
 
 def _motion(one: Made, slots: list[Play]) -> tuple[list[MadeFigure], MadeCurve]:
@@ -126,9 +125,7 @@ def _motion(one: Made, slots: list[Play]) -> tuple[list[MadeFigure], MadeCurve]:
     errors = [worst(turns) for turns in (drawn, nominal, tight, [*tight, *loose, *bounds])]
     room, ends = np.stack([found.here for found in slots]), entry([*tight, *loose])
     least, most = float(room.min()), float(room.max())
-    rule = f"turned until the roller meets a wall, axes ± {OFF_CENTRE:g} mm" + (
-        "" if m.straight else "; at mid stroke √(2 h / (ρ² (κ + 1/ρ))): no tolerance cures it"
-    )
+    singular = "" if m.straight else "; at mid stroke √(2 h / (ρ² (κ + 1/ρ))): no tolerance cures it"
     figures = [
         MadeFigure(
             "slot.room",
@@ -144,17 +141,14 @@ def _motion(one: Made, slots: list[Play]) -> tuple[list[MadeFigure], MadeCurve]:
         _turn(
             "slot.play.entry",
             "play of the wheel as a roller enters",
-            *entry([planned]),
-            max(entry(nominal)),
-            min(ends),
-            max(ends),
             "as far as the walls reach; between two endless walls 2 h / lever",
+            *(*entry([planned]), max(entry(nominal)), min(ends), max(ends)),
         ),
         _turn(
             "wheel.error",
             "greatest error of the wheel in motion",
+            f"turned until the roller meets a wall, axes ± {OFF_CENTRE:g} mm{singular}",
             *(float(error.max()) for error in errors),
-            rule,
         ),
     ]
     curve = MadeCurve(
@@ -188,18 +182,15 @@ def _locked(m: Mechanism, lock: Lock, slots: list[Play]) -> list[MadeFigure]:
         _turn(
             "lock.play",
             "turn of the locked wheel either way",
-            float(m.lock_play()),
-            found,
-            low,
-            high,
             "ψ_L - acos((a² + l² - R_L²) / (2 a l))",
+            *(float(m.lock_play()), found, low, high),
         ),
         _turn(
             "lock.pulls",
             "turn that the lock takes back as it closes",
+            "play in the mouth of the slot over that of the lock",
             None,
             *(max(0.0, entry - play) for play in (found, high, low)),
-            "play in the mouth of the slot over that of the lock",
         ),
     ]
 

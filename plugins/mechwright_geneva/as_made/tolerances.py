@@ -175,7 +175,7 @@ class GenevaTolerances(ToleranceModel):
     def _lock_rates(self) -> tuple[float, float, float]:
         """Derivatives of the play of the lock by the wall of the wheel, that of the disc, and the axes."""
         m, a, rim, lock = self.m, self.m.axes, self.m.rim, self.m.lock
-        horn, stop = (a * rim * np.sin(horn_angle(a, rim, radius)) for radius in (m.arc, lock))
+        horn, stop = (a * rim * math.sin(horn_angle(a, rim, radius)) for radius in (m.arc, lock))
         return -m.arc / horn, -lock / stop, (a * a - rim * rim + lock * lock) / (2 * a * stop)
 
 

@@ -5,7 +5,6 @@ Every quantity is a number for one mechanism and a column (n, 1) for many; lengt
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cached_property
 from typing import Any, cast
 
@@ -283,8 +282,9 @@ class Mechanism(DesignTable[GenevaParams]):
         """The stroke at crank angles (...), rad, from its start; before and after it the wheel rests."""
         share = angle / (2 * self.crank_half)
         run, moves = self.stroke(np.clip(share, 0, 1)), (share >= 0) & (share <= 1)
-        rates = {name: np.where(moves, getattr(run, name), 0.0) for name in ("first", "second", "third")}
-        return replace(run, phi=np.where(moves, run.phi, self.crank_half - angle), **rates)
+        phi = np.where(moves, run.phi, self.crank_half - angle)
+        rates = (np.where(moves, rate, 0.0) for rate in (run.first, run.second, run.third))
+        return Stroke(run.frame, phi, run.theta, *rates)
 
     def slot_normal(self, run: Stroke) -> Points:
         """Unit normal (...) of the slot, fixed axes; of a straight one also where the roller turns back."""
