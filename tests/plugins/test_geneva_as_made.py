@@ -12,7 +12,7 @@ from by_night import by_night
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.tolerances import OFF_CENTRE
 from mechwright_geneva.as_made.play import Play, drawn_room, made_room
-from mechwright_geneva.as_made.slot import Made, as_made
+from mechwright_geneva.as_made.slot import SAMPLES, Made, as_made
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.rules.clearances import BINDING, LEAST_GROOVE, LEAST_LOCK
@@ -59,6 +59,34 @@ def test_a_straight_slot_gives_way_as_its_closed_form_says():
         assert slope == pytest.approx(-fact["expected"], rel=2e-3)
 
 
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_room_as_drawn_is_half_the_clearance_less_the_distance_from_the_way(name):
+    m = mechanism_of(DESIGNS[name])
+    run, room = m.stroke(np.array([0.15, 0.3])), drawn_room(m, 0.5)
+    assert room((run.centre + 0.3 * m.slot_normal(run)) * run.to_wheel) == pytest.approx(0.2, abs=1e-12)
+    if m.straight:
+        assert room((m.bottom - 0.3) * np.exp(-1j * m.wheel_half)) == pytest.approx(0.2)
+    else:
+        outside = m.way(m.crank_half * np.array([-0.2, 2.2]))
+        assert room(outside.track) == pytest.approx(0.5, abs=1e-12)
+
+
+def test_the_wheel_rests_before_and_after_a_stroke():
+    m = mechanism_of(STRAIGHT)
+    outside, step = m.crank_half * np.array([-0.2, 2.2]), 1e-5
+    run, before, after = (m.way(outside + move) for move in (0, -step, step))
+    assert run.theta == pytest.approx([0, 2 * m.wheel_half])
+    assert run.velocity == pytest.approx((after.centre - before.centre) / (2 * step))
+    assert run.acceleration == pytest.approx((after.velocity - before.velocity) / (2 * step))
+
+
+def test_each_slot_is_judged_in_its_own_place():
+    one = Made(mechanism_of(CURVED), {})
+    vars(one)["room"] = np.angle
+    middles = [one.play(slot).here[SAMPLES // 2] for slot in (0, 1)]
+    assert middles == pytest.approx([-one.m.wheel_half, one.m.wheel_half])
+
+
 def test_walls_that_keep_stock_take_just_that_from_the_play():
     m = mechanism_of(STRAIGHT)
     way = np.linspace(m.bottom, 1.5 * m.rim, 4001)[:, None] * [
@@ -84,6 +112,8 @@ def test_the_examples_run_as_made(name):
     assert 0 < room.low < room.made < room.design == params.groove_clearance / 2
     lock = found["lock.clearance"]
     assert lock.asked == OFF_CENTRE < lock.low < lock.made < lock.design
+    turn = found["lock.play"]
+    assert turn.low < turn.made < turn.design < turn.high
     error = found["wheel.error"]
     assert error.low < error.made < error.design < error.high
     (curve,) = said.curves

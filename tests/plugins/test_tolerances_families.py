@@ -207,6 +207,7 @@ def test_a_singular_position_is_told_and_not_divided_by():
     [
         {"law": "straight", "slots": 3, "lock_radius": 5.0},
         {"lock_radius": 15.0},
+        {"lock_radius": 28.5},
         {"lock_radius": 500.0},
         {"rollers": 3, "slots": 3},
     ],
