@@ -106,10 +106,6 @@ def test_the_page_of_rules_is_what_families_declare():
     assert rule_page.PAGE.read_text(encoding="utf-8") == rule_page.page(), (
         "python docs/rule_page.py writes it anew"
     )
-    declared = set(re.findall(r"`((?:bore|geneva)\.[\w-]+)`", rule_page.page()))
-    listed = set(re.findall(r"`((?:bore|geneva)\.[\w-]+)`", (ROOT / "docs" / "geneva.md").read_text("utf-8")))
-    assert declared - listed == set()
-    assert listed - declared == {"geneva.as-made", "geneva.as-made-lock", "geneva.requirement"}
 
 
 def test_every_public_name_is_documented_and_can_be_imported():

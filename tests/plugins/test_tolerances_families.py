@@ -17,7 +17,7 @@ from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
-from mechwright_geneva.as_made.tube import Tube
+from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
@@ -180,7 +180,7 @@ def test_the_wheel_turns_in_its_slot_as_far_as_the_tube_lets_it():
     model = Geneva().tolerances(GenevaParams(groove_clearance=0.05), Tolerances())
     at = np.radians([1.0, 20, 40, 45, 60, 90])
     half = 0.025
-    there, back = Tube(model.m, half).play(at)
+    there, back = Play.of(model.m.way(at), drawn_room(model.m, half)).turns()
     ends = [
         model.errors("wheel angle", deviations(model, (1,), roller_in_slot=sign * half), at)[0]
         for sign in (1, -1)
@@ -207,6 +207,7 @@ def test_a_singular_position_is_told_and_not_divided_by():
     [
         {"law": "straight", "slots": 3, "lock_radius": 5.0},
         {"lock_radius": 15.0},
+        {"lock_radius": 28.5},
         {"lock_radius": 500.0},
         {"rollers": 3, "slots": 3},
     ],

@@ -14,7 +14,7 @@ from mechwright import Array
 from mechwright.contracts.design_table import DesignTable, number, plain
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics.drive import Driver, driver_of
-from mechwright_geneva.kinematics.geometry import Frame, Stroke, corner_angle, regime, stroke
+from mechwright_geneva.kinematics.geometry import Frame, Points, Stroke, corner_angle, regime, stroke
 from mechwright_geneva.kinematics.horn_clearance import greatest_discs
 from mechwright_geneva.kinematics.laws import law_of
 from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, Measures, measure, sharpened
@@ -253,7 +253,7 @@ class Mechanism(DesignTable[GenevaParams]):
 
     @cached_property
     def horn_angle(self) -> float:
-        """Polar angle ψ_L of the corner between concave arc and rim from the middle of the arc."""
+        """Polar angle ψ_L of a horn, the corner between concave arc and rim, from the middle of the arc."""
         angle: float = corner_angle(self.axes, self.rim, self.arc)
         return angle
 
@@ -263,18 +263,42 @@ class Mechanism(DesignTable[GenevaParams]):
         psi = self.horn_angle
         return number(np.arctan2(self.rim * np.sin(psi), self.axes - self.rim * np.cos(psi)))
 
-    def lock_play(self, arc: Any, disc: Any, off_centre: Any = 0.0) -> Any:
-        """Angle (...), rad, by which the locked wheel can turn either way where the disc covers both horns.
+    def lock_play(
+        self, wheel: "float | Array" = 0.0, disc: "float | Array" = 0.0, apart: "float | Array" = 0.0
+    ) -> Array:
+        """Turn (...), rad, of the locked wheel either way where the disc covers both horns.
 
-        A horn leaves the circle of the concave arc and meets that of the disc. Radii are in mm, as is
-        ``off_centre``, by which the disc's axis is too far away.
+        A horn leaves the circle of its concave arc, R_L + c, and meets that of the disc, R_L.
+
+        Parameters
+        ----------
+        wheel, disc
+            Stock (...) that stays on the arc and on the disc, mm.
+        apart
+            By how much (...) the axes are too far apart, mm.
         """
-        horn = corner_angle(self.axes, self.rim, arc)
-        return horn - corner_angle(self.axes + off_centre, self.rim, disc)
+        leaves = corner_angle(self.axes, self.rim, self.arc - wheel)
+        return np.asarray(leaves - corner_angle(self.axes + apart, self.rim, self.lock + disc))
 
     def stroke(self, u: Array) -> Stroke:
         """The stroke at shares u (k,)."""
         return stroke(self.frame, self.law, u)
+
+    def way(self, angle: Array) -> Stroke:
+        """The stroke at crank angles (...), rad, from its start; before and after it the wheel rests."""
+        share = angle / (2 * self.crank_half)
+        run, moves = self.stroke(np.clip(share, 0, 1)), (share >= 0) & (share <= 1)
+        phi = np.where(moves, run.phi, self.crank_half - angle)
+        rates = (np.where(moves, rate, 0.0) for rate in (run.first, run.second, run.third))
+        return Stroke(run.frame, phi, run.theta, *rates)
+
+    def slot_normal(self, run: Stroke) -> Points:
+        """Unit normal (...) of the slot, fixed axes; of a straight one also where the roller turns back."""
+        return np.asarray(1j * run.centre / np.abs(run.centre)) if self.straight else run.normal
+
+    def lever(self, run: Stroke) -> Array:
+        """Lever (...) of that normal about the wheel's axis, mm, signed."""
+        return run.lever(self.slot_normal(run))
 
     def value_of_blocks(self, function: "Callable[[Mechanism], Array]") -> float:
         """What a function gives (b, 1) of blocks of mechanisms, as a number or a column (n, 1)."""
