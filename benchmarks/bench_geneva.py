@@ -42,7 +42,7 @@ def one_design() -> int:
     findings = FAMILY.check(params)
     motion = FAMILY.solve(params, 361)
     m = mechanism_of(params)
-    loop, _ = Slot(m, m.groove).loop()
+    loop, _ = Slot(m).loop()
     return len(findings) + motion.samples + len(loop.segments)
 
 

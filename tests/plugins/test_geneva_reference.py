@@ -175,7 +175,7 @@ REF = {
     "web_between_slots_mm": lambda m: m.measures.web.item(),
     "min_slot_distance_from_O1_mm": lambda m: m.nearest,
     "horn_web_mm": lambda m: m.nearest - m.groove - m.arc,
-    "lock_arc_rim_polar_deg": lambda m: math.degrees(Wheel(m).horn_angle),
+    "lock_arc_rim_polar_deg": lambda m: math.degrees(m.horn_angle),
     "locking_arc_angle_deg": lambda m: math.degrees(lock_loop(m)[0].segments[-1].sweep),
     "relief_radius_safe_mm": lambda m: m.axes - m.rim - m.params.lock_clearance,
     "lead_in_crank_angle_deg": lambda m: (
@@ -218,7 +218,7 @@ def pieces(m):
     """How many pieces stay when the slots are cut through."""
     disc = shapely.Polygon(Wheel(m).disc().flatten())
     for k in range(4):
-        disc = disc.difference(shapely.Polygon(Slot(m, 5.0).loop()[0].moved(0, 0, k * math.pi / 2).flatten()))
+        disc = disc.difference(shapely.Polygon(Slot(m).loop()[0].moved(0, 0, k * math.pi / 2).flatten()))
     return len(disc.geoms)
 
 

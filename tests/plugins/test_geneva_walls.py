@@ -263,7 +263,7 @@ class TestLopsided:
 )
 def test_the_fitted_walls_are_within_what_they_say(table):
     m = mechanism_of(GenevaParams(**table))
-    slot = Slot(m, m.groove)
+    slot = Slot(m)
     for side in (LEFT, RIGHT):
         wall = slot.wall(side, trimmed=False)
         assert 0 < wall.deviation <= 0.0005
@@ -277,10 +277,10 @@ def test_the_fitted_walls_are_within_what_they_say(table):
 def test_the_groove_is_the_union_of_its_discs(table):
     """Area and shape of the groove, leads included, against discs along the way."""
     m = mechanism_of(GenevaParams(**table))
-    loop, _ = Slot(m, m.groove).loop()
+    loop, _ = Slot(m).loop()
     groove = shapely.Polygon(loop.flatten())
     disc = shapely.Point(0, 0).buffer(m.rim, quad_segs=512)
-    lead = np.linspace(Slot(m, m.groove).lead, m.crank_half, 200)
+    lead = np.linspace(Slot(m).cap_angle, m.crank_half, 200)
     before = m.axes - m.crank * np.exp(1j * lead)
     after = (m.axes - m.crank * np.exp(-1j * lead[::-1])) * np.exp(-2j * m.wheel_half)
     if m.straight:

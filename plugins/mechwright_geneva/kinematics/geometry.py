@@ -33,16 +33,17 @@ Every array has the design axis first and the sample axis last.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array
-from mechwright.contracts.design_table import Rowwise
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright.mechanics.envelope import LEFT, RIGHT, Points, left_normal, regularity, touched, way_curvature
 from mechwright.mechanics.laws import Law
 
-__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "horn_angle", "regime", "stroke"]
+__all__ = ["LEFT", "RIGHT", "Frame", "Points", "Stroke", "corner_angle", "regime", "stroke"]
 
 
 @dataclass(frozen=True)
@@ -188,6 +189,12 @@ class Stroke:
         return regularity(self.curvature, radius, side)
 
 
+def corner_angle(one: Any, two: Any, opposite: Any) -> Any:
+    """Angle (...), rad, between two sides of a triangle, by its third side; NaN where they do not meet."""
+    with np.errstate(invalid="ignore"):
+        return number(np.arccos((one**2 + two**2 - opposite**2) / (2 * one * two)))
+
+
 def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     """The stroke at u (k,) in [0, 1]."""
     u = np.asarray(u, dtype=float)
@@ -197,17 +204,6 @@ def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     phi = frame.crank_half - time * u
     first, second, third = way / time * rates.v, way / time**2 * rates.a, way / time**3 * rates.j
     return Stroke(frame, phi, way * rates.s, first, second, third)
-
-
-def horn_angle(axes: ArrayLike, rim: ArrayLike, radius: ArrayLike) -> Array:
-    """Polar angle (...), rad, from the line of centres at which a circle about the crank's axis cuts the rim.
-
-    NaN where it does not reach the rim.
-    """
-    a, l = np.asarray(axes, dtype=float), np.asarray(rim, dtype=float)
-    with np.errstate(invalid="ignore"):
-        angle: Array = np.arccos((a**2 + l**2 - np.asarray(radius) ** 2) / (2 * a * l))
-    return angle
 
 
 def regime(frame: Frame, law: Law) -> NDArray[np.int_]:

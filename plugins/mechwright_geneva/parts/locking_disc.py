@@ -31,10 +31,9 @@ from numpy.typing import NDArray
 
 from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Segment
 from mechwright.geometry.fit import fit_curves
-from mechwright_geneva.kinematics.geometry import Points, horn_angle
+from mechwright_geneva.kinematics.geometry import Points, corner_angle
 from mechwright_geneva.kinematics.mechanism import Mechanism
-from mechwright_geneva.parts.mirror import mirrored
-from mechwright_geneva.parts.slot_outline import FIT
+from mechwright_geneva.parts.slot_outline import FIT, backwards, mirrored
 
 _SAMPLES = 400
 """Samples of the envelope that find how deep it is."""
@@ -80,7 +79,7 @@ class Half:
     def horn_angle(self) -> Array:
         """Polar angle ψ of the grown wheel's horn from the middle of its bite."""
         m = self.mechanism
-        return horn_angle(m.axes, m.rim + m.params.lock_clearance, m.lock)
+        return np.asarray(corner_angle(m.axes, m.rim + m.params.lock_clearance, m.lock))
 
     def envelope(self, u: Array) -> Points:
         """E at u."""
@@ -237,10 +236,10 @@ def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
     deep = m.axes - m.rim - m.params.lock_clearance
     entry, one = Half(m, leaving=False).edge()
     if m.law.symmetric:
-        out, two = [mirrored(segment, 0.0) for segment in entry[::-1]], one
+        out, two = mirrored(entry, 0.0), one
     else:
         leave, two = Half(m, leaving=True).edge()
-        out = [segment.reversed() for segment in leave[::-1]]
+        out = backwards(leave)
     start, end = math.atan2(*entry[-1].end[::-1]), math.atan2(*out[0].start[::-1])
     relief: list[Segment] = [*entry, Arc((0.0, 0.0), deep, start, end - start, "relief"), *out]
     free = m.pitch - 2 * m.crank_half

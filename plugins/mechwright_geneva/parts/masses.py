@@ -1,49 +1,44 @@
-"""Masses of the parts of many Geneva mechanisms, as :mod:`mechwright_geneva.parts.parts` draws them.
+"""Masses of the parts of Geneva mechanisms over a table, as :mod:`mechwright_geneva.parts.parts` draws them.
 
 Areas are integrals along outlines, 2 dA = Im(z̄ dz): of arcs in closed form, of walls and reliefs by Gauss'
-quadrature between the breaks of the law. A wall goes over the wheel as the roller does, V (1 ∓ κ r) for each
-radian of the crank.
+quadrature between the breaks of the law.
 """
 
 import math
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from mechwright import Array, material
 from mechwright.contracts.figure import PartMass
-from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.mechanics.linkage.areas import circle_area, hull_area
-from mechwright_geneva.kinematics.geometry import Points
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Points
 from mechwright_geneva.kinematics.mechanism import BLOCK, Mechanism
+from mechwright_geneva.parts.crank_outline import boss_radius, hub_radius, pin_bore, pins, stud_diameter
 from mechwright_geneva.parts.locking_disc import Half
 from mechwright_geneva.parts.openings import opening_area
+from mechwright_geneva.parts.slot_outline import Slot
 
 NODES = 24
 """Of a piece of a wall or relief: what is left is 1e-9 of a plate, for all laws by name."""
-
-_GRID, _SECANTS = 129, 4
-"""Samples of half a stroke among which a wall passes the rim, and steps from there: each gains the square of
-a sample's distance, and areas feel the square of what is left."""
 
 _CUTS = (0.25, 0.5, 0.75)
 
 
 def masses_of(m: Mechanism) -> dict[str, PartMass] | None:
-    """Of the parts that there are, for designs whose slots are not backed by a plate with islands."""
+    """Masses of the parts, but of slots on a backing plate and of wheels with a counterbore."""
     if m.given.slots_made == "backed" or np.any(np.asarray(m.params.counterbore_diameter) > 0):
         return None
     weights = Weights(m)
-    found = {"wheel": PartMass(weights.wheel)}
-    if np.any(np.asarray(m.params.hub_diameter) > 0):
-        found["hub"] = PartMass(weights.hub)
-    return found | {
+    hub = {"hub": PartMass(weights.hub)} if np.any(np.asarray(m.params.hub_diameter) > 0) else {}
+    return {
+        "wheel": PartMass(weights.wheel),
+        **hub,
         "locking-disc": PartMass(weights.disc),
         "crank": PartMass(weights.crank),
         "roller": PartMass(weights.roller, m.params.rollers),
@@ -51,202 +46,122 @@ def masses_of(m: Mechanism) -> dict[str, PartMass] | None:
 
 
 class Weights:
-    """Masses (m, 1) of the parts of designs that are alike but for sizes, kg."""
+    """Masses (n, 1) of the parts of designs of a table, kg."""
 
     def __init__(self, m: Mechanism) -> None:
-        self.m = m
+        self.m, self.params = m, m.params
         self.density = KILOGRAMS * material(m.params.material).density
+        self.has_hub = np.asarray(m.params.hub_diameter) > 0
+        self.dowels = 2 * circle_area(np.asarray(m.params.fixing))
 
     @cached_property
-    def _opening(self) -> Any:
-        params = self.m.params
-        return opening_area(params.bore, params.keyway_width, params.keyway_relief)
+    def _wheel_holes(self) -> Any:
+        """Area of bore and dowels."""
+        params = self.params
+        opening = opening_area(params.bore, params.keyway_width, params.keyway_relief)
+        return opening + np.where(self.has_hub, self.dowels, 0.0)
 
     @cached_property
-    def _driver_opening(self) -> Any:
-        params = self.m.params
-        return opening_area(params.driver_bore, params.driver_keyway_width, params.keyway_relief)
-
-    @cached_property
-    def _dowels(self) -> Any:
-        """Area of the holes for two dowels."""
-        return 2 * circle_area(np.asarray(self.m.params.fixing))
-
-    @property
-    def _hub_dowels(self) -> Any:
-        return np.where(np.asarray(self.m.params.hub_diameter) > 0, self._dowels, 0.0)
+    def _driver_holes(self) -> Any:
+        """Area of bore and dowels."""
+        params = self.params
+        opening = opening_area(params.driver_bore, params.driver_keyway_width, params.keyway_relief)
+        return opening + self.dowels
 
     def wheel(self) -> Any:
         """With its slots, cut through or blind."""
-        m = self.m
-        slots = m.slots * (self._straight_slot() if m.straight else self._curved_slot())
-        plate = (self._round() - self._opening - self._hub_dowels) * m.params.thickness
-        deep = m.params.thickness if m.params.slots_made == "through" else m.params.groove_depth
-        return self.density * (plate - slots * deep)
+        m, thickness = self.m, self.params.thickness
+        slots = m.slots * (_straight_slot(m) if m.straight else m.each(_curved_slot, BLOCK))
+        deep = thickness if self.params.slots_made == "through" else self.params.groove_depth
+        return self.density * ((_disc(m) - self._wheel_holes) * thickness - slots * deep)
 
     def hub(self) -> Any:
         """The plate under the wheel."""
-        params = self.m.params
-        ring = circle_area(np.asarray(params.hub_diameter)) - self._opening - self._hub_dowels
-        return self.density * np.where(np.asarray(params.hub_diameter) > 0, ring * params.hub_height, 0.0)
-
-    def _round(self) -> Any:
-        """The wheel without slots: rim and concave arcs."""
-        m = self.m
-        bite = m.arc * m.axes * np.sin(m.arc_half) - m.arc_half * m.arc**2
-        return m.slots * (m.rim**2 * (m.wheel_half - m.horn_angle) + bite)
-
-    def _straight_slot(self) -> Any:
-        m, r = self.m, self.m.groove
-        reach = np.sqrt(m.rim**2 - r**2)
-        beyond = m.rim**2 * np.arcsin(r / m.rim) - r * reach
-        return math.pi / 2 * r**2 + 2 * r * (reach - m.bottom) + beyond
-
-    def _curved_slot(self) -> Array:
-        """Between both walls: what the one on the hub's side encloses with the rim, less the island."""
-        sides = np.broadcast_to(np.asarray(self.m.side), (len(self.m), 1))
-        found = np.empty((len(self.m), 1))
-        for side in (-1, 1):
-            rows = np.flatnonzero(sides[:, 0] == side)
-            if rows.size:
-                found[rows] = self.m.rows(rows).each(partial(_between_walls, side=side), BLOCK)
-        return found
+        ring = circle_area(np.asarray(self.params.hub_diameter)) - self._wheel_holes
+        return self.density * np.where(self.has_hub, ring * self.params.hub_height, 0.0)
 
     def disc(self) -> Any:
         """The locking disc."""
-        params = self.m.params
-        area = self.m.each(_disc_area, BLOCK) - self._driver_opening - self._dowels
-        return self.density * area * (params.thickness + params.axial_gap)
+        area = self.m.each(_locking_disc, BLOCK) - self._driver_holes
+        return self.density * area * (self.params.thickness + self.params.axial_gap)
 
     def crank(self) -> Any:
         """With a boss about each roller's pin."""
-        m, params = self.m, self.m.params
-        inner, outer = m.driver_opening, m.driver_radius
-        fixing = np.asarray(params.fixing)
-        bare = inner + 2 * params.least_wall
-        joined = np.maximum(bare, (inner + outer) / 2 + fixing / 2 + params.least_wall)
-        hub = np.where(fixing > 0, joined, bare)
-        boss = np.maximum(params.pin_diameter / 2 + params.least_wall, m.roller)
-        turns = np.exp(1j * m.pitch * np.arange(params.rollers))
-        places = [np.ravel(m.crank * turn) for turn in turns]
-        area = hull_area([0j, *places], [np.ravel(hub), *[np.ravel(boss)] * len(places)], len(m))[:, None]
-        area = area - self._driver_opening - self._dowels - params.rollers * circle_area(self._pin_bore)
-        return self.density * area * params.crank_thickness
-
-    @cached_property
-    def _pin_bore(self) -> Any:
-        """Diameter of the pins' bores in the crank, mm: the middle of their fit."""
-        pin = np.asarray(self.m.params.pin_diameter, dtype=float)
-        if self.m.params.pin_fit == "none":
-            return pin
-        sizes, which = np.unique(pin, return_inverse=True)
-        middles = [hole_fit(size, self.m.params.pin_fit).middle for size in sizes.tolist()]
-        return np.array(middles)[which].reshape(pin.shape)
+        m, centres = self.m, [np.ravel(pin) for pin in pins(self.m)]
+        radii = [np.ravel(hub_radius(m)), *[np.ravel(boss_radius(m))] * len(centres)]
+        bores = self._driver_holes + len(centres) * circle_area(pin_bore(m))
+        area = hull_area([0j, *centres], radii, m.size)[:, None] - bores
+        return self.density * area * self.params.crank_thickness
 
     def roller(self) -> Any:
         """With its stud; one that is pressed in is shown as it then is."""
-        params = self.m.params
-        stud = circle_area(np.minimum(params.pin_diameter, self._pin_bore))
-        volume = circle_area(2 * self.m.roller) * params.roller_length
-        volume = volume + stud * (params.axial_gap + params.crank_thickness)
+        params = self.params
+        stud = circle_area(stud_diameter(self.m)) * (params.axial_gap + params.crank_thickness)
+        volume = circle_area(2 * self.m.roller) * params.roller_length + stud
         return KILOGRAMS * material(params.roller_material).density * volume
 
 
-_RULE = legendre.leggauss(NODES)
+def _disc(m: Mechanism) -> Any:
+    """The wheel without slots: rim and concave arcs."""
+    bite = m.arc * m.axes * np.sin(m.arc_half) - m.arc_half * m.arc**2
+    return m.slots * (m.rim**2 * (m.wheel_half - m.horn_angle) + bite)
 
 
-def _slopes() -> Array:
-    """Rates at the nodes of a polynomial with given values there."""
-    nodes = _RULE[0]
-    basis = legendre.legvander(nodes, NODES - 1)
-    rates = [legendre.legval(nodes, legendre.legder(one)) for one in np.eye(NODES)]
-    return np.asarray(np.stack(rates, axis=1) @ np.linalg.inv(basis))
+def _straight_slot(m: Mechanism) -> Any:
+    reach, r = Slot(m).reach, m.groove
+    beyond = m.rim**2 * np.arcsin(r / m.rim) - r * reach
+    return math.pi / 2 * r**2 + 2 * r * (reach - m.bottom) + beyond
 
 
-_SLOPES = _slopes()
+def _curved_slot(m: Mechanism) -> Any:
+    """Between both walls: what the one on the hub's side encloses with the rim, less the island."""
+    return np.abs(_enclosed(m, LEFT) - _enclosed(m, RIGHT))
 
 
-def _pieces(m: Mechanism, first: Any, last: Any) -> list[tuple[Any, Any]]:
-    """Ends (m, 1) of the smooth pieces from one share of the stroke up to another; empty ones between."""
-    cuts = sorted({0.0, *_CUTS, *m.law.breaks, 1.0})
-    return [(np.clip(a, first, last), np.clip(b, first, last)) for a, b in pairwise(cuts)]
-
-
-def _along(m: Mechanism, curve: Callable[[Array], Points], first: Any, last: Any) -> Any:
-    """Half the integral (m, 1) of Im(z̄ dz) along a curve from one share (m, 1) up to another one."""
+def _enclosed(m: Mechanism, side: int) -> Any:
+    """Area (n, 1) between a wall of a curved slot and the rim."""
+    slot, radius, axis = Slot(m), m.crank + side * m.groove, np.exp(1j * m.wheel_half)
+    phi = slot.lead_angle(side)
+    lead = radius**2 * (m.crank_half - phi) - radius * m.axes * (np.sin(m.crank_half) - np.sin(phi))
     found: Any = 0.0
-    for a, b in _pieces(m, first, last):
-        if not (b > a).any():
-            continue
-        z = curve(a + (b - a) * (1 + _RULE[0]) / 2)
-        found = found + ((np.conj(z) * (z @ _SLOPES.T)).imag @ _RULE[1])[..., None] / 2
-    return found
+    for end in m.ends:
+
+        def wall(u: Array, end: int = end) -> Points:
+            """The wall from an end on, the slot on +x, that of the way out in the mirror."""
+            z: Points = slot.exact(side, np.abs(end - u)) * axis
+            return np.conj(z) if end else z
+
+        first = np.abs(end - slot.mouth(side, end))
+        mouth = np.where(phi > m.crank_half, (m.axes - radius * np.exp(1j * phi)) * axis, wall(first))
+        found = found + lead + _twice_swept(m, wall, first, 0.5) + m.rim**2 * np.angle(mouth)
+    return np.abs(found) / len(m.ends)
 
 
-def _between_walls(m: Mechanism, side: int) -> Array:
-    return _enclosed(m, -side) - _enclosed(m, side)
-
-
-def _enclosed(m: Mechanism, side: int) -> Array:
-    """Area (m, 1) between a wall of a curved slot and the rim."""
-    radius = m.crank + side * m.groove
-    cosine = (m.axes**2 + radius**2 - m.rim**2) / (2 * m.axes * radius)
-    phi = np.arccos(np.clip(cosine, -1.0, 1.0))
-    inside = np.abs(m.stroke(np.array([0.0, 1.0])).wall(m.groove, side)) < m.rim
-    lead, turn = m.axes - radius * np.exp(1j * phi), m.crank_half - phi
-    arc = (radius**2 * turn - radius * m.axes * (np.sin(m.crank_half) - np.sin(phi))) / 2
-    mirror = np.exp(-2j * m.wheel_half)
-
-    def wall(u: Array) -> Points:
-        return m.stroke(u).wall(m.groove, side)
-
-    first = _mouth(m, side, 0, inside[:, :1])
-    one = np.where(inside[:, :1], lead, wall(first))
-    found = np.where(inside[:, :1], arc, 0.0)
-    if m.law.symmetric:  # the way out is the way in, mirrored about the slot's axis
-        two = np.conj(one) * mirror
-        found = 2 * (found + _along(m, wall, first, np.full_like(first, 0.5)))
-    else:
-        last = _mouth(m, side, 1, inside[:, 1:])
-        two = np.where(inside[:, 1:], np.conj(lead) * mirror, wall(last))
-        found = found + np.where(inside[:, 1:], arc, 0.0) + _along(m, wall, first, last)
-    return np.asarray(np.abs(found + m.rim**2 / 2 * np.angle(one * np.conj(two))))
-
-
-def _mouth(m: Mechanism, side: int, end: int, inside: NDArray[np.bool_]) -> Array:
-    """The share (m, 1) at which a wall begins or ends at the rim; of one inside of it there, that end."""
-    found = np.full((len(m), 1), float(end))
-    rows = np.flatnonzero(~inside[:, 0])
-    if not rows.size:
-        return found
-    some = m.rows(rows)
-
-    def away(u: Array) -> Any:
-        return np.abs(some.stroke(u).wall(some.groove, side)) - some.rim
-
-    grid = np.abs(end - np.linspace(0.0, 0.5, _GRID))
-    place = np.maximum(np.argmax(away(grid) <= 0, axis=1), 1)[:, None]
-    outer, inner = grid[place - 1], grid[place]
-    far, near = away(outer), away(inner)
-    for _ in range(_SECANTS):
-        u = outer + (inner - outer) * far / (far - near)
-        value = away(u)
-        out = value > 0
-        outer, far = np.where(out, u, outer), np.where(out, value, far)
-        inner, near = np.where(out, inner, u), np.where(out, near, value)
-    found[rows] = outer + (inner - outer) * far / (far - near)
-    return found
-
-
-def _disc_area(m: Mechanism) -> Array:
-    """Area (m, 1) inside of the locking disc's outline."""
-    deep = m.axes - m.rim - m.params.lock_clearance
-    free = m.pitch - 2 * m.crank_half
-    found = m.lock**2 / 2 * free
-    for leaving in (False, not m.law.symmetric):
-        half = Half(m, leaving=leaving)
+def _locking_disc(m: Mechanism) -> Array:
+    """Area (n, 1) inside of the locking disc's outline."""
+    found = m.lock**2 * (m.pitch / 2 - m.crank_half)
+    for end in m.ends:
+        half = Half(m, leaving=end == 1)
         last = half.passing()
         s, t, _ = half.crossing(last)
-        edge = _along(m, half.envelope, 0.0 * s, s) - _along(m, half.horn, last, t)
-        found = found + edge - deep**2 / 2 * np.angle(half.horn(last))
+        edge = _twice_swept(m, half.envelope, 0.0, s) - _twice_swept(m, half.horn, last, t)
+        found = found + (edge - m.driver_radius**2 * np.angle(half.horn(last))) / len(m.ends)
     return np.asarray(m.params.rollers * found)
+
+
+_NODES, _WEIGHTS = legendre.leggauss(NODES)
+
+_SLOPES = legendre.legval(_NODES, legendre.legder(np.linalg.inv(legendre.legvander(_NODES, NODES - 1))))
+"""Rates at the nodes (., j) of polynomials that are 1 at one node (i, .) and 0 at the others."""
+
+
+def _twice_swept(m: Mechanism, curve: Callable[[Array], Points], first: Any, last: Any) -> Any:
+    """Integral (n, 1) of Im(z̄ dz) along a curve, from one share (n, 1) of the stroke up to another one."""
+    breaks = {round(abs(end - one), 12) for one in m.law.breaks for end in m.ends}
+    found: Any = 0.0
+    for one, two in pairwise(sorted({0.0, *_CUTS, *breaks, 1.0})):
+        a, b = np.clip(one, first, last), np.clip(two, first, last)
+        if (b > a).any():
+            z = curve(a + (b - a) * (1 + _NODES) / 2)
+            found = found + ((np.conj(z) * (z @ _SLOPES)).imag @ _WEIGHTS)[..., None]
+    return found

@@ -1,13 +1,15 @@
 """Shaft openings of wheel and driver."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright import Array
+from mechwright.contracts.design_table import number
 from mechwright.geometry.keyway import Opening, key_of_width
+from mechwright.mechanics.linkage.areas import circle_area
 from mechwright_geneva.parameters import Sizes
 
 
@@ -41,15 +43,22 @@ def reach(bore: ArrayLike, width: float, relief: float) -> Any:
     )
 
 
-def opening_area(bore: ArrayLike, width: float, relief: float) -> Array:
+def opening_area(bore: ArrayLike, width: float, relief: float) -> Any:
     """Area (...) of openings with one keyway, mm²; each size of bore with a keyway is drawn once."""
-    bores = np.asarray(bore, dtype=float)
     if key_of_width(width) is None:
-        return np.asarray(math.pi / 4 * bores**2)
-    sizes, which = np.unique(bores, return_inverse=True)
-    drawn = [_opening(size, width, relief) for size in sizes.tolist()]
-    areas = np.array([0.0 if one is None else abs(one.loop().area) for one in drawn])
-    return np.asarray(areas[which].reshape(bores.shape))
+        return circle_area(np.asarray(bore))
+
+    def area(size: float) -> float:
+        opening = _opening(size, width, relief)
+        return 0.0 if opening is None else opening.loop().area
+
+    return np.abs(by_size(area, bore))
+
+
+def by_size(function: Callable[[float], float], sizes: ArrayLike) -> Any:
+    """What a function gives of sizes (...); it is called once for each size."""
+    different, which = np.unique(sizes, return_inverse=True)
+    return number(np.array([function(size) for size in different.tolist()])[which].reshape(np.shape(sizes)))
 
 
 def needed_radius(opening: ArrayLike, least_wall: ArrayLike, fixing: ArrayLike) -> Any:

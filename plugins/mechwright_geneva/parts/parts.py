@@ -25,14 +25,14 @@ from mechwright import (
     circle,
     kept,
 )
-from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
+from mechwright.contracts.fits import shaft_fit
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.kinematics.motion import DRIVER, WHEEL, island_body, roller_body
-from mechwright_geneva.parameters import GenevaParams, Sizes
+from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.counterbore import counterbore
-from mechwright_geneva.parts.crank_outline import crank_loop
+from mechwright_geneva.parts.crank_outline import crank_loop, pin_bore, pin_fit, pins, stud_diameter
 from mechwright_geneva.parts.dowels import driver_dowels, hub_dowels, island_places, web_place
 from mechwright_geneva.parts.locking_disc import lock_loop
 from mechwright_geneva.parts.openings import driver_opening, wheel_opening
@@ -131,37 +131,22 @@ def _driver(m: Mechanism) -> list[Part]:
     # A relief leaves the disc's radius so gently that its ends still lock: tabs stand where it is deep.
     deep = m.lock - _RELIEVED * (m.lock - m.driver_radius)
     disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL, within=deep)
-    fit = _pin_fit(params)
-    pins = [
-        Bore(
-            f"pin-{k + 1}",
-            (m.crank * math.cos(k * m.pitch), m.crank * math.sin(k * m.pitch)),
-            params.pin_diameter if fit is None else fit.middle,
-            0,
-            params.crank_thickness,
-            fit,
-        )
-        for k in range(params.rollers)
+    fit, thickness = pin_fit(m, params.pin_diameter), params.crank_thickness
+    bores = [
+        Bore(f"pin-{k}", (pin.real, pin.imag), pin_bore(m), 0, thickness, fit)
+        for k, pin in enumerate(pins(m), start=1)
     ]
-    crank = _plate(
-        m, "crank", crank_loop(m), 0.0, opening, dowels, params.crank_thickness, DRIVER, top, BLUE, pins
-    )
+    crank = _plate(m, "crank", crank_loop(m), 0.0, opening, dowels, thickness, DRIVER, top, BLUE, bores)
     return [disc, replace(crank, marks=(FittingMark(ARMS),))]
 
 
-def _pin_fit(params: Sizes) -> Fit | None:
-    return None if params.pin_fit == "none" else hole_fit(params.pin_diameter, params.pin_fit)
-
-
 def _roller(m: Mechanism) -> Part:
-    """The roller with its stud, which is turned; a stud pressed in, of h6, is shown as it then is."""
-    params, fit = m.params, _pin_fit(m.params)
-    shown = params.pin_diameter if fit is None else min(params.pin_diameter, fit.middle)
-    foot = m.params.thickness - m.params.roller_length
+    """The roller with its stud, which is turned."""
+    params = m.params
+    foot = params.thickness - params.roller_length
     stud = params.axial_gap + params.crank_thickness
-
-    pressed = None if fit is None else shaft_fit(params.pin_diameter, "h6")
-    steps = (Step(2 * m.roller, params.roller_length), Step(shown, stud, pressed))
+    pressed = None if params.pin_fit == "none" else shaft_fit(params.pin_diameter, "h6")
+    steps = (Step(2 * m.roller, params.roller_length), Step(stud_diameter(m), stud, pressed))
     instances = tuple(Instance(roller_body(k), foot) for k in range(params.rollers))
     return Part("roller", None, 0, params.roller_material, instances, STEEL, turned=Turned(steps))
 

@@ -17,18 +17,20 @@ All in the wheel's frame, the slot's axis at -θw0.
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment, kept
+from mechwright import TOLERANCES, Arc, Array, Line, Loop, Point, Segment, kept
+from mechwright.contracts.design_table import column, number
 from mechwright.geometry.fit import fit_curves
-from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Points
+from mechwright.geometry.mirror import turned_segment
+from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Points, corner_angle
 from mechwright_geneva.kinematics.mechanism import Mechanism
-from mechwright_geneva.parts.mirror import mirrored
 
 FIT = TOLERANCES.outline / 2
 """Deviation of the fitted walls, mm: half of what an outline may have."""
@@ -39,11 +41,8 @@ CAP = 1.0
 _QUARTERS = (0.25, 0.75)
 """Shares at which the walls of a smooth law are cut besides mid stroke: one piece rarely fits a half."""
 
-_SAME = 1e-12
-"""Shares of the stroke that differ by rounding."""
-
-_BISECTIONS = 60
-"""Halvings of a bracket of order 1: to the last bit."""
+_GRID, _NEWTON = 129, 4
+"""Samples of half a stroke that bracket where a wall passes the rim, and steps of Newton's method."""
 
 
 @dataclass(frozen=True)
@@ -74,81 +73,79 @@ class Wall:
 
 @dataclass(frozen=True)
 class Slot:
-    """The exact contour of slot 0 of a mechanism, for a roller of ``radius``."""
+    """The exact contour of slot 0 as it is cut, clearance included; its mouths also of a table."""
 
     mechanism: Mechanism
-    radius: float
 
     @cached_property
-    def lead(self) -> float:
+    def cap_angle(self) -> float:
         """|φ| at which the cap stands, rad: beyond θd0."""
-        wanted = self.mechanism.rim + CAP
+        m, away = self.mechanism, self.mechanism.rim + CAP
+        square = (m.axes - away) * (m.axes + away)
+        # The cap's nearest place to the wheel's axis, from the crank's.
+        nearest = min(max(math.sqrt(max(square, 0.0)), m.crank - m.groove), m.crank + m.groove)
+        return math.acos((square + nearest**2) / (2 * m.axes * nearest))
 
-        def gap(phi: float) -> float:
-            return self._nearest(phi) - wanted
-
-        return _bisect(gap, self.mechanism.crank_half, math.pi)
-
-    def _nearest(self, phi: float) -> float:
-        """Distance of the cap at φ from the wheel's axis."""
+    def lead_angle(self, side: int) -> Any:
+        """|φ| at which the lead of a wall passes the rim, rad; θd0 if the wall does so within the stroke."""
         m = self.mechanism
-        foot = min(max(m.axes * math.cos(phi), m.crank - self.radius), m.crank + self.radius)
-        return abs(m.axes - foot * cmath.exp(1j * phi))
+        return number(np.fmax(corner_angle(m.axes, m.crank + side * m.groove, m.rim), m.crank_half))
+
+    def mouth(self, side: int, end: int) -> Array:
+        """The share (n, 1) of the stroke at which a wall passes the rim next to an end; the end of a lead."""
+        m = self.mechanism
+        found = np.full((m.size, 1), float(end))
+        rows = np.flatnonzero(column(self.lead_angle(side) <= m.crank_half, m.size))
+        if not rows.size:
+            return found
+        m = m.rows(rows)
+        grid = np.abs(end - np.linspace(0, 0.5, _GRID))
+        inside = np.atleast_2d(np.abs(m.stroke(grid).wall(m.groove, side)) <= m.rim)
+        place = np.maximum(np.argmax(inside, axis=1), 1)[:, None]
+        bracket = grid[place - 1], grid[place]
+        u = bracket[1]
+        for _ in range(_NEWTON):
+            run = m.stroke(u)
+            wall = run.wall(m.groove, side)
+            rate = (np.conj(wall) * run.velocity * run.to_wheel).real * run.regularity(m.groove, side)
+            u = u - (np.abs(wall) ** 2 - m.rim**2) / (4 * m.crank_half * rate)
+            u = np.clip(u, np.minimum(*bracket), np.maximum(*bracket))
+        found[rows] = u
+        return found
 
     def wall(self, side: int, *, trimmed: bool) -> Wall:
         """The left or right wall: up to the caps, or trimmed at the rim."""
-        if self.mechanism.straight:
+        m = self.mechanism
+        if m.straight:
             return self._straight(side, trimmed)
-        lead_in = self._lead(side, trimmed, 0)
-        lead_out = self._lead(side, trimmed, 1)
-        first = 0.0 if lead_in else self._mouth(side, 0)
-        last = 1.0 if lead_out else self._mouth(side, 1)
-        chains, deviation = _fitted(self.mechanism, self.radius, first, last)
-        chain = chains[0 if side == LEFT else 1]
-        segments: list[Segment] = [*lead_in, *chain, *lead_out]
+        first, last = 0.0, 1.0
+        if trimmed:
+            first = self.mouth(side, 0).item()
+            last = 1 - first if m.law.symmetric else self.mouth(side, 1).item()
+        chains, deviation = _fitted(m, first, last)
+        lead_in, lead_out = (self._lead(side, trimmed, end) for end in (0, 1))
+        segments: list[Segment] = [*lead_in, *chains[0 if side == LEFT else 1], *lead_out]
         return Wall(tuple(_joined(segments)), deviation)
 
     def exact(self, side: int, u: Array) -> Points:
         """Points of the exact wall at shares u of the stroke."""
-        return self.mechanism.stroke(u).wall(self.radius, side)
+        return self.mechanism.stroke(u).wall(self.mechanism.groove, side)
 
     def _lead(self, side: int, trimmed: bool, end: int) -> list[Segment]:
         """The wall's arc before (end 0) or after (end 1) the stroke; none if the rim is inside the stroke."""
         m = self.mechanism
-        radius = m.crank + side * self.radius
-        if radius <= 0:
-            raise GeometryError(f"the crank of {m.crank:.3f} mm is not larger than the roller")
-        phi = self.lead
-        if trimmed:
-            if abs(self.exact(side, np.array([float(end)]))[0]) >= m.rim:
-                return []
-            # On the circle about the crank's axis the rim is where the cosine law puts it.
-            cosine = (m.axes**2 + radius**2 - m.rim**2) / (2 * m.axes * radius)
-            phi = math.acos(min(1.0, max(-1.0, cosine)))
-        centre = cmath.rect(m.axes, -2 * m.wheel_half * end)
-        # The wall is at a - R exp(iφ), so its direction from the centre is π + φ.
-        turn = math.pi - 2 * m.wheel_half * end
-        start, sweep = (
-            (turn + phi, m.crank_half - phi) if end == 0 else (turn - m.crank_half, m.crank_half - phi)
-        )
+        radius, phi = m.crank + side * m.groove, self.lead_angle(side) if trimmed else self.cap_angle
+        centre, sweep = cmath.rect(m.axes, -2 * m.wheel_half * end), m.crank_half - phi
         if abs(sweep) * radius < TOLERANCES.closure:
             return []
+        # The wall is at a - R exp(iφ), so its direction from the centre is π + φ.
+        start = math.pi - 2 * m.wheel_half * end + (phi if end == 0 else -m.crank_half)
         return [Arc(_point(centre), radius, start, sweep, "lead")]
 
-    def _mouth(self, side: int, end: int) -> float:
-        """The share u at which a wall passes the rim inside the stroke, next to this end of it."""
-
-        def outside(u: float) -> float:
-            return float(abs(self.exact(side, np.array([u]))[0])) - self.mechanism.rim
-
-        grid = np.linspace(0, 0.5, 129) if end == 0 else np.linspace(1, 0.5, 129)
-        away = np.abs(self.exact(side, grid)) - self.mechanism.rim
-        inside = np.flatnonzero(away <= 0)
-        if not inside.size:
-            raise GeometryError("a wall of the slot does not reach into the wheel")
-        if inside[0] == 0:
-            return float(grid[0])
-        return _bisect(lambda u: -outside(u), float(grid[inside[0] - 1]), float(grid[inside[0]]))
+    @property
+    def reach(self) -> Any:
+        """How far from the wheel's axis the walls of a straight slot pass the rim, along the slot, mm."""
+        return number(np.sqrt(self.mechanism.rim**2 - self.mechanism.groove**2))
 
     def _straight(self, side: int, trimmed: bool) -> Wall:
         """A line in, and the left wall with the round bottom; walls of a straight slot meet at its bottom.
@@ -156,9 +153,9 @@ class Slot:
         The left wall is the way in on the left, the right wall likewise on the right; the arc of the bottom
         belongs to the left one.
         """
-        m, r = self.mechanism, self.radius
+        m, r = self.mechanism, self.mechanism.groove
         axis = cmath.exp(-1j * m.wheel_half)
-        reach = math.sqrt(m.rim**2 - r**2) if trimmed else m.rim + CAP
+        reach = self.reach if trimmed else m.rim + CAP
         # Inwards along the axis, left is +i times the direction -1.
         inner, outer = complex(m.bottom, -side * r) * axis, complex(reach, -side * r) * axis
         line: Segment = Line(_point(outer), _point(inner), "slot")
@@ -172,7 +169,7 @@ class Slot:
     def loop(self) -> tuple[Loop, float]:
         """The whole slot up to its caps, counter-clockwise, and its deviation."""
         left, right = (self.wall(side, trimmed=False) for side in (LEFT, RIGHT))
-        back = [segment.reversed() for segment in right.segments[::-1]]
+        back = backwards(right.segments)
         caps: tuple[Segment, ...] = (Line(left.end, right.end, "cap"), Line(right.start, left.start, "cap"))
         if self.mechanism.straight:
             # The left wall already ends at the bottom's other side, where the right one begins backwards.
@@ -183,18 +180,15 @@ class Slot:
 
 
 @kept
-def _fitted(
-    mechanism: Mechanism, radius: float, first: float, last: float
-) -> tuple[list[list[Segment]], float]:
+def _fitted(mechanism: Mechanism, first: float, last: float) -> tuple[list[list[Segment]], float]:
     """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps; deviation.
 
     The way out of a symmetric law is the way in, mirrored about the slot's axis.
     """
     law = mechanism.law
-    halved = law.symmetric and abs(first + last - 1) < _SAME
     cuts = {0.5, *(law.breaks or _QUARTERS)}
-    ends = [first, *sorted(u for u in cuts if first < u < last and not (halved and u > 0.5))]
-    if not halved:
+    ends = [first, *sorted(u for u in cuts if first < u < last and not (law.symmetric and u > 0.5))]
+    if not law.symmetric:
         ends.append(last)
     chains: list[list[Segment]] = [[], []]
     deviation = 0.0
@@ -202,16 +196,16 @@ def _fitted(
 
         def curves(t: Array, a: float = a, b: float = b) -> Array:
             run = mechanism.stroke((1 - t) * a + t * b)
-            walls = np.stack((run.wall(radius, LEFT), run.wall(radius, RIGHT)))
+            walls = np.stack((run.wall(mechanism.groove, LEFT), run.wall(mechanism.groove, RIGHT)))
             return np.stack((walls.real, walls.imag), axis=-1)
 
         found, error = fit_curves(curves, 2, FIT, "wall")
         for chain, more in zip(chains, found, strict=True):
             chain.extend(more)
         deviation = max(deviation, error)
-    if halved:
+    if law.symmetric:
         for chain in chains:
-            chain.extend([mirrored(segment, -mechanism.wheel_half) for segment in chain[::-1]])
+            chain.extend(mirrored(chain, -mechanism.wheel_half))
     return chains, deviation
 
 
@@ -220,16 +214,15 @@ def _joined(segments: list[Segment]) -> list[Segment]:
     return [segment for segment in segments if segment.start != segment.end]
 
 
+def backwards(segments: Sequence[Segment]) -> list[Segment]:
+    """A chain of segments run the other way."""
+    return [segment.reversed() for segment in segments[::-1]]
+
+
+def mirrored(segments: Sequence[Segment], angle: float) -> list[Segment]:
+    """A chain reflected in the line through the origin at ``angle``, rad, and run the other way."""
+    return [turned_segment(one, "x").moved(0, 0, 2 * angle) for one in backwards(segments)]
+
+
 def _point(z: complex) -> Point:
     return z.real, z.imag
-
-
-def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
-    """The place between ``low`` (negative) and ``high`` (positive) where a function passes 0."""
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        if function(middle) < 0:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2

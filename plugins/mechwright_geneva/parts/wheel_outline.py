@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
-from mechwright import Arc, GeometryError, Loop, Point, Segment
+from mechwright import Arc, Loop, Point, Segment
 from mechwright_geneva.kinematics.geometry import LEFT, RIGHT
 from mechwright_geneva.kinematics.mechanism import Mechanism
-from mechwright_geneva.parts.slot_outline import Slot
+from mechwright_geneva.parts.slot_outline import Slot, backwards
 
 
 @dataclass(frozen=True)
@@ -19,51 +19,37 @@ class Wheel:
     @cached_property
     def slot(self) -> Slot:
         """Slot 0 as it is cut, clearance included."""
-        return Slot(self.mechanism, self.mechanism.groove)
-
-    @property
-    def horn_angle(self) -> float:
-        """Polar angle ψ_L of the corner between concave arc and rim from the middle of the arc."""
-        m = self.mechanism
-        if not 0 < m.horn_angle < math.pi:
-            raise GeometryError(
-                f"a locking disc of {m.lock:.3f} mm does not reach the wheel, whose axis is {m.axes:.3f} mm "
-                f"away and whose radius is {m.rim:.3f} mm"
-            )
-        return m.horn_angle
+        return Slot(self.mechanism)
 
     def _bite(self) -> Segment:
         """Concave arc 0, from its lower horn to its upper one."""
-        half = self.mechanism.arc_half
-        return Arc((self.mechanism.axes, 0.0), self.mechanism.arc, math.pi + half, -2 * half, "lock")
+        m = self.mechanism
+        return Arc((m.axes, 0.0), m.arc, math.pi + m.arc_half, -2 * m.arc_half, "lock")
 
     def _rim(self, start: float, end: float) -> Segment:
         return Arc((0.0, 0.0), self.mechanism.rim, start, end - start, "rim")
 
     def disc(self) -> Loop:
         """The outside without slots: rim and concave arcs, counter-clockwise."""
-        step = 2 * self.mechanism.wheel_half
+        step, psi = 2 * self.mechanism.wheel_half, self.mechanism.horn_angle
         pieces: list[Segment] = []
         for k in range(self.mechanism.slots):
-            bite = self._bite().moved(0, 0, k * step)
-            pieces += [bite, self._rim(k * step + self.horn_angle, (k + 1) * step - self.horn_angle)]
+            pieces += [self._bite().moved(0, 0, k * step), self._rim(k * step + psi, (k + 1) * step - psi)]
         return Loop(tuple(pieces))
 
-    def _hub_wall(self) -> tuple[list[Segment], float]:
-        """The wall on the hub's side, counter-clockwise about the wheel, and its deviation."""
-        m = self.mechanism
-        if m.straight:
-            left, right = (self.slot.wall(side, trimmed=True) for side in (LEFT, RIGHT))
-            return [*left.segments, *(s.reversed() for s in right.segments[::-1])], 0.0
-        wall = self.slot.wall(-m.side, trimmed=True)
-        if m.side < 0:
-            return list(wall.segments), wall.deviation
-        return [segment.reversed() for segment in wall.segments[::-1]], wall.deviation
+    def _wall(self, side: int) -> tuple[list[Segment], float]:
+        """A wall from its mouth at the smaller polar angle inwards and out again, and its deviation."""
+        if self.mechanism.straight:
+            left, right = (self.slot.wall(one, trimmed=True) for one in (LEFT, RIGHT))
+            return [*left.segments, *backwards(right.segments)], 0.0
+        wall = self.slot.wall(side, trimmed=True)
+        forwards = self.mechanism.side < 0
+        return list(wall.segments) if forwards else backwards(wall.segments), wall.deviation
 
     def slotted(self) -> tuple[Loop, float]:
         """The outside with the slots cut through and the islands gone, and its deviation."""
-        step, psi = 2 * self.mechanism.wheel_half, self.horn_angle
-        wall, deviation = self._hub_wall()
+        step, psi = 2 * self.mechanism.wheel_half, self.mechanism.horn_angle
+        wall, deviation = self._wall(-self.mechanism.side)
         low, high = _angle(wall[0].start), _angle(wall[-1].end)
         sector = [self._bite().moved(0, 0, -step), self._rim(psi - step, low), *wall, self._rim(high, -psi)]
         return Loop(
@@ -72,14 +58,9 @@ class Wheel:
 
     def island(self) -> tuple[Loop, float]:
         """Island 0, counter-clockwise, and its deviation."""
-        m = self.mechanism
-        wall = self.slot.wall(m.side, trimmed=True)
-        segments = list(wall.segments)
-        if m.side > 0:
-            segments = [segment.reversed() for segment in segments[::-1]]
-        # Now from the mouth at the smaller polar angle inwards and out again: clockwise about the island.
-        rim = self._rim(_angle(segments[0].start), _angle(segments[-1].end))
-        return Loop((rim, *(segment.reversed() for segment in segments[::-1]))), wall.deviation
+        wall, deviation = self._wall(self.mechanism.side)
+        rim = self._rim(_angle(wall[0].start), _angle(wall[-1].end))
+        return Loop((rim, *backwards(wall))), deviation
 
 
 def _angle(point: Point) -> float:
