@@ -46,7 +46,7 @@ def play_after(m, after):
     """
     eta = min(after, m.pitch - 2 * m.crank_half - after)
     if eta >= m.arc_half:
-        return float(m.lock_play())
+        return m.lock_play(m.arc, m.lock)
 
     def miss(turn):
         x = -m.lock * math.cos(eta) - m.axes * (math.cos(turn) - 1)

@@ -19,8 +19,8 @@ class Lock:
     ----------
     m
         The mechanism.
-    wheel, disc
-        Mean stock that stays on the arcs and on the disc, with the axes at the bores as made.
+    arc, disc
+        Mean radii, about where the axes are by the bores as made.
     least
         Least clearance anywhere, with the axes at their distance.
     corridor
@@ -28,7 +28,7 @@ class Lock:
     """
 
     m: Mechanism
-    wheel: float
+    arc: float
     disc: float
     least: float
     corridor: float
@@ -41,8 +41,8 @@ class Lock:
         discs = _radii(disc, m.params.driver_bore, np.zeros(1), m.lock)
         return cls(
             m,
-            m.arc - float(arcs.mean()),
-            float(discs.mean()) - m.lock,
+            float(arcs.mean()),
+            float(discs.mean()),
             float(arcs.min() - discs.max()),
             wheel.corridor + disc.corridor,
         )
@@ -57,7 +57,7 @@ class Lock:
         more
             Added to the clearance, mm.
         """
-        return float(self.m.lock_play(self.wheel - more, self.disc, off_centre))
+        return float(self.m.lock_play(self.arc + more, self.disc, off_centre))
 
 
 def _radii(part: MadePart, bore: float, centres: Array, radius: float) -> Array:

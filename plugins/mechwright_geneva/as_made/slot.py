@@ -183,7 +183,7 @@ def _locked(m: Mechanism, lock: Lock, slots: list[Play]) -> list[MadeFigure]:
             "lock.play",
             "turn of the locked wheel either way",
             "ψ_L - acos((a² + l² - R_L²) / (2 a l))",
-            *(float(m.lock_play()), found, low, high),
+            *(m.lock_play(m.arc, m.lock), found, low, high),
         ),
         _turn(
             "lock.pulls",

@@ -64,7 +64,8 @@ class GenevaTolerances(ToleranceModel):
             *tolerances.input("input"),
         )
         # The disc covers both horns of an arc in the middle of a dwell; NaN where a circle misses the rim.
-        self.locks = bool(m.pitch / 2 - m.crank_half >= m.arc_half and m.lock_play() >= 0)
+        self.lock_play = m.lock_play(m.arc, m.lock)
+        self.locks = m.pitch / 2 - m.crank_half >= m.arc_half and self.lock_play >= 0
         self.outputs = (WHEEL, PLAY, *((LOCK, FREE) if self.locks else ()))
         shift = sum(abs(one.mean) + one.reach for one in self.contributors[:5])
         self.least_lever = 0.0 if m.straight else math.sqrt(_CURVED * shift * _bend(m))
@@ -89,7 +90,7 @@ class GenevaTolerances(ToleranceModel):
         """The wheel's angle, and its plays; where there is no lever that of the least one that counts."""
         m, params = self.m, self.m.params
         if output in {LOCK.name, FREE.name}:
-            value = m.lock_play() if output == LOCK.name else params.lock_clearance
+            value = self.lock_play if output == LOCK.name else params.lock_clearance
             return np.full((1, *at.shape), value)
         run = m.way(at)
         return (run.theta if output == WHEEL.name else params.groove_clearance / self._safe(run))[None]
@@ -137,7 +138,8 @@ class GenevaTolerances(ToleranceModel):
         wheel, disc = named["lock-wheel"][0], named["lock-disc"][0]
         if output == FREE.name:
             return np.asarray(along - wheel - disc + 0 * at)[None]
-        return (self.m.lock_play(wheel, disc, along) - self.m.lock_play() + 0 * at)[None]
+        play = self.m.lock_play(self.m.arc - wheel, self.m.lock + disc, along)
+        return np.asarray(play - self.lock_play + 0 * at)[None]
 
     def _safe(self, run: Stroke) -> Array:
         """Size (...) of the lever, not less than the least one that counts, mm."""

@@ -253,7 +253,7 @@ class Mechanism(DesignTable[GenevaParams]):
 
     @cached_property
     def horn_angle(self) -> float:
-        """Polar angle ψ_L of a horn, the corner between concave arc and rim, from the middle of the arc."""
+        """Polar angle ψ_L of the corner between concave arc and rim from the middle of the arc."""
         angle: float = corner_angle(self.axes, self.rim, self.arc)
         return angle
 
@@ -263,22 +263,14 @@ class Mechanism(DesignTable[GenevaParams]):
         psi = self.horn_angle
         return number(np.arctan2(self.rim * np.sin(psi), self.axes - self.rim * np.cos(psi)))
 
-    def lock_play(
-        self, wheel: "float | Array" = 0.0, disc: "float | Array" = 0.0, apart: "float | Array" = 0.0
-    ) -> Array:
-        """Turn (...), rad, of the locked wheel either way where the disc covers both horns.
+    def lock_play(self, arc: Any, disc: Any, off_centre: Any = 0.0) -> Any:
+        """Angle (...), rad, by which the locked wheel can turn either way where the disc covers both horns.
 
-        A horn leaves the circle of its concave arc, R_L + c, and meets that of the disc, R_L.
-
-        Parameters
-        ----------
-        wheel, disc
-            Stock (...) that stays on the arc and on the disc, mm.
-        apart
-            By how much (...) the axes are too far apart, mm.
+        A horn leaves the circle of the concave arc and meets that of the disc. Radii are in mm, as is
+        ``off_centre``, by which the disc's axis is too far away.
         """
-        leaves = corner_angle(self.axes, self.rim, self.arc - wheel)
-        return np.asarray(leaves - corner_angle(self.axes + apart, self.rim, self.lock + disc))
+        horn = corner_angle(self.axes, self.rim, arc)
+        return horn - corner_angle(self.axes + off_centre, self.rim, disc)
 
     def stroke(self, u: Array) -> Stroke:
         """The stroke at shares u (k,)."""

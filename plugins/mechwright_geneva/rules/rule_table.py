@@ -32,7 +32,7 @@ def _play_message(m: Mechanism) -> str:
 
 
 def _play(m: Mechanism) -> float:
-    return math.degrees(m.lock_play())
+    return math.degrees(m.lock_play(m.arc, m.lock))
 
 
 def _island_limit(m: Mechanism) -> float:
