@@ -260,6 +260,7 @@ class TestLopsided:
         {"law": "4-5-6-7", "offset_angle": 9},
         {"offset_angle": -12, "crank_half_angle": 45, "entry_radius": 70},
         {"slots": 3},
+        {"law": "polynomial", "polynomial": [0, 0, 0, 12, -21, 12, -2]},
     ],
 )
 def test_the_fitted_walls_are_within_what_they_say(table):
@@ -272,6 +273,10 @@ def test_the_fitted_walls_are_within_what_they_say(table):
         line = shapely.LineString(np.column_stack((exact.real, exact.imag)))
         fitted = np.concatenate([s.flatten(1e-4) for s in wall.segments if s.tag == "wall"])
         assert shapely.distance(line, shapely.points(fitted)).max() < wall.deviation + 2e-4
+        trimmed = slot.wall(side, trimmed=True)
+        assert [math.hypot(*end) for end in (trimmed.start, trimmed.end)] == pytest.approx(
+            [m.rim] * 2, abs=1e-9
+        )
 
 
 @pytest.mark.parametrize("table", [{}, {"law": "straight"}, {"offset_angle": -12, "crank_half_angle": 45}])
