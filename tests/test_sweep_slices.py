@@ -245,7 +245,8 @@ def test_processes_that_are_killed_at_any_moment_lose_no_slice(study, whole, tmp
         else:
             running.send_signal(stop)
         out, said = running.communicate(timeout=60)
-        if running.returncode == 0:
+        if f'"designs": {COUNT}' in out:  # it had ended: Python itself may still hear the signal at its exit
+            assert running.returncode in (0, -stop)
             break
         assert running.returncode in (-signal.SIGKILL, 128 + stop)
         assert out == ""
