@@ -1,17 +1,20 @@
 """Designs that a synthesis finds and that can be built as the tables of its requirement say."""
 
+import tomllib
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from annotated_types import Le
-
-from mechwright.build import Build, Wanted
-from mechwright.contracts.finding import Finding
+from mechwright.build import LOOK, Build, Run
+from mechwright.contracts.finding import Finding, Findings
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis
+from mechwright.designs.design import Design, design_of
 from mechwright.designs.requirement import Requirement
 from mechwright.plugins.host import Host
-from mechwright.scripting.mechanism import inspections
+
+WIDER = 4
+"""Times that a family is asked for the designs that it has found and nobody has looked at."""
 
 NUMBER = "designs"
 """The key of a requirement that says how many designs are asked for."""
@@ -20,26 +23,42 @@ Machine = tuple[Candidate[Any], ...]
 """One design, or those of all phases of a machine that is set to several paths: none without the others."""
 
 
-def found_buildable(asked: Requirement, installed: Host, progress: Progress) -> Synthesis[Any]:
+def found_buildable(asked: Requirement, installed: Host, progress: Progress) -> "Buildable":
     """What the family finds, without the designs that cannot be built as the requirement's tables say.
 
-    A family looks at as many designs as are asked for, and knows no shop. Where the shop refuses some of them
-    and the family has found more, it is asked for these too, and the first that can be built are given.
+    A family looks at as many designs as are asked for, and knows no shop. Where some of them cannot be built
+    and the family has found more, it is asked for these too: once for the number that is asked for, and on
+    to the last of them as long as none can be built.
     """
-    result = asked.family.synthesise(asked.kind, asked.table, progress)
+    judge, table = _Judge(asked, installed), asked.table
+    result = asked.family.synthesise(asked.kind, table, progress)
     wanted = len(machines(result.candidates))
-    shop = _Shop(asked, installed)
-    kept, rejected = shop.first(wanted, result, progress)
-    wider = _wider(asked.table, wanted + _beyond(result)) if len(kept) < wanted else None
-    if wider is not None:
-        result = asked.family.synthesise(asked.kind, wider, progress)
-        kept, rejected = shop.first(wanted, result, progress)
+    kept, rejected = judge.first(wanted, result, progress)
+    for _ in range(WIDER):
+        wider = _wider(table, len(machines(result.candidates)) + _beyond(result))
+        if wider is None or len(kept) == wanted or (kept and table is not asked.table):
+            break
+        table, result = wider, asked.family.synthesise(asked.kind, wider, progress)
+        kept, rejected = judge.first(wanted, result, progress)
     said, looked = result.findings, len(machines(result.candidates))
     if looked and not kept:
-        said = (*said, _unbuildable(shop.blamed))
+        said = (*said, _unbuildable(judge.blamed))
     if len(kept) < wanted and (spare := _beyond(result)):
         said = (*said, _more(looked, len(kept), spare))
-    return Synthesis(tuple(one for machine in kept for one in machine), said, rejected)
+    given = tuple(one for machine in kept for one in machine)
+    judged = [judge.of(one) for one in given]
+    return Buildable(
+        Synthesis(given, said, rejected), tuple(one for one, _ in judged), tuple(one for _, one in judged)
+    )
+
+
+@dataclass(frozen=True)
+class Buildable:
+    """What a synthesis gives: for each candidate its design, and what ``check`` finds of it."""
+
+    result: Synthesis[Any]
+    designs: tuple[Design, ...]
+    findings: tuple[Findings, ...]
 
 
 def machines(candidates: Sequence[Candidate[Any]]) -> list[Machine]:
@@ -57,12 +76,12 @@ def machines(candidates: Sequence[Candidate[Any]]) -> list[Machine]:
     return [tuple(one) for one in found]
 
 
-class _Shop:
-    """Judges designs by the tables of a requirement, each once."""
+class _Judge:
+    """Judges designs as their files will be read, with the tables of a requirement, each once."""
 
     def __init__(self, asked: Requirement, installed: Host) -> None:
         self.asked, self.installed = asked, installed
-        self._judged: dict[str, tuple[Finding, ...]] = {}
+        self._judged: dict[str, tuple[Design, Findings]] = {}
         self.blamed = Reason("", 0, "")
 
     def first(
@@ -77,7 +96,9 @@ class _Shop:
                 left = len(found) - number
                 break
             progress(number / len(found), "checking the designs")
-            if not unbuilt.by(finding for one in machine for finding in self.against(one)):
+            said = [one for each in machine for one in self.of(each)[1]]
+            # What is to be done is of a design, and the person has a requirement at hand.
+            if not unbuilt.by(replace(one, remedy="") for one in said):
                 kept.append(machine)
         self.blamed = next(iter(unbuilt.reasons), self.blamed)
         rejected = Rejected(one for one in result.rejected if one.code != BEYOND)
@@ -86,14 +107,17 @@ class _Shop:
         rejected.beyond(getattr(self.asked.table, NUMBER, wanted), left + _beyond(result))
         return kept, rejected.reasons
 
-    def against(self, one: Candidate[Any]) -> tuple[Finding, ...]:
-        """What there is to say of a design up to its machining."""
-        key = repr(one.params)
-        if key not in self._judged:
-            design = self.asked.design(self.asked.name, one.params)
-            with Build(design, self.installed, Wanted("check")) as build:
-                self._judged[key] = (*build.findings, *inspections(build))
-        return self._judged[key]
+    def of(self, one: Candidate[Any]) -> tuple[Design, Findings]:
+        """The design that the file of a candidate will hold, and what ``check`` finds of it."""
+        text = self.asked.text_here(self.asked.name, one.params)
+        if text not in self._judged:
+            path = self.asked.path.with_name(f"{self.asked.name}.toml")
+            design = design_of(tomllib.loads(text), path, "", self.installed)
+            with Build(design, self.installed) as build:
+                run = Run(build, LOOK)
+                run.look()
+                self._judged[text] = design, run.findings
+        return self._judged[text]
 
 
 def _beyond(result: Synthesis[Any]) -> int:
@@ -102,13 +126,10 @@ def _beyond(result: Synthesis[Any]) -> int:
 
 
 def _wider(table: Parameters, designs: int) -> Parameters | None:
-    """The same requirement for so many designs, or as many as it can ask for; None if it asks for them."""
-    field = type(table).model_fields.get(NUMBER)
-    if field is None:
+    """The same requirement for so many designs; None if it asks for as many."""
+    if NUMBER not in type(table).model_fields or designs <= getattr(table, NUMBER):
         return None
-    most = [int(one.le) for one in field.metadata if isinstance(one, Le)]  # type: ignore[call-overload]
-    number = min([designs, *most])
-    return table.model_copy(update={NUMBER: number}) if number > getattr(table, NUMBER) else None
+    return table.model_copy(update={NUMBER: designs})
 
 
 def _more(looked: int, kept: int, spare: int) -> Finding:
