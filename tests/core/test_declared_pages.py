@@ -25,7 +25,6 @@ class Files(Page):
 
 class Looks(Inspection):
     name = "looks"
-    commands = frozenset({"check"})
     stage = Stage.PARTS
     gives: Any = None
 

@@ -138,19 +138,18 @@ class _Whole:
         if after.fix is None or after.severity is Severity.NOTE:
             return after
         bench, change = self._benches[after.severity], after.fix
-        new = self._new(bench, after.severity, change)
+        first = new = self._new(bench, before, change)
         for _ in range(FOLLOWED):
-            if not new:
-                remedy = after.remedy if change is after.fix else said(bench, change)
-                return replace(after, fix=change, remedy=remedy)
+            if not new or new == [before]:
+                break
             step = proposed_step(bench, new[0], change, bench.errors(change) or [])
             if step is None or len(step.change) > MOST_CHANGES:
                 break
             change = step.change
-            new = self._new(bench, after.severity, change)
+            new = self._new(bench, before, change)
         if not new:
-            return replace(after, fix=change, remedy=said(bench, change))
-        way = f"{said(bench, after.fix)} would lead to {_in_the_way(new[0])}"
+            return after if change is after.fix else replace(after, fix=change, remedy=said(bench, change))
+        way = f"{said(bench, after.fix)} would lead to {_in_the_way(first[0])}"
         return replace(after, fix=None, remedy="; ".join(filter(None, (before.remedy, way))))
 
     def agreeing(self, told: Sequence[tuple[Finding, Finding]]) -> list[Finding]:
@@ -180,16 +179,15 @@ class _Whole:
         left = self._benches[one.severity].found(mine) or ()
         return identity(other) in {identity(each) for each in left}
 
-    def _new(self, bench: Bench, severity: Severity, change: Change) -> list[Finding]:
-        """What stands with a change, is as grave, and did not stand before."""
+    def _new(self, bench: Bench, finding: Finding, change: Change) -> list[Finding]:
+        """What stands with a change against a finding, is as grave, and did not stand before; or itself."""
         found = bench.found(change)
         if found is None:
             return [Finding.error(REFUSED, "", "a design that cannot be judged")]
-        return [
-            one
-            for one in found
-            if one.severity in _AS_GRAVE[severity] and identity(one) not in self._before[severity]
-        ]
+        if identity(finding) in {identity(one) for one in found}:
+            return [finding]
+        grave, before = _AS_GRAVE[finding.severity], self._before[finding.severity]
+        return [one for one in found if one.severity in grave and identity(one) not in before]
 
 
 _AS_GRAVE = {Severity.ERROR: {Severity.ERROR}, Severity.WARNING: {Severity.ERROR, Severity.WARNING}}
@@ -223,8 +221,11 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
 
 
 def _as_others(bench: Bench, finding: Finding, told: Finding, fixes: Iterable[Change]) -> Finding:
-    """A finding without a change with another one's that removes it too: of two parts, the larger's."""
-    if told.fix is not None or finding.severity is Severity.NOTE:
+    """A finding without a change with another one's that removes it too: of two parts, the larger's.
+
+    What is about no key of the file, such as the shop, keeps its own words.
+    """
+    if told.fix is not None or finding.severity is Severity.NOTE or _about_no_key(bench, finding):
         return told
     before = errors([finding])
     change = next((one for one in fixes if worth(bench, finding, before, one) <= Worth.HELPS), None)
@@ -250,6 +251,10 @@ def with_proposed(bench: Bench, finding: Finding) -> Finding:
     if (measured or said_so) and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
+
+
+def _about_no_key(bench: Bench, finding: Finding) -> bool:
+    return bool(finding.parameter) and path_of(bench, finding.parameter) not in bench.keys
 
 
 def _followed(bench: Bench, finding: Finding, change: Change) -> Change | None:
@@ -312,7 +317,7 @@ def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
         return finding
     if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
-    if finding.remedy and finding.parameter and path_of(bench, finding.parameter) not in bench.keys:
+    if finding.remedy and _about_no_key(bench, finding):
         return finding  # about what no change sets, such as the family of a stage
     if (first := _first_step(bench, finding)) is not None:
         return replace(finding, remedy=first)
