@@ -6,12 +6,20 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from mechwright.build import LOOK, Build, Run
-from mechwright.contracts.finding import Finding, Findings
+from mechwright.contracts.finding import Change, Finding, Findings
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis
 from mechwright.designs.design import Design, design_of
 from mechwright.designs.requirement import Requirement
 from mechwright.plugins.host import Host
+from mechwright.remedies import Bench, Limits, nearest
+from mechwright.remedies.words import said
+
+REMEDIED = 3
+"""Designs, the best, for which a change of the requirement's tables is sought where none can be built."""
+
+TABLES = Limits(tries=40, seconds=10.0)
+"""For each of them."""
 
 WIDER = 4
 """Times that a family is asked for the designs that it has found and nobody has looked at."""
@@ -40,15 +48,15 @@ def found_buildable(asked: Requirement, installed: Host, progress: Progress) -> 
             break
         table, result = wider, asked.family.synthesise(asked.kind, wider, progress)
         kept, rejected = judge.first(wanted, result, progress)
-    said, looked = result.findings, len(machines(result.candidates))
+    told, looked = result.findings, len(machines(result.candidates))
     if looked and not kept:
-        said = (*said, _unbuildable(judge.blamed))
+        told = (*told, _unbuildable(judge.blamed, *judge.remedy(result.candidates, progress)))
     if len(kept) < wanted and (spare := _beyond(result)):
-        said = (*said, _more(looked, len(kept), spare))
+        told = (*told, _more(looked, len(kept), spare))
     given = tuple(one for machine in kept for one in machine)
     judged = [judge.of(one) for one in given]
     return Buildable(
-        Synthesis(given, said, rejected), tuple(one for one, _ in judged), tuple(one for _, one in judged)
+        Synthesis(given, told, rejected), tuple(one for one, _ in judged), tuple(one for _, one in judged)
     )
 
 
@@ -90,15 +98,15 @@ class _Judge:
         """So many machines that can be built, or as many as there are, and why the others are not given."""
         kept: list[Machine] = []
         unbuilt, left = Rejected(), 0
-        found = machines(result.candidates)
-        for number, machine in enumerate(found):
+        every = machines(result.candidates)
+        for number, machine in enumerate(every):
             if len(kept) == wanted:
-                left = len(found) - number
+                left = len(every) - number
                 break
-            progress(number / len(found), "checking the designs")
-            said = [one for each in machine for one in self.of(each)[1]]
+            progress(number / len(every), "checking the designs")
+            found = [one for each in machine for one in self.of(each)[1]]
             # What is to be done is of a design, and the person has a requirement at hand.
-            if not unbuilt.by(replace(one, remedy="") for one in said):
+            if not unbuilt.by(replace(one, remedy="") for one in found):
                 kept.append(machine)
         self.blamed = next(iter(unbuilt.reasons), self.blamed)
         rejected = Rejected(one for one in result.rejected if one.code != BEYOND)
@@ -107,16 +115,34 @@ class _Judge:
         rejected.beyond(getattr(self.asked.table, NUMBER, wanted), left + _beyond(result))
         return kept, rejected.reasons
 
+    def remedy(self, candidates: Sequence[Candidate[Any]], progress: Progress) -> tuple[str, Change | None]:
+        """A change of the requirement's tables with which one of the best designs can be built, in words.
+
+        It is tried with the design; the requirement says these tables in the same words.
+        """
+        for one in candidates[:REMEDIED]:
+            design, _ = self.of(one)
+            bench = Bench(
+                design, self._found, limits=TABLES, progress=progress, fixed=tuple(design.own_tables)
+            )
+            change = nearest(bench)
+            if change:
+                return f"in {self.asked.path.name}, {said(bench, change)}", change
+        return "ask for something else: no change of its tables was found that helps", None
+
+    def _found(self, design: Design) -> Findings:
+        with Build(design, self.installed) as build:
+            run = Run(build, LOOK)
+            run.look()
+            return run.findings
+
     def of(self, one: Candidate[Any]) -> tuple[Design, Findings]:
         """The design that the file of a candidate will hold, and what ``check`` finds of it."""
         text = self.asked.text_here(self.asked.name, one.params)
         if text not in self._judged:
             path = self.asked.path.with_name(f"{self.asked.name}.toml")
             design = design_of(tomllib.loads(text), path, "", self.installed)
-            with Build(design, self.installed) as build:
-                run = Run(build, LOOK)
-                run.look()
-                self._judged[text] = design, run.findings
+            self._judged[text] = design, self._found(design)
         return self._judged[text]
 
 
@@ -142,6 +168,6 @@ def _more(looked: int, kept: int, spare: int) -> Finding:
     )
 
 
-def _unbuildable(reason: Reason) -> Finding:
-    said = f"no design that meets it can be built as its tables say: {reason.message}"
-    return Finding.error("synthesis.unbuildable", "", said, remedy="change the tables, or what is asked for")
+def _unbuildable(reason: Reason, remedy: str, change: Change | None) -> Finding:
+    message = f"no design that meets it can be built as its tables say: {reason.message}"
+    return replace(Finding.error("synthesis.unbuildable", "", message, remedy=remedy), fix=change)
