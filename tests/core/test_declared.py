@@ -130,7 +130,7 @@ PARTS: dict[str, tuple[list[Part], str]] = {
     ),
     "copies that are words": (changed(instances=("b",)), "instances[0] of what it gives is 'b'; an Instance"),
     "no copies": (changed(instances=None), "instances of what it gives is None; a tuple"),
-    "a list, which has no hash": (changed(instances=[Instance("b")]), "; a tuple is wanted"),
+    "a list, which has no hash": (changed(instances=[Instance("b")]), "; a tuple of Instance is wanted"),
     "colours": (changed(colour=("a", 0.0, 0.0)), "colour[0] of what it gives is 'a'; a number"),
     "bright": (changed(colour=(7.0, 0.0, 0.0)), "part 'plate' has the colour (7.0, 0.0, 0.0)"),
     "two shares": (changed(colour=(0.0, 0.0)), "a tuple of 3"),
@@ -341,7 +341,9 @@ def test_a_method_is_guarded_whatever_it_is_and_wherever_from() -> None:
         made(parts=Called()),
         made(parts=functools.partialmethod(elsewhere)),
     ):
-        with pytest.raises(PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): gives 3; parts are wanted"):
+        with pytest.raises(
+            PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): gives 3; a sequence of Part is wanted"
+        ):
             family.parts(Size())
     with pytest.raises(PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): TypeError"):
         made(parts=None).parts(Size())

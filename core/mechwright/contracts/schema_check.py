@@ -1,8 +1,8 @@
 """Whether what a table says of itself can be read: its schema by editors and by us, its lines as TOML."""
 
 import tomllib
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from mechwright.contracts.declared import shown
 from mechwright.contracts.guard import UnsoundError
@@ -16,8 +16,7 @@ _ONE = ("items", "additionalProperties", "not")
 _DEFS = "#/$defs/"
 
 
-def hold_lines(lines: Sequence[str]) -> None:
-    """Raise UnsoundError where lines are none of a TOML file."""
+def _hold_lines(lines: list[str], *_: object) -> None:
     for line in lines:
         if len(line.splitlines()) > 1:
             raise UnsoundError(f"gives {shown(line)} among its lines, which is several")
@@ -27,10 +26,15 @@ def hold_lines(lines: Sequence[str]) -> None:
         raise UnsoundError(f"gives lines that are no TOML: {error}") from error
 
 
-def hold_schema(schema: Mapping[str, Any]) -> None:
-    """Raise UnsoundError where a schema is not of JSON, or has something else in the place of one."""
+def _hold_schema(schema: dict[str, Any], *_: object) -> None:
     _plain(schema, "it")
     _schema(schema, "it", schema.get("$defs", {}))
+
+
+Lines = Annotated[list[str], _hold_lines]
+"""Lines of a TOML file."""
+Schema = Annotated[dict[str, Any], _hold_schema]
+"""A schema of JSON."""
 
 
 def _plain(value: Any, where: str, deep: int = 0) -> None:
