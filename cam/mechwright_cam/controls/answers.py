@@ -1,6 +1,7 @@
 """What annotations of controls ask of runs and look-aheads beyond their kinds."""
 
 from collections.abc import Sequence
+from dataclasses import MISSING, fields
 from typing import Annotated
 
 import numpy as np
@@ -13,9 +14,6 @@ from mechwright_cam.shop.machine import Machine
 
 _OF_STEPS = {"start": (3,), "end": (3,), "centre": (2,)}
 """Arrays of a run to what they have of each step, where that is not one number."""
-_ARRAYS = ("line", "start", "end", "centre", "sweep", "feed", "seconds", "arc_error", "state")
-_MAYBE = ("piece", "machine_xy", "file")
-"""Those that are empty where a control does not fill them."""
 
 
 class _Watched(Lookahead):
@@ -60,10 +58,12 @@ def _hold_run(run: Run, *_: object) -> None:
     if run.kind.ndim != 1:
         raise UnsoundError(f"kind of what it gives has the shape {run.kind.shape}; (n,) is wanted")
     steps = run.kind.size
-    for name in (*_ARRAYS, *_MAYBE):
-        shape, wanted = getattr(run, name).shape, (steps, *_OF_STEPS.get(name, ()))
-        if shape != wanted and not (name in _MAYBE and shape == (0,)):
-            raise UnsoundError(f"{name} of what it gives has the shape {shape}; {wanted} is wanted")
+    for one in fields(Run):
+        if isinstance(values := getattr(run, one.name), np.ndarray):
+            may_be_empty = one.default_factory is not MISSING
+            shape, wanted = values.shape, (steps, *_OF_STEPS.get(one.name, ()))
+            if shape != wanted and not (may_be_empty and shape == (0,)):
+                raise UnsoundError(f"{one.name} of what it gives has the shape {shape}; {wanted} is wanted")
     for name, ends in (("kind", len(Kind)), ("state", len(run.states)), ("file", max(1, len(run.files)))):
         values = getattr(run, name)
         bad = (values < 0) | (values >= ends)

@@ -61,7 +61,7 @@ def _owner(error: BaseException) -> str:
 
     found = host()
     owners = {
-        type(entry.item).__module__.partition(".")[0]: f"plugin {entry.plugin} of {entry.distribution}"
+        type(entry.item).__module__.partition(".")[0]: entry.item.registered_by
         for entries in found.registered.values()
         for entry in entries.values()
     }

@@ -1,6 +1,6 @@
 """What annotations of contracts ask of findings, motions and parts beyond their kinds."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any
 
 import numpy as np
@@ -73,43 +73,35 @@ def _poses(poses: Poses, body: str) -> None:
 
 def _hold_parts(found: Sequence[Part], *_: object) -> None:
     """Parts that can be made, of names of their own."""
-    for part in found:
-        for outline in part.outlines:
-            x0, y0, x1, y1 = outline.bounds
-            for size, what in ((x1 - x0, "wide"), (y1 - y0, "high"), (part.thickness, "thick")):
-                if not LEAST <= size <= GREATEST:
-                    raise UnsoundError(
-                        f"part {part.name!r} is {size:.3g} mm {what}; a part has {LEAST:g} to "
-                        f"{GREATEST:,.0f} mm"
-                    )
-            try:
-                outline.polygon()
-            except GeometryError as error:
-                raise UnsoundError(f"part {part.name!r}: {error}") from error
-        _place(part)
+    refuse(_STRICT.fault(found, Sequence[Part]))
     names = [part.name for part in found]
-    for name in names:
-        if names.count(name) > 1:
-            raise UnsoundError(f"two parts are called {name!r}; each has files of its name")
+    for part in found:
+        for fault in _faults(part):
+            raise UnsoundError(f"part {part.name!r}{fault}")
+        if names.count(part.name) > 1:
+            raise UnsoundError(f"two parts are called {part.name!r}; each has files of its name")
 
 
-def _place(part: Part) -> None:
-    """Whether it is of something, and where and in which colour its copies stand."""
+def _faults(part: Part) -> Iterator[str]:
+    """Why a part cannot be made, or stands nowhere, in words that follow its name."""
+    for outline in part.outlines:
+        x0, y0, x1, y1 = outline.bounds
+        for size, what in ((x1 - x0, "wide"), (y1 - y0, "high"), (part.thickness, "thick")):
+            if not LEAST <= size <= GREATEST:
+                yield f" is {size:.3g} mm {what}; a part has {LEAST:g} to {GREATEST:,.0f} mm"
+        try:
+            outline.polygon()
+        except GeometryError as error:
+            yield f": {error}"
     if part.kind in {"plate", "turned"} and part.material not in MATERIALS:
-        raise UnsoundError(
-            f"part {part.name!r} is of {part.material!r}; materials are {', '.join(sorted(MATERIALS))}"
-        )
-    colours = (part.colour, *(one.colour for one in part.instances if one.colour is not None))
-    for colour in colours:
+        yield f" is of {part.material!r}; materials are {', '.join(sorted(MATERIALS))}"
+    for colour in (part.colour, *(one.colour for one in part.instances if one.colour is not None)):
         if not all(0 <= share <= 1 for share in colour):
-            raise UnsoundError(f"part {part.name!r} has the colour {colour}; red, green and blue are 0 to 1")
+            yield f" has the colour {colour}; red, green and blue are 0 to 1"
     corners = [number for outline in part.outlines for number in outline.bounds]
     for far in (*corners, *(one.z for one in part.instances)):
         if not abs(far) <= GREATEST:
-            raise UnsoundError(
-                f"part {part.name!r} has something {far:.3g} mm away from the origin; the limit is "
-                f"{GREATEST:,.0f} mm"
-            )
+            yield f" has something {far:.3g} mm away from the origin; the limit is {GREATEST:,.0f} mm"
 
 
 def _hold_surroundings(found: Surroundings | None, *_: object) -> None:
@@ -120,7 +112,7 @@ Findings = Annotated[Sequence[Finding], Declared(leave=(Finding,)), _hold_findin
 """Findings whose figures are finite."""
 WholeMotion = Annotated[Motion, Declared(leave=(Motion,)), _hold_motion]
 """A motion of finite numbers, with as many samples as were requested."""
-Parts = Annotated[Sequence[Part], _STRICT, _hold_parts]
+Parts = Annotated[Sequence[Part], Declared(leave=(Part,)), _hold_parts]
 """Parts that can be made."""
 Evaluated = Annotated[Columns, Declared(finite=False, nan=True)]
 """Columns, which have NaN for designs that are forbidden."""
