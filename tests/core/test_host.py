@@ -259,7 +259,7 @@ from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 
 class Process(Plugin):
-    kind, plural, texts = "process", "processes", ("title",)
+    kind, plural = "process", "processes"
     @classmethod
     def fault(cls): return "" if cls.name != "bad" else "it is bad"
 

@@ -106,7 +106,7 @@ def watched(who: str, seconds: float, code: types.CodeType) -> Iterator[bool]:
             f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
         ) from error
     except BaseException as error:  # GeneratorExit, or a kind of its own: nobody above expects one
-        raise PluginFaultError(f"{who}: {_said(error)}") from error
+        raise PluginFaultError(f"{who}: {described(error)}") from error
 
 
 @dataclass(frozen=True)
@@ -177,10 +177,11 @@ def is_foreign(who: str) -> bool:
 
 def _at(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
-    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else " (unknown place)"
 
 
-def _said(error: BaseException) -> str:
+def described(error: BaseException) -> str:
+    """An error in one line: its kind, its words, and where it was raised."""
     try:
         reason = " ".join(str(error).split())
     except Exception:  # words of its own may fail as well

@@ -7,10 +7,11 @@ from typing import Annotated, Any
 from mechwright.contracts.declared import shown
 from mechwright.contracts.guard import UnsoundError
 
-_NAMED = ("properties", "$defs", "patternProperties")
-"""Keys of a schema that hold schemas by name."""
-_LISTED = ("anyOf", "allOf", "oneOf", "prefixItems")
-"""Keys that hold several, one after the other."""
+_INNER: dict[str, tuple[type, str]] = {
+    **dict.fromkeys(("properties", "$defs", "patternProperties"), (Mapping, "schemas by name are")),
+    **dict.fromkeys(("anyOf", "allOf", "oneOf", "prefixItems"), (list, "a list of schemas is")),
+}
+"""Keys of a schema that hold several schemas, to what holds them."""
 _ONE = ("items", "additionalProperties", "not")
 """Keys that hold one, which may be True or False as well."""
 _DEFS = "#/$defs/"
@@ -59,16 +60,12 @@ def _schema(schema: Any, where: str, defs: Any) -> None:
     name = schema.get("$ref", _DEFS)
     if not isinstance(name, str) or (name != _DEFS and name.removeprefix(_DEFS) not in defs):
         raise UnsoundError(f"{where} refers to {shown(name)}, which is not among its $defs")
-    for key in _NAMED:
-        if not isinstance(found := schema.get(key, {}), Mapping):
-            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; schemas by name are wanted")
-        for named, one in found.items():
-            _schema(one, f"{where}[{key!r}][{named!r}]", defs)
-    for key in _LISTED:
-        if not isinstance(found := schema.get(key, []), list):
-            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; a list of schemas is wanted")
-        for place, one in enumerate(found):
-            _schema(one, f"{where}[{key!r}][{place}]", defs)
+    for key in (key for key in _INNER if key in schema):
+        found, (kind, words) = schema[key], _INNER[key]
+        if not isinstance(found, kind):
+            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; {words} wanted")
+        for place, one in found.items() if kind is Mapping else enumerate(found):
+            _schema(one, f"{where}[{key!r}][{place!r}]", defs)
     for key in _ONE:
         if not isinstance(schema.get(key, True), bool):
             _schema(schema[key], f"{where}[{key!r}]", defs)
