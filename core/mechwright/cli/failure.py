@@ -57,7 +57,7 @@ def _owner(error: BaseException) -> str:
     from mechwright.plugins.host import host
 
     found = host()
-    owners = {
+    owners: dict[str, str] = {
         type(entry.item).__module__.partition(".")[0]: entry.item.registered_by
         for entries in found.registered.values()
         for entry in entries.values()

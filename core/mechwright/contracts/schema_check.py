@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from mechwright.contracts.declared import shown
 from mechwright.contracts.guard import UnsoundError
 
-_INNER: dict[str, tuple[type, str]] = {
+_INNER: dict[str, tuple[Any, str]] = {
     **dict.fromkeys(("properties", "$defs", "patternProperties"), (Mapping, "schemas by name are")),
     **dict.fromkeys(("anyOf", "allOf", "oneOf", "prefixItems"), (list, "a list of schemas is")),
 }
@@ -61,7 +61,8 @@ def _schema(schema: Any, where: str, defs: Any) -> None:
     if not isinstance(name, str) or (name != _DEFS and name.removeprefix(_DEFS) not in defs):
         raise UnsoundError(f"{where} refers to {shown(name)}, which is not among its $defs")
     for key in (key for key in _INNER if key in schema):
-        found, (kind, words) = schema[key], _INNER[key]
+        found: Any = schema[key]
+        kind, words = _INNER[key]
         if not isinstance(found, kind):
             raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; {words} wanted")
         for place, one in found.items() if kind is Mapping else enumerate(found):
