@@ -69,7 +69,12 @@ class Plugin(ABC):
     @classmethod
     def fault(cls) -> str:
         """What else keeps a class from being used, in words that follow its name; nothing if it is sound."""
-        return ""
+        old = [name for name in _EARLIER if name in vars(contract_of(cls) or cls)]
+        return f"its contract has {old[0]}; annotations of its methods say what they give" if old else ""
+
+
+_EARLIER = ("sound", "named", "texts")
+"""Attributes by which contracts of an earlier version checked what methods give."""
 
 
 def contract_of(cls: type[Plugin]) -> type[Plugin] | None:
