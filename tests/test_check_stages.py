@@ -1,6 +1,7 @@
 """One judge: what ``check`` allows to a stage passes it, and what it has made is not made again."""
 
 import json
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -202,6 +203,18 @@ def test_an_inspection_that_fails_is_named_with_its_plugin() -> None:
             raise ZeroDivisionError("by zero")
 
     look = Registered(Fails(), "acme-checks", "acme").item
+    with pytest.raises(PluginFaultError, match=r"plugin acme of acme-checks: inspection looks: findings\(\)"):
+        mechanism(Among(look)).check()  # type: ignore[arg-type]
+
+
+def test_an_inspection_that_hangs_is_named_with_its_plugin(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Hangs(Looks):
+        def findings(self, build: Build) -> tuple[Finding, ...]:
+            while True:
+                time.sleep(0.01)
+
+    monkeypatch.setenv("MECHWRIGHT_PLUGIN_SECONDS", "5")
+    look = Registered(Hangs(), "acme-checks", "acme").item
     with pytest.raises(PluginFaultError, match=r"plugin acme of acme-checks: inspection looks: findings\(\)"):
         mechanism(Among(look)).check()  # type: ignore[arg-type]
 

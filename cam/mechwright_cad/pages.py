@@ -76,6 +76,7 @@ class Interference(Inspection):
     """Bodies that stand in each other while the mechanism moves: plates at once, solids once made."""
 
     name = "interference"
+    limited = False  # solids are made in it
     stage = Stage.ASSEMBLY
     needs = frozenset({SOLIDS})
     order = 10

@@ -29,6 +29,7 @@ class Running(Inspection):
     stage = Stage.OUTPUT
     needs = frozenset({PROGRAMS})
     order = 40
+    limited = False  # programs of large machines are planned and proven in it
     doing = "parts as made"
     share = 50.0
 

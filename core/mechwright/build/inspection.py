@@ -18,6 +18,7 @@ class Inspection(Plugin):
 
     kind = "inspection"
     plural = "inspections"
+    limited = True
     stage: ClassVar[Stage]
     """What its findings are about."""
     needs: ClassVar[frozenset[str]] = frozenset()

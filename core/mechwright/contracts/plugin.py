@@ -137,7 +137,8 @@ def _wrapped(own: Any, method: str, contract: type[Plugin]) -> Callable[..., Any
 
     @contextmanager
     def guarded(plugin: Plugin, arguments: tuple[Any, ...] = ()) -> Iterator[None]:
-        with watched(f"{who_of(plugin)}: {said}", time_limit() if limited else 0.0, code) as outermost:
+        seconds = time_limit() if limited and plugin.limited else 0.0
+        with watched(f"{who_of(plugin)}: {said}", seconds, code) as outermost:
             before = repr(arguments[0]) if contract.steady and arguments and outermost else ""
             yield
             if before and repr(arguments[0]) != before:
