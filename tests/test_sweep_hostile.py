@@ -188,7 +188,7 @@ ENDLESS = """
 import time
 from pathlib import Path
 class Endless:
-    def told(self, task):
+    def done(self, task):
         Path(f"begun-{task}").touch()
         time.sleep(3600)
 """
@@ -205,7 +205,7 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # which a process in the background may ignore
     other = multiprocessing.get_context("spawn").Process(target=time.sleep, args=(3600,), daemon=True)
     other.start()
-    asked = Processes(2)._once(Endless(), ["a", "b", "c"])
+    asked = Processes(2).done(Endless(), ["a", "b", "c"])
     threading.Thread(target=stop, daemon=True).start()
     try:
         next(asked)

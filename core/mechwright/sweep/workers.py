@@ -1,22 +1,19 @@
 """Who does the work of a sweep: processes of this machine, or the workers of a Dask cluster."""
 
 import contextlib
-import multiprocessing
-import signal
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, Protocol
 
-from mechwright.beside import end_with_parent
-from mechwright.cores import cores, keep_to
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.extras import optional
-from mechwright.scripting.heard import Heard, Teller
 from mechwright.sweep.portion import Portion
 from mechwright.sweep.task import Source, Task, fingerprint, unlike
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import LostError, WorkerPool
+from mechwright.worker_pool.recorded_warnings import WarningRelay
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
@@ -26,9 +23,6 @@ Found = bytes | Portion
 
 _AGAIN = 3
 """Times that processes are killed without finishing anything until no others are started."""
-
-LOOK = 5.0
-"""Seconds between two looks at workers: the pool overlooks one that is killed while it writes a result."""
 
 CONNECT = 10.0
 """Seconds until a scheduler has to answer."""
@@ -112,70 +106,32 @@ class Processes:
 
     def __init__(self, count: int) -> None:
         self.count = self.local = count
-        self._teller = Teller()
+        self._relay = WarningRelay()
 
     def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         """A few tasks each ahead; raises PluginError where processes are killed again and again."""
         queue, tries = queue_of(tasks), 0
-        while tries < _AGAIN:
-            try:
-                for one in self._once(source, queue):
-                    tries = 0
-                    yield one
-                return
-            except BrokenProcessPool:
-                tries += 1
-        raise PluginError(
-            "--workers: processes were killed again and again, mostly for want of memory; take fewer, or a "
-            "smaller study.batch"
-        )
-
-    def _once(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
-        context, queue = multiprocessing.get_context("spawn"), queue_of(tasks)
-        running: dict[Future[tuple[Found, list[Heard]]], Task] = {}
-        pool, others = (
-            ProcessPoolExecutor(self.count, context, _begin),
-            set(multiprocessing.active_children()),
-        )
-        workers, results, ended = set[Any](), getattr(pool, "_result_queue", None), False
-        try:
+        running: dict[Future[Found], Task] = {}
+        with WorkerPool([1] * self.count, relay=self._relay) as pool:
             while True:
                 for task in _some(queue, AHEAD * self.count - len(running)):
-                    with _returned(queue, task):
-                        running[pool.submit(source.told, task)] = task
+                    running[pool.submit(source.done, task)] = task
                 if not running:
-                    ended = True
                     return
-                workers |= {*multiprocessing.active_children()} - others
-                done = wait(running, LOOK, return_when=FIRST_COMPLETED).done
-                if not done and not all(worker.is_alive() for worker in workers):
-                    raise BrokenProcessPool("a worker was killed while it wrote")
-                for future in done:
-                    content, heard = future.result()
-                    task = running.pop(future)
-                    self._teller.tell(heard)
-                    yield task, content
-        except BrokenProcessPool:
-            while running:  # the one that was given out first is taken first again
-                queue.again(running.popitem()[1])
-            raise
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-            if not ended:  # the interpreter would wait for what workers are at, a minute or more
-                for worker in multiprocessing.active_children():
-                    if worker not in others:  # whoever calls from Python may have processes of their own
-                        worker.terminate()
-                _end_results(results)
-
-
-def _end_results(results: Any) -> None:
-    """Have the results of a pool end with its workers.
-
-    A worker that is killed while it writes leaves a part of a result. The pool waits for the rest as long as
-    anybody could write it, and the interpreter waits for the pool. This process could: it has the queue.
-    """
-    with contextlib.suppress(AttributeError, OSError):
-        results._writer.close()
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    task, tries = running.pop(future), tries + 1
+                    try:
+                        found = pool.result(future)
+                    except LostError:
+                        queue.again(task)
+                        if tries < _AGAIN:
+                            continue
+                        raise PluginError(
+                            "--workers: processes were killed again and again, mostly for want of memory; "
+                            "take fewer, or a smaller study.batch"
+                        ) from None
+                    tries = 0
+                    yield task, found
 
 
 @contextlib.contextmanager
@@ -186,13 +142,6 @@ def _returned(queue: Queue, task: Task) -> Iterator[None]:
     except Exception:
         queue.again(task)
         raise
-
-
-def _begin() -> None:
-    """A worker: it has one core, and nobody to wait for when whoever asked is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the keyboard stops who asked, who ends this one
-    keep_to(1)
-    end_with_parent()
 
 
 def _some(queue: Queue, count: int) -> Iterator[Task]:
@@ -218,8 +167,8 @@ class Cluster:
     count = 0
 
     def __init__(self, address: str) -> None:
-        self.address, self.local = address, cores()
-        self._teller = Teller()
+        self.address, self.local = address, available_cores()
+        self._relay = WarningRelay()
 
     def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
         """A few tasks ahead for each thread; raises PluginError where the cluster cannot do them."""
@@ -261,9 +210,9 @@ class Cluster:
                 raise distributed.comm.CommClosedError("the scheduler has ended")
             if future.status == "error":
                 raise PluginError(f"--scheduler: a worker failed at {task.name}: {future.exception(BACK)}")
-            content, heard = future.result(BACK)
+            content, recorded = future.result(BACK)
             del running[future.key]
-            self._teller.tell(heard)
+            self._relay.issue(recorded)
             yield task, content
 
     def _connected(self, seconds: float, why: str = "") -> Any:

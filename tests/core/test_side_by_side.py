@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from mechwright.contracts.synthesis import Progress
-from mechwright.cores import cores
-from mechwright.scripting.crew import side_by_side
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import side_by_side
 
 
 def squared(item: int, progress: Progress) -> tuple[int, int]:
@@ -18,7 +18,7 @@ def squared(item: int, progress: Progress) -> tuple[int, int]:
     progress(0.5, "half")
     if item == 13:
         os.kill(os.getpid(), signal.SIGKILL)
-    return item * item, cores()
+    return item * item, available_cores()
 
 
 def slept(folder: str, progress: Progress) -> None:
