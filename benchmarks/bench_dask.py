@@ -24,7 +24,7 @@ from statistics import median
 
 import psutil
 from harness import require
-from timed_source import Timed
+from timed_source import Tasks, Timed
 
 from mechwright.plugins.host import host
 from mechwright.sweep.study import study_of
@@ -70,7 +70,7 @@ def pool() -> list[psutil.Process]:
 def rate(workers: Workers, source: Source, more: int, others: Callable[[], Sequence[psutil.Process]]) -> Rate:
     """Of some tasks after the first few."""
     tasks = [Task(f"part-{number:06d}", number * BATCH, number) for number in range(FIRST + more)]
-    tables = workers.done(source, tasks)
+    tables = workers.done(source, Tasks(tasks))
     for _ in range(FIRST):
         next(tables)
     working = others()

@@ -2,8 +2,21 @@
 
 import struct
 import time
+from collections import deque
 
 from mechwright.sweep.task import Source, Task
+
+
+class Tasks(deque[Task]):
+    """Tasks that are all there from the beginning."""
+
+    def take(self) -> Task | None:
+        """The next task."""
+        return self.popleft() if self else None
+
+    def again(self, task: Task) -> None:
+        """Take back a task."""
+        self.appendleft(task)
 
 
 class Timed(Source):

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 import sweep_in_slices
 from by_night import by_night
+from listed_tasks import ListedTasks
 from strokes import bytes_of, swept
 
 import mechwright
@@ -151,7 +152,7 @@ def test_one_pool_does_every_task_once(monkeypatch):
 
     monkeypatch.setattr(workers, "WorkerPool", Pool)
     tasks = [Task(f"part-{number}", number, number) for number in range(100)]
-    done = list(workers.Processes(2).done(Echo(), tasks))
+    done = list(workers.Processes(2).done(Echo(), ListedTasks(tasks)))
     assert len(pools) == 1
     assert sorted(task.first for task, _ in done) == list(range(100))
     assert all(content == task.name.encode() for task, content in done)

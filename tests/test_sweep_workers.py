@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from listed_tasks import ListedTasks
 
 from mechwright.sweep.task import Task
 from mechwright.sweep.workers import Processes
@@ -20,10 +21,11 @@ HERE = Path(__file__).parent
 STOPPED = """\
 import sys, time; sys.path.append({here!r})
 from pathlib import Path
+from listed_tasks import ListedTasks
 from test_sweep_workers import TASKS, Torn
 from mechwright.sweep.workers import Processes
 if __name__ == "__main__":
-    for task, _ in Processes(2).done(Torn({folder!r}, "sleep"), TASKS):
+    for task, _ in Processes(2).done(Torn({folder!r}, "sleep"), ListedTasks(TASKS)):
         print(task.name, flush=True)
         while not Path({folder!r}, "torn").exists():
             time.sleep(0.02)
@@ -57,7 +59,10 @@ class Torn:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="kills as Linux does")
 def test_a_worker_that_is_killed_while_it_writes_is_started_again(tmp_path):
-    found = {task.name: content for task, content in Processes(2).done(Torn(str(tmp_path), "die"), TASKS)}
+    found = {
+        task.name: content
+        for task, content in Processes(2).done(Torn(str(tmp_path), "die"), ListedTasks(TASKS))
+    }
     assert found == {task.name: task.name.encode() for task in TASKS}
     assert (tmp_path / "torn").exists()
 

@@ -10,7 +10,7 @@ import pytest
 
 from mechwright.contracts.synthesis import Progress
 from mechwright.worker_pool.budget import available_cores
-from mechwright.worker_pool.pool import side_by_side
+from mechwright.worker_pool.sharing import side_by_side
 
 
 def squared(item: int, progress: Progress) -> tuple[int, int]:

@@ -21,7 +21,7 @@ from mechwright.contracts.finding import Stage
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
 from mechwright.worker_pool.budget import available_cores, limit_cores
-from mechwright.worker_pool.pool import side_by_side
+from mechwright.worker_pool.sharing import side_by_side
 
 COLUMNS = ("design", "outcome", "seconds", "reason")
 

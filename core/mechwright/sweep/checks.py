@@ -24,7 +24,7 @@ from mechwright.sweep.front import Chosen, Front
 from mechwright.sweep.shard import NUMBER
 from mechwright.sweep.study import Study, design_of, study_of
 from mechwright.worker_pool.budget import limited_cores
-from mechwright.worker_pool.pool import side_by_side
+from mechwright.worker_pool.sharing import side_by_side
 
 TRIES = 4
 """Times as many designs of the front as are asked for that are checked until there are enough that build."""

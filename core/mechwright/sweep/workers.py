@@ -2,8 +2,7 @@
 
 import contextlib
 import time
-from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, Protocol
 
@@ -43,24 +42,6 @@ class Queue(Protocol):
         ...
 
 
-class _Listed:
-    """Tasks that are all there from the beginning."""
-
-    def __init__(self, tasks: Sequence[Task]) -> None:
-        self._tasks = deque(tasks)
-
-    def take(self) -> Task | None:
-        return self._tasks.popleft() if self._tasks else None
-
-    def again(self, task: Task) -> None:
-        self._tasks.appendleft(task)
-
-
-def queue_of(tasks: Queue | Sequence[Task]) -> Queue:
-    """Tasks as they are taken one by one."""
-    return _Listed(tasks) if isinstance(tasks, Sequence) else tasks
-
-
 class Workers(Protocol):
     """Does tasks of a study, in any order.
 
@@ -78,7 +59,7 @@ class Workers(Protocol):
         """How many cores of this machine may be used besides."""
         ...
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """Each task with what came of it, as soon as it is there; more tasks may be taken then."""
         ...
 
@@ -88,10 +69,9 @@ class Alone:
 
     count = local = 1
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """One after the other."""
-        queue = queue_of(tasks)
-        while (task := queue.take()) is not None:
+        while (task := tasks.take()) is not None:
             yield task, source.done(task)
 
 
@@ -108,13 +88,13 @@ class Processes:
         self.count = self.local = count
         self._relay = WarningRelay()
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """A few tasks each ahead; raises PluginError where processes are killed again and again."""
-        queue, tries = queue_of(tasks), 0
         running: dict[Future[Found], Task] = {}
+        tries = 0
         with WorkerPool([1] * self.count, relay=self._relay) as pool:
             while True:
-                for task in _some(queue, AHEAD * self.count - len(running)):
+                for task in _some(tasks, AHEAD * self.count - len(running)):
                     running[pool.submit(source.done, task)] = task
                 if not running:
                     return
@@ -123,7 +103,7 @@ class Processes:
                     try:
                         found = pool.result(future)
                     except LostError:
-                        queue.again(task)
+                        tasks.again(task)
                         if tries < _AGAIN:
                             continue
                         raise PluginError(
@@ -135,19 +115,19 @@ class Processes:
 
 
 @contextlib.contextmanager
-def _returned(queue: Queue, task: Task) -> Iterator[None]:
+def _returned(tasks: Queue, task: Task) -> Iterator[None]:
     """Take back a task that could not be given out."""
     try:
         yield
     except Exception:
-        queue.again(task)
+        tasks.again(task)
         raise
 
 
-def _some(queue: Queue, count: int) -> Iterator[Task]:
+def _some(tasks: Queue, count: int) -> Iterator[Task]:
     """So many tasks at most."""
     for _ in range(count):
-        task = queue.take()
+        task = tasks.take()
         if task is None:
             return
         yield task
@@ -170,26 +150,26 @@ class Cluster:
         self.address, self.local = address, available_cores()
         self._relay = WarningRelay()
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """A few tasks ahead for each thread; raises PluginError where the cluster cannot do them."""
-        queue, client = queue_of(tasks), self._connected(CONNECT)
+        client = self._connected(CONNECT)
         while True:
             running: dict[str, tuple[Any, Task]] = {}
             try:
                 self._check(client, source.family)
-                yield from self._once(client, source, queue, running)
+                yield from self._once(client, source, tasks, running)
                 break
             except MechwrightError:
                 raise  # of a disk that is full, which is an OSError as well
             except _lost() as error:
                 while running:
-                    queue.again(running.popitem()[1][1])
+                    tasks.again(running.popitem()[1][1])
                 _closed(client)
                 client = self._connected(BACK, str(error))
         _closed(client)
 
     def _once(
-        self, client: Any, source: Source, queue: Queue, running: dict[str, tuple[Any, Task]]
+        self, client: Any, source: Source, tasks: Queue, running: dict[str, tuple[Any, Task]]
     ) -> Iterator[tuple[Task, Found]]:
         distributed = optional("distributed")
         threads = max(sum(client.nthreads().values()), 1)
@@ -197,8 +177,8 @@ class Cluster:
         # With results it would fetch them by itself, and wait for ever if the scheduler ended meanwhile.
         ended = distributed.as_completed(loop=client.loop)
         while True:
-            for task in _some(queue, AHEAD * threads - len(running)):
-                with _returned(queue, task):
+            for task in _some(tasks, AHEAD * threads - len(running)):
+                with _returned(tasks, task):
                     future = client.submit(source.alike, own, task, pure=False)
                 running[future.key] = future, task
                 ended.add(future)

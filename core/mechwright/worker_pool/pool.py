@@ -6,50 +6,35 @@ import pickle
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
-from functools import partial
 from queue import SimpleQueue
-from types import TracebackType
-from typing import IO, Any, Self, TypeVar
+from typing import IO, Any, TypeVar
 
 from mechwright.contracts.guard import now
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.worker_pool.budget import split_cores
 from mechwright.worker_pool.recorded_warnings import RecordedWarning, WarningRelay
-from mechwright.worker_pool.serving import Answer, report_progress
+from mechwright.worker_pool.serving import Answer
 
-T = TypeVar("T")
 R = TypeVar("R")
-
-GRACE = 10.0
-"""Seconds that an interrupted call has to tidy up before its process is killed."""
 
 _SERVE = (
     "import pickle, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
-    "sys.path[:] = pickle.load(sys.stdin.buffer); from mechwright.worker_pool.serving import serve; serve()"
+    "sys.path[:], setup = pickle.load(sys.stdin.buffer); "
+    "from mechwright.worker_pool.serving import serve; serve(*setup)"
 )
+
+Known = Callable[..., Sequence[object]]
+"""A function of a call's arguments: the objects that the result refers to, and that are not copied."""
+
+_Call = tuple[bytes, Sequence[object], Progress, Future[Any]]
 
 
 class LostError(Exception):
     """The process of a call ended before it answered, or could not be started."""
 
 
-@dataclass(frozen=True)
-class _Call:
-    request: bytes
-    known: Sequence[object]
-    progress: Progress
-    future: Future[Any]
-
-
-def nothing_known(*_: object) -> Sequence[object]:
-    """No object of a call's arguments that its value refers to."""
-    return ()
-
-
-class WorkerPool:
+class WorkerPool(contextlib.AbstractContextManager["WorkerPool"]):
     """Interpreters that take calls from one queue; each does one call at a time.
 
     Interpreters and no threads, because an import holds the interpreter's lock; started afresh, because a
@@ -60,8 +45,7 @@ class WorkerPool:
     cores
         The cores that each worker may use.
     modules
-        Names of modules that each worker imports at once. One that cannot be imported does no harm before a
-        call needs it.
+        Names of modules that each worker imports at once, if it can.
     grace
         Seconds that calls have to tidy up when the pool is closed; 0 kills them at once.
     quiet
@@ -85,33 +69,28 @@ class WorkerPool:
         self._workers: list[_Worker] = []
         with contextlib.suppress(RuntimeError):  # the system may start no further thread
             for count in cores:
-                self._workers.append(_Worker(self._calls, self._recorded, (count, tuple(modules)), quiet))
+                setup = os.getpid(), count, tuple(modules)
+                self._workers.append(_Worker(self._calls, self._recorded, setup, quiet))
 
     def submit(
         self,
         function: Callable[..., R],
         *arguments: Any,
-        known: Callable[..., Sequence[object]] = nothing_known,
+        known: Known | None = None,
         progress: Progress = unheard,
     ) -> Future[R]:
         """Have a worker call a function of a module; :meth:`result` gives the result.
 
-        Parameters
-        ----------
-        arguments
-            Copied by pickle, as is the result.
-        known
-            A function of the arguments: objects that the result refers to, which stay those of this process.
-        progress
-            Called by a thread with each :func:`~mechwright.worker_pool.serving.report_progress` of the call.
+        Arguments and result are copied by pickle, but for what is ``known``. A thread calls ``progress`` with
+        each :func:`~mechwright.worker_pool.serving.report_progress` of the call.
         """
         future: Future[R] = Future()
         try:
             if not self._workers:
                 raise LostError
             request = pickle.dumps((function, arguments, known, now()))
-            self._calls.put(_Call(request, known(*arguments), progress, future))
-        except Exception as error:
+            self._calls.put((request, known(*arguments) if known else (), progress, future))
+        except Exception as error:  # what cannot be pickled says so in many ways
             future.set_exception(error)
         return future
 
@@ -128,20 +107,14 @@ class WorkerPool:
 
     def close(self) -> None:
         """End all processes; calls without an answer raise LostError."""
-        for _ in self._workers:
-            self._calls.put(None)
         for worker in self._workers:
+            self._calls.put(None)
             worker.stop(self._grace)
         for worker in self._workers:
             worker.join(self._grace)
         self._workers = []
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
@@ -155,7 +128,7 @@ class _Worker:
         self,
         calls: SimpleQueue[_Call | None],
         recorded: SimpleQueue[RecordedWarning],
-        setup: tuple[int, tuple[str, ...]],
+        setup: tuple[object, ...],
         quiet: bool,
     ) -> None:
         self._calls, self._recorded, self._setup, self._quiet = calls, recorded, setup, quiet
@@ -168,46 +141,43 @@ class _Worker:
         with contextlib.suppress(LostError, OSError):
             self._streams()
         while (call := self._calls.get()) is not None:
+            request, known, progress, future = call
             try:
-                answer = self._answer(call)
-            except Exception as error:
+                requests, answers = self._streams()
+                pickle.dump(request, requests)
+                requests.flush()
+                while not isinstance(answer := _Unpickler(answers, known).load(), Answer):
+                    progress(*answer)
+            except Exception as error:  # a process that broke down may leave anything
                 self._end()
-                call.future.set_exception(LostError(str(error)))
+                future.set_exception(LostError(str(error)))
                 continue
             for one in answer.warnings:
                 self._recorded.put(one)
-            if answer.error is not None:
-                call.future.set_exception(answer.error)
+            if answer.error is None:
+                future.set_result(answer.value)
             else:
-                call.future.set_result(answer.value)
+                future.set_exception(answer.error)
         self._end()
-
-    def _answer(self, call: _Call) -> Answer:
-        requests, answers = self._streams()
-        pickle.dump(call.request, requests)
-        requests.flush()
-        while not isinstance(message := _Unpickler(answers, call.known).load(), Answer):
-            call.progress(*message)
-        return message
 
     def _streams(self) -> tuple[IO[bytes], IO[bytes]]:
         """Standard input and output of the process, which is started if there is none."""
         with self._lock:
             if self._closed or not sys.executable:
                 raise LostError
-            begun = self._process is not None
-            process = self._process = self._process or subprocess.Popen(  # noqa: S603 - our own interpreter
-                # -P: a module in the current folder must not stand in for one of ours.
-                [sys.executable, "-P", "-c", _SERVE],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL if self._quiet else None,
-            )
+            begun, process = self._process is not None, self._process
+            if process is None:
+                process = self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and words
+                    # -P: a module in the current folder must not stand in for one of ours.
+                    [sys.executable, "-P", "-c", _SERVE],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL if self._quiet else None,
+                )
         assert process.stdin is not None  # noqa: S101 - asked for above
         assert process.stdout is not None  # noqa: S101
         if not begun:
-            pickle.dump(sys.path, process.stdin)
-            pickle.dump((os.getpid(), *self._setup), process.stdin)
+            pickle.dump((sys.path, self._setup), process.stdin)
             process.stdin.flush()
         return process.stdin, process.stdout
 
@@ -219,10 +189,11 @@ class _Worker:
                 self._process.terminate() if grace else self._process.kill()
 
     def join(self, grace: float) -> None:
-        """Wait until the process has ended."""
-        self._thread.join(grace or None)
-        if self._thread.is_alive() and self._process is not None:
-            self._process.kill()
+        """Wait until the process has ended; kill it after the time to tidy up."""
+        self._thread.join(grace)
+        with self._lock:
+            if self._process is not None:
+                self._process.kill()
         self._thread.join()
 
     def _end(self) -> None:
@@ -241,47 +212,3 @@ class _Unpickler(pickle.Unpickler):  # noqa: S301 - of what a process of our own
 
     def persistent_load(self, index: Any) -> object:
         return self._known[index]
-
-
-def side_by_side(
-    work: Callable[[T, Progress], R],
-    items: Sequence[T],
-    budget: int,
-    progress: Callable[[int, float, str], None] = lambda *_: None,
-) -> Generator[tuple[int, R | None], None, None]:
-    """The index of each item and the result of ``work``, as soon as it is there; None if its process ended.
-
-    Parameters
-    ----------
-    work
-        A function of a module, called with an item and a progress callback. Its errors are raised.
-    budget
-        Cores for all items: at most as many processes work at once. Of fewer items each has several cores.
-    progress
-        Called with the index of an item, the part of it that is done, 0 to 1, and its present step.
-
-    If the generator is closed, as by the keyboard, the calls under way are interrupted, and killed where they
-    have not tidied up within ``GRACE`` seconds.
-    """
-    events: SimpleQueue[tuple[int, float, str] | Future[R]] = SimpleQueue()
-    with WorkerPool(split_cores(budget, min(budget, len(items))), grace=GRACE) as pool:
-        running: dict[Future[R], int] = {}
-        for index, item in enumerate(items):
-            heard = partial(_put, events, index)
-            running[pool.submit(work, item, report_progress, progress=heard)] = index
-        for future in running:
-            future.add_done_callback(events.put)
-        while running:
-            event = events.get()
-            if not isinstance(event, Future):
-                progress(*event)
-                continue
-            try:
-                found = pool.result(event)
-            except LostError:
-                found = None
-            yield running.pop(event), found
-
-
-def _put(events: SimpleQueue[Any], index: int, done: float, what: str) -> None:
-    events.put((index, done, what))

@@ -59,12 +59,11 @@ def _send(message: object, known: Sequence[object] = ()) -> None:
     _answers[0].flush()
 
 
-def serve() -> NoReturn:
+def serve(parent: int, cores: int, modules: Sequence[str]) -> NoReturn:
     """Answer calls from standard input until the process that made the worker ends it, or ends itself.
 
     SIGTERM raises KeyboardInterrupt in a call, which may tidy up. The keyboard stops the parent alone.
     """
-    parent, cores, modules = pickle.load(sys.stdin.buffer)  # noqa: S301 - from the process that started this one
     if sys.platform == "linux":  # a library that is loaded lets no thread of ours run for seconds
         ctypes.CDLL(None).prctl(_PDEATHSIG, signal.SIGKILL)
         if os.getppid() != parent:
@@ -86,7 +85,7 @@ def _read(requests: SimpleQueue[bytes]) -> None:
     """Read requests; end the process, whatever it does, where nobody is left to write one."""
     with contextlib.suppress(EOFError):
         while True:
-            requests.put(pickle.load(sys.stdin.buffer))  # noqa: S301
+            requests.put(pickle.load(sys.stdin.buffer))  # noqa: S301 - of the process that started this one
     os._exit(1)
 
 
@@ -95,7 +94,7 @@ def _answer(request: bytes) -> None:
     try:
         signal.signal(signal.SIGTERM, _interrupt)
         function, arguments, known_of, caller = pickle.loads(request)  # noqa: S301
-        known = known_of(*arguments)
+        known = known_of(*arguments) if known_of else ()
         with during(caller):
             answer = Answer(function(*arguments))
         signal.signal(signal.SIGTERM, signal.SIG_DFL)

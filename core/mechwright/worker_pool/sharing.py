@@ -1,22 +1,64 @@
-"""Items of one work, shared between this process and workers by an estimate of the time of each.
+"""Items of one work, distributed over worker processes."""
 
-Workers make the work faster, never different. An item that fails in a worker is done once more in this
-process, which then raises its error.
-"""
-
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import Future
 from itertools import chain
+from queue import SimpleQueue
 from typing import TypeVar
 
+from mechwright.contracts.synthesis import Progress
 from mechwright.worker_pool.budget import available_cores, limited_cores, split_cores
-from mechwright.worker_pool.pool import WorkerPool, nothing_known
+from mechwright.worker_pool.pool import Known, LostError, WorkerPool
+from mechwright.worker_pool.serving import report_progress
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 START = 1.25
 """Seconds until a worker has begun and its answer has arrived: imports take most of them."""
+
+GRACE = 10.0
+"""Seconds that an interrupted item has to tidy up before its process is killed."""
+
+
+def side_by_side(
+    work: Callable[[T, Progress], R],
+    items: Sequence[T],
+    budget: int,
+    progress: Callable[[int, float, str], None] = lambda *_: None,
+) -> Generator[tuple[int, R | None], None, None]:
+    """The index of each item and its result, as soon as it is there; None if its process ended.
+
+    Parameters
+    ----------
+    work
+        A function of a module, called with an item and a progress callback. Its errors are raised.
+    budget
+        Cores for all items: at most as many processes work at once. Of fewer items each has several cores.
+    progress
+        Called with the index of an item, the part of it that is done, 0 to 1, and its present step.
+
+    If the generator is closed, as by the keyboard, the items under way are interrupted, and killed where they
+    have not tidied up within ``GRACE`` seconds.
+    """
+    events: SimpleQueue[tuple[int, float, str] | Future[R]] = SimpleQueue()
+    with WorkerPool(split_cores(budget, min(budget, len(items))), grace=GRACE) as pool:
+        running: dict[Future[R], int] = {}
+        for index, item in enumerate(items):
+            report: Progress = lambda done, what, index=index: events.put((index, done, what))  # noqa: E731
+            running[pool.submit(work, item, report_progress, progress=report)] = index
+        for future in running:
+            future.add_done_callback(events.put)
+        while running:
+            event = events.get()
+            if not isinstance(event, Future):
+                progress(*event)
+                continue
+            try:
+                found = pool.result(event)
+            except LostError:
+                found = None
+            yield running.pop(event), found
 
 
 def assign(seconds: Sequence[float], most: int) -> list[list[int]]:
@@ -42,16 +84,18 @@ def shared(
     work: Callable[[T], R],
     items: Sequence[T],
     seconds: Sequence[float],
-    known: Callable[[T], Sequence[object]] = nothing_known,
+    known: Known | None = None,
     progress: Callable[[float], None] = lambda _: None,
 ) -> list[R]:
     """The result of ``work`` for every item, in order; raises the error of the first item that fails.
 
+    Workers make the work faster, never different. An item that fails in a worker is done once more in this
+    process, which then raises its error.
+
     Parameters
     ----------
     work
-        A function of a module without side effects. Items and results are copied by pickle; where that
-        fails, this process does the work.
+        A function of a module without side effects. Items and results are copied by pickle.
     seconds
         The estimated time of each item.
     known
