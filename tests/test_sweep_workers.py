@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from listed_tasks import ListedTasks
 
+from mechwright.errors import PluginError
 from mechwright.sweep.task import Task
 from mechwright.sweep.workers import Processes
 from mechwright.worker_pool import serving
@@ -73,3 +74,25 @@ def test_a_sweep_that_is_stopped_while_a_worker_writes_ends(tmp_path):
     script.write_text(STOPPED.format(here=str(HERE), folder=str(tmp_path)), encoding="utf-8")
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stderr) == (3, "")
+
+
+@dataclass(frozen=True)
+class Deadly:
+    """A source whose every task but the first kills its process."""
+
+    folder: str
+    family: str = "none"
+
+    def done(self, task: Task) -> bytes:
+        if task.first:
+            with Path(self.folder, "killed").open("a") as file:
+                file.write("x")
+            os.kill(os.getpid(), signal.SIGKILL)
+        return b""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills as Linux does")
+def test_three_processes_that_are_killed_in_a_row_end_the_sweep(tmp_path):
+    with pytest.raises(PluginError, match="killed again and again"):
+        list(Processes(1).done(Deadly(str(tmp_path)), ListedTasks(TASKS)))
+    assert (tmp_path / "killed").read_text() == "xxx"

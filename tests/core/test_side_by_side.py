@@ -38,6 +38,15 @@ def test_every_item_is_done_once_and_one_that_kills_its_process_is_told() -> Non
     assert sorted(heard) == [(place, 0.5, "half") for place in range(4)]
 
 
+def failed(item: int, _: Progress) -> int:
+    return 1 // item
+
+
+def test_the_error_of_an_item_is_raised() -> None:
+    with pytest.raises(ZeroDivisionError):
+        list(side_by_side(failed, [1, 0], 1))
+
+
 def test_fewer_items_than_cores_share_them() -> None:
     assert sorted(found[1] for _, found in side_by_side(squared, [1, 2], 5) if found) == [2, 3]
 

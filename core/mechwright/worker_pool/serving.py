@@ -71,7 +71,8 @@ def serve(parent: int, cores: int, modules: Sequence[str]) -> NoReturn:
     requests: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_read, args=(requests,), daemon=True).start()
     _answers.append(os.fdopen(os.dup(1), "wb"))
-    os.dup2(2, 1)  # a library that prints would spoil the answers
+    with contextlib.suppress(OSError):  # standard error may be closed
+        os.dup2(2, 1)  # a library that prints would spoil the answers
     limit_cores(cores)
     record_warnings()
     for module in modules:
@@ -102,7 +103,8 @@ def _answer(request: bytes) -> None:
         os._exit(1)  # nothing is left to tidy up, and libraries take a while for it
     except Exception as error:
         answer = Answer(error=error)
-    sys.stdout.flush()
+    with contextlib.suppress(OSError):  # the disk may be full
+        sys.stdout.flush()
     try:
         _send(answer, known)
     except Exception as error:
