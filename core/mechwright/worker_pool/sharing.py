@@ -42,11 +42,14 @@ def side_by_side(
     have not tidied up within ``GRACE`` seconds.
     """
     events: SimpleQueue[tuple[int, float, str] | Future[R]] = SimpleQueue()
+
+    def report(index: int) -> Progress:
+        return lambda done, what: events.put((index, done, what))
+
     with WorkerPool(split_cores(budget, min(budget, len(items))), grace=GRACE) as pool:
         running: dict[Future[R], int] = {}
         for index, item in enumerate(items):
-            report: Progress = lambda done, what, index=index: events.put((index, done, what))  # noqa: E731
-            running[pool.submit(work, item, report_progress, progress=report)] = index
+            running[pool.submit(work, item, report_progress, progress=report(index))] = index
         for future in running:
             future.add_done_callback(events.put)
         while running:
