@@ -15,11 +15,11 @@ import mechwright_cam.machining
 from mechwright.build import LOOK, PROGRAMS, SOLIDS, WORK, Build, Inspection, Run, work_to
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
-from mechwright.cores import keep_to, keeping
 from mechwright.designs.design import Design, design_of
 from mechwright.errors import GeometryError, PluginFaultError
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.remedies import with_remedies
+from mechwright.worker_pool.budget import limit_cores, limited_cores
 from mechwright_cad.exporters import StepExporter
 from mechwright_geneva.family import Geneva
 
@@ -33,7 +33,7 @@ GENEVA: dict[str, Any] = {
 @pytest.fixture
 def wheel() -> Iterator[mw.Mechanism]:
     """A small Geneva wheel; all is made in this process, so that what is made can be counted."""
-    with keeping(1):
+    with limited_cores(1):
         yield mechanism()
 
 
@@ -299,7 +299,7 @@ def test_the_verdict_names_the_stage_and_what_was_not_made(
 ) -> None:
     path = tmp_path / "wheel.toml"
     path.write_text(mechanism().toml)
-    keep_to(1)
+    limit_cores(1)
     assert command_line("check", path, *options)[:2] == (0, f"{path}: {SAID[options]}\n")
 
 

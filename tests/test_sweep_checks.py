@@ -115,6 +115,8 @@ def test_a_process_that_is_killed_or_fails_is_a_line(study, monkeypatch):
 
     def gives(said):
         def side_by_side(*_):
+            if isinstance(said, Exception):
+                raise said
             yield 1, said
 
         monkeypatch.setattr(checks, "side_by_side", side_by_side)

@@ -2,13 +2,15 @@
 
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from mechwright.beside import Beside
 from mechwright.designs.design import Design, design_of, load
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import WorkerPool
 from mechwright_cad.live import answers
 from mechwright_cad.live.building import Building
 from mechwright_cad.live.fields import fields_of
@@ -24,7 +26,7 @@ class Session(Following):
         super().__init__(path, host)
         self.building = Building(path)
         self._design: Design | None = None
-        self._beside: Beside | None = None
+        self._pool: WorkerPool | None = None
         self._lock = threading.Lock()
 
     @property
@@ -71,12 +73,13 @@ class Session(Following):
         """The findings with remedies that were tried, by a second process; None if a newer question came."""
         self.design().changed(change)  # what is wrong with it is told here
         with self._lock:
-            if self._beside is not None:
-                self._beside.close()
-            mine = self._beside = Beside(_REMEDIES)
-        mine.ask(answers.remedies, self.path, dict(change))
-        found = mine.answer(list)
-        return found if self._beside is mine else None
+            if self._pool is not None:
+                self._pool.close()
+            mine = self._pool = WorkerPool([available_cores()], _REMEDIES, quiet=True)
+        with mine, suppress(Exception):
+            found = mine.result(mine.submit(answers.remedies, self.path, dict(change)))
+            return found if self._pool is mine else None
+        return None
 
     def accept(self, content: Mapping[str, Any]) -> None:
         """As :func:`~mechwright.designs.design.design_of` raises."""
@@ -95,5 +98,5 @@ class Session(Following):
     def close(self) -> None:
         """End what runs beside, a build too."""
         self.building.stop()
-        if self._beside is not None:
-            self._beside.close()
+        if self._pool is not None:
+            self._pool.close()

@@ -18,10 +18,10 @@ from mechwright.cli.perform import check_formats, data_of, perform, say
 from mechwright.cli.progress import fraction, stamp
 from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
-from mechwright.cores import cores, keep_to
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
-from mechwright.scripting.crew import side_by_side
+from mechwright.worker_pool.budget import available_cores, limit_cores
+from mechwright.worker_pool.sharing import side_by_side
 
 COLUMNS = ("design", "outcome", "seconds", "reason")
 
@@ -74,7 +74,7 @@ def check(
 
 def _keep(workers: int | None) -> None:
     if workers is not None:
-        keep_to(workers)
+        limit_cores(workers)
 
 
 def _run(
@@ -118,7 +118,7 @@ def _all(orders: Sequence[Order], workers: int | None, found: dict[int, Outcome]
             at = f"{len(found)} of {len(orders)} done; {orders[place].path.stem}: {what}"
             progress(sum(parts) / len(parts), at)
 
-        with closing(side_by_side(done, orders, workers or cores(), heard)) as outcomes:
+        with closing(side_by_side(done, orders, workers or available_cores(), heard)) as outcomes:
             for place, outcome in outcomes:
                 found[place] = outcome or killed(orders[place], time.perf_counter() - begun)
                 heard(place, 1.0, "done")

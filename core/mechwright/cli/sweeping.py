@@ -11,13 +11,13 @@ from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.stopping import StoppedError, deaf
 from mechwright.cli.streams import say
-from mechwright.cores import cores
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.extras import require
 from mechwright.sweep.run import Swept, sweep
 from mechwright.sweep.standing import Standing
 from mechwright.sweep.study import load_study
 from mechwright.sweep.workers import Alone, Cluster, Processes, Workers
+from mechwright.worker_pool.budget import available_cores
 
 ADDRESS = "DASK_SCHEDULER_ADDRESS"
 """Environment variable: the scheduler that is asked where the command names none."""
@@ -63,7 +63,7 @@ def _workers(count: int | None, scheduler: str) -> Workers:
     if address:
         require("distributed", by="--scheduler" if scheduler else ADDRESS)
         return Cluster(address)
-    number = count or cores()
+    number = count or available_cores()
     return Alone() if number == 1 else Processes(number)
 
 

@@ -12,12 +12,10 @@ from pathlib import Path
 from mechwright.contracts.finding import errors
 from mechwright.contracts.part import check_name
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.cores import keeping
 from mechwright.designs.change import changed
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import Host, host
 from mechwright.reading import read_bytes
-from mechwright.scripting.crew import side_by_side
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.pareto import spread
 from mechwright.scripting.provenance import facts
@@ -25,6 +23,8 @@ from mechwright.sweep.folder import SweepFolder
 from mechwright.sweep.front import Chosen, Front
 from mechwright.sweep.shard import NUMBER
 from mechwright.sweep.study import Study, design_of, study_of
+from mechwright.worker_pool.budget import limited_cores
+from mechwright.worker_pool.sharing import side_by_side
 
 TRIES = 4
 """Times as many designs of the front as are asked for that are checked until there are enough that build."""
@@ -126,7 +126,7 @@ def _checks(
 ) -> Iterator[tuple[int, str]]:
     """The number of each candidate and what forbids it, as soon as it is known."""
     if len(candidates) < 2 or cores < 2:
-        with keeping(cores):
+        with limited_cores(cores):
             for number, one in zip(numbers, candidates, strict=True):
                 yield number, _refused(_mechanism(study, one.values, one.name, known))
         return
@@ -137,19 +137,14 @@ def _checks(
                     "a process that checks a design of the front was killed, mostly for want of memory; take "
                     "fewer --workers"
                 )
-            if isinstance(said, MechwrightError):
-                raise said
             yield numbers[n], said
 
 
-def check(one: Candidate, progress: Progress = unheard) -> str | MechwrightError:
-    """What forbids a candidate, in a process of its own; or the error with which its check ends."""
+def check(one: Candidate, progress: Progress = unheard) -> str:
+    """What forbids a candidate, in a process of its own."""
     known = host()
-    try:
-        study = study_of(json.loads(one.file), one.path, known)
-        return _refused(_mechanism(study, one.values, one.name, known), progress)
-    except MechwrightError as error:
-        return error
+    study = study_of(json.loads(one.file), one.path, known)
+    return _refused(_mechanism(study, one.values, one.name, known), progress)
 
 
 def _refused(mechanism: Mechanism, progress: Progress = unheard) -> str:

@@ -14,14 +14,14 @@ from typing import Any, Self
 from numpy.typing import NDArray
 
 from mechwright.contracts.evaluation import Batch
-from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
-from mechwright.scripting.heard import Heard, listen, taken
 from mechwright.sweep.draw import drawn
 from mechwright.sweep.portion import Order, Portion, portion, sliced
 from mechwright.sweep.shard import shard_of
 from mechwright.sweep.study import Study, study_of
+from mechwright.worker_pool.budget import limit_cores
+from mechwright.worker_pool.recorded_warnings import RecordedWarning, record_warnings, take_warnings
 
 LIBRARIES = ("numpy", "scipy", "pyarrow")
 """Whose versions change the bytes of a table."""
@@ -88,13 +88,8 @@ class Source:
         batch = sliced(batch_of(study, task)) if task.drawn is None else _drawn(self, task.drawn)
         return portion(study, batch, task.first, task.order)
 
-    def told(self, task: Task) -> tuple[bytes | Portion, list[Heard]]:
-        """The same by a worker without a terminal, and the warnings that came of it."""
-        listen()
-        return self.done(task), taken()
-
-    def alike(self, own: str, task: Task) -> tuple[bytes | Portion, list[Heard]]:
-        """The same by a worker that may have come after the others were asked what they have.
+    def alike(self, own: str, task: Task) -> tuple[bytes | Portion, list[RecordedWarning]]:
+        """The same with its warnings, by a worker that may have come after the others were asked.
 
         It takes one core: a worker has as many threads for tasks as cores are meant for it.
 
@@ -105,8 +100,9 @@ class Source:
         """
         if (said := fingerprint(self.family)) != own:
             raise PluginError(unlike(said, own))
-        keep_to(1)
-        return self.told(task)
+        limit_cores(1)
+        record_warnings()
+        return self.done(task), take_warnings()
 
 
 @lru_cache(maxsize=4)

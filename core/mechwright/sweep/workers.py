@@ -1,22 +1,18 @@
 """Who does the work of a sweep: processes of this machine, or the workers of a Dask cluster."""
 
 import contextlib
-import multiprocessing
-import signal
 import time
-from collections import deque
-from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, Protocol
 
-from mechwright.beside import end_with_parent
-from mechwright.cores import cores, keep_to
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.extras import optional
-from mechwright.scripting.heard import Heard, Teller
 from mechwright.sweep.portion import Portion
 from mechwright.sweep.task import Source, Task, fingerprint, unlike
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import LostError, WorkerPool
+from mechwright.worker_pool.recorded_warnings import WarningRelay
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
@@ -26,9 +22,6 @@ Found = bytes | Portion
 
 _AGAIN = 3
 """Times that processes are killed without finishing anything until no others are started."""
-
-LOOK = 5.0
-"""Seconds between two looks at workers: the pool overlooks one that is killed while it writes a result."""
 
 CONNECT = 10.0
 """Seconds until a scheduler has to answer."""
@@ -49,24 +42,6 @@ class Queue(Protocol):
         ...
 
 
-class _Listed:
-    """Tasks that are all there from the beginning."""
-
-    def __init__(self, tasks: Sequence[Task]) -> None:
-        self._tasks = deque(tasks)
-
-    def take(self) -> Task | None:
-        return self._tasks.popleft() if self._tasks else None
-
-    def again(self, task: Task) -> None:
-        self._tasks.appendleft(task)
-
-
-def queue_of(tasks: Queue | Sequence[Task]) -> Queue:
-    """Tasks as they are taken one by one."""
-    return _Listed(tasks) if isinstance(tasks, Sequence) else tasks
-
-
 class Workers(Protocol):
     """Does tasks of a study, in any order.
 
@@ -84,7 +59,7 @@ class Workers(Protocol):
         """How many cores of this machine may be used besides."""
         ...
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """Each task with what came of it, as soon as it is there; more tasks may be taken then."""
         ...
 
@@ -94,10 +69,9 @@ class Alone:
 
     count = local = 1
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """One after the other."""
-        queue = queue_of(tasks)
-        while (task := queue.take()) is not None:
+        while (task := tasks.take()) is not None:
             yield task, source.done(task)
 
 
@@ -112,93 +86,48 @@ class Processes:
 
     def __init__(self, count: int) -> None:
         self.count = self.local = count
-        self._teller = Teller()
+        self._relay = WarningRelay()
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """A few tasks each ahead; raises PluginError where processes are killed again and again."""
-        queue, tries = queue_of(tasks), 0
-        while tries < _AGAIN:
-            try:
-                for one in self._once(source, queue):
-                    tries = 0
-                    yield one
-                return
-            except BrokenProcessPool:
-                tries += 1
-        raise PluginError(
-            "--workers: processes were killed again and again, mostly for want of memory; take fewer, or a "
-            "smaller study.batch"
-        )
-
-    def _once(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
-        context, queue = multiprocessing.get_context("spawn"), queue_of(tasks)
-        running: dict[Future[tuple[Found, list[Heard]]], Task] = {}
-        pool, others = (
-            ProcessPoolExecutor(self.count, context, _begin),
-            set(multiprocessing.active_children()),
-        )
-        workers, results, ended = set[Any](), getattr(pool, "_result_queue", None), False
-        try:
+        running: dict[Future[Found], Task] = {}
+        tries = 0
+        with WorkerPool([1] * self.count, relay=self._relay) as pool:
             while True:
-                for task in _some(queue, AHEAD * self.count - len(running)):
-                    with _returned(queue, task):
-                        running[pool.submit(source.told, task)] = task
+                for task in _some(tasks, AHEAD * self.count - len(running)):
+                    running[pool.submit(source.done, task)] = task
                 if not running:
-                    ended = True
                     return
-                workers |= {*multiprocessing.active_children()} - others
-                done = wait(running, LOOK, return_when=FIRST_COMPLETED).done
-                if not done and not all(worker.is_alive() for worker in workers):
-                    raise BrokenProcessPool("a worker was killed while it wrote")
-                for future in done:
-                    content, heard = future.result()
-                    task = running.pop(future)
-                    self._teller.tell(heard)
-                    yield task, content
-        except BrokenProcessPool:
-            while running:  # the one that was given out first is taken first again
-                queue.again(running.popitem()[1])
-            raise
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-            if not ended:  # the interpreter would wait for what workers are at, a minute or more
-                for worker in multiprocessing.active_children():
-                    if worker not in others:  # whoever calls from Python may have processes of their own
-                        worker.terminate()
-                _end_results(results)
-
-
-def _end_results(results: Any) -> None:
-    """Have the results of a pool end with its workers.
-
-    A worker that is killed while it writes leaves a part of a result. The pool waits for the rest as long as
-    anybody could write it, and the interpreter waits for the pool. This process could: it has the queue.
-    """
-    with contextlib.suppress(AttributeError, OSError):
-        results._writer.close()
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    task, tries = running.pop(future), tries + 1
+                    try:
+                        found = pool.result(future)
+                    except LostError:
+                        tasks.again(task)
+                        if tries < _AGAIN:
+                            continue
+                        raise PluginError(
+                            "--workers: processes were killed again and again, mostly for want of memory; "
+                            "take fewer, or a smaller study.batch"
+                        ) from None
+                    tries = 0
+                    yield task, found
 
 
 @contextlib.contextmanager
-def _returned(queue: Queue, task: Task) -> Iterator[None]:
+def _returned(tasks: Queue, task: Task) -> Iterator[None]:
     """Take back a task that could not be given out."""
     try:
         yield
     except Exception:
-        queue.again(task)
+        tasks.again(task)
         raise
 
 
-def _begin() -> None:
-    """A worker: it has one core, and nobody to wait for when whoever asked is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the keyboard stops who asked, who ends this one
-    keep_to(1)
-    end_with_parent()
-
-
-def _some(queue: Queue, count: int) -> Iterator[Task]:
+def _some(tasks: Queue, count: int) -> Iterator[Task]:
     """So many tasks at most."""
     for _ in range(count):
-        task = queue.take()
+        task = tasks.take()
         if task is None:
             return
         yield task
@@ -218,29 +147,29 @@ class Cluster:
     count = 0
 
     def __init__(self, address: str) -> None:
-        self.address, self.local = address, cores()
-        self._teller = Teller()
+        self.address, self.local = address, available_cores()
+        self._relay = WarningRelay()
 
-    def done(self, source: Source, tasks: Queue | Sequence[Task]) -> Iterator[tuple[Task, Found]]:
+    def done(self, source: Source, tasks: Queue) -> Iterator[tuple[Task, Found]]:
         """A few tasks ahead for each thread; raises PluginError where the cluster cannot do them."""
-        queue, client = queue_of(tasks), self._connected(CONNECT)
+        client = self._connected(CONNECT)
         while True:
             running: dict[str, tuple[Any, Task]] = {}
             try:
                 self._check(client, source.family)
-                yield from self._once(client, source, queue, running)
+                yield from self._once(client, source, tasks, running)
                 break
             except MechwrightError:
                 raise  # of a disk that is full, which is an OSError as well
             except _lost() as error:
                 while running:
-                    queue.again(running.popitem()[1][1])
+                    tasks.again(running.popitem()[1][1])
                 _closed(client)
                 client = self._connected(BACK, str(error))
         _closed(client)
 
     def _once(
-        self, client: Any, source: Source, queue: Queue, running: dict[str, tuple[Any, Task]]
+        self, client: Any, source: Source, tasks: Queue, running: dict[str, tuple[Any, Task]]
     ) -> Iterator[tuple[Task, Found]]:
         distributed = optional("distributed")
         threads = max(sum(client.nthreads().values()), 1)
@@ -248,8 +177,8 @@ class Cluster:
         # With results it would fetch them by itself, and wait for ever if the scheduler ended meanwhile.
         ended = distributed.as_completed(loop=client.loop)
         while True:
-            for task in _some(queue, AHEAD * threads - len(running)):
-                with _returned(queue, task):
+            for task in _some(tasks, AHEAD * threads - len(running)):
+                with _returned(tasks, task):
                     future = client.submit(source.alike, own, task, pure=False)
                 running[future.key] = future, task
                 ended.add(future)
@@ -261,9 +190,9 @@ class Cluster:
                 raise distributed.comm.CommClosedError("the scheduler has ended")
             if future.status == "error":
                 raise PluginError(f"--scheduler: a worker failed at {task.name}: {future.exception(BACK)}")
-            content, heard = future.result(BACK)
+            content, recorded = future.result(BACK)
             del running[future.key]
-            self._teller.tell(heard)
+            self._relay.issue(recorded)
             yield task, content
 
     def _connected(self, seconds: float, why: str = "") -> Any:

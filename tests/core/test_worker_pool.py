@@ -1,23 +1,24 @@
-"""Work in a second interpreter: what it gives, and that nothing is lost where it fails."""
+"""Calls of worker processes: their results, their errors, and that no process is left."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
+import threading
 import time
-from contextlib import closing
 from pathlib import Path
 
 import pytest
 from by_night import by_night
 
-from mechwright.beside import Beside
 from mechwright.build import Build, Wanted
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity
-from mechwright.cores import cores
 from mechwright.errors import ProofError, ToolError
 from mechwright.plugins.host import Host, Registered, host
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import LostError, WorkerPool
 from mechwright_cad.making import Solids, Work, compared_and_made
 from mechwright_cad.pages import Interference, SolidFiles
 
@@ -25,109 +26,111 @@ HERE = os.getpid()
 
 
 def test_a_call_runs_in_another_process_that_has_the_modules_already():
-    with closing(Beside(["colorsys", "no_such_module"])) as second:
-        second.ask(eval, "__import__('os').getpid(), 'colorsys' in __import__('sys').modules")
-        process, imported = second.result(tuple)
+    with WorkerPool([1], ["colorsys", "no_such_module"]) as pool:
+        asked = pool.submit(eval, "__import__('os').getpid(), 'colorsys' in __import__('sys').modules")
+        process, imported = pool.result(asked)
     assert process != HERE
     assert imported
 
 
 WHERE = "__import__('os').getpid()"
+ANSWERS = "__import__('mechwright.worker_pool.serving', fromlist=['_answers'])._answers[0]"
 
 
 @pytest.mark.parametrize(
-    "fault",
+    ("call", "error"),
     [
-        f"{HERE} if {WHERE} == {HERE} else __import__('os')._exit(3)",
-        f"{HERE} // ({WHERE} == {HERE})",
-        f"{HERE} if {WHERE} == {HERE} else 'another type'",
-        f"{HERE} if {WHERE} == {HERE} else __import__('threading').Lock()",  # no copy of it
+        ("__import__('os')._exit(3)", LostError),
+        (f"{ANSWERS}.write(b'x' * 99), {ANSWERS}.flush()", LostError),
+        ("1 / 0", ZeroDivisionError),
+        ("__import__('threading').Lock()", TypeError),  # no copy of it
     ],
-    ids=["dies", "raises", "another-type", "no-copy"],  # the process number is another at every run
+    ids=["dies", "writes-nonsense", "raises", "no-copy"],
 )
-def test_what_goes_wrong_there_is_done_here(fault):
-    with closing(Beside([])) as second:
-        second.ask(eval, fault)
-        assert second.result(int) == HERE
+def test_what_goes_wrong_there_is_an_error_here_and_the_next_call_is_answered(call, error):
+    with WorkerPool([1], quiet=True) as pool:
+        failed, good = pool.submit(eval, call), pool.submit(eval, WHERE)
+        with pytest.raises(error):
+            pool.result(failed)
+        assert pool.result(good) != HERE
 
 
-@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no way to stop a process here")
 def test_a_long_request_and_a_long_answer_do_not_wait_for_each_other():
     long = b"x" * 3_000_000
-    with closing(Beside([])) as second:
-        # Asking returns though nobody reads: the other end is stopped, as it is by a long import.
-        second._process.send_signal(signal.SIGSTOP)
-        second.ask(bytes.upper, long)
-        second._process.send_signal(signal.SIGCONT)
-        assert second.result(bytes) == long.upper()
-    with closing(Beside([])) as second:  # ended before it has read what it is sent
-        second.ask(bytes.upper, long)
+    with WorkerPool([1]) as pool:  # submitting returns though nobody reads yet
+        pool.submit(time.sleep, 0.2)
+        assert pool.result(pool.submit(bytes.upper, long)) == long.upper()
+    with WorkerPool([1]) as pool:  # ended before it has read its request
+        pool.submit(bytes.upper, long)
 
 
-def test_an_error_is_told_as_if_there_were_no_second_process():
-    with closing(Beside([])) as second:
-        second.ask(int, "twelve")
-        with pytest.raises(ValueError, match="twelve"):
-            second.result(int)
-
-
-def test_what_cannot_be_copied_is_done_here():
-    with closing(Beside([])) as second:
-        second.ask(lambda: os.getpid())
-        assert second.result(int) == HERE
+def test_what_cannot_be_copied_is_an_error():
+    with WorkerPool([1]) as pool, pytest.raises((AttributeError, pickle.PicklingError)):
+        pool.result(pool.submit(lambda: os.getpid()))
 
 
 @pytest.mark.parametrize("executable", ["", "/nowhere/python"])
-def test_where_no_process_can_be_started_all_is_done_here(executable, monkeypatch):
+def test_where_no_process_can_be_started_the_call_is_lost(executable, monkeypatch):
     monkeypatch.setattr(sys, "executable", executable)
-    with closing(Beside([])) as second:
-        second.ask(os.getpid)
-        assert second.result(int) == HERE
+    with WorkerPool([1]) as pool, pytest.raises(LostError):
+        pool.result(pool.submit(os.getpid))
 
 
-def test_the_second_interpreter_ends_with_its_caller_and_at_once():
+def test_where_no_thread_can_be_started_the_call_is_lost(monkeypatch):
+    def fails(_):
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", fails)
+    with WorkerPool([1]) as pool, pytest.raises(LostError):
+        pool.result(pool.submit(os.getpid))
+
+
+def test_a_call_ends_with_its_pool_and_at_once():
     start = time.perf_counter()
-    with closing(Beside([])) as second:
-        second.ask(time.sleep, 60)
-        process = second._process
-    assert process.returncode is not None
+    with WorkerPool([1]) as pool:
+        process = pool.result(pool.submit(os.getpid))
+        asleep = pool.submit(time.sleep, 60)
+        waiting = pool.submit(os.getpid)
+    assert not runs(process)
     assert time.perf_counter() - start < 30
-    orphan = Beside([])
-    orphan.ask(time.sleep, 60)
-    orphan._process.stdin.close()  # as when the caller dies
-    assert orphan._process.wait(30) == 1
-    orphan.close()
+    for one in (asleep, waiting, pool.submit(os.getpid)):
+        with pytest.raises(LostError):
+            pool.result(one)
 
 
-@pytest.mark.skipif(
-    sys.platform != "linux", reason="elsewhere a thread looks, which has to wait for a library"
-)
-def test_a_second_interpreter_that_lets_no_thread_run_ends_with_a_caller_that_is_killed(tmp_path):
-    """As while a large library is loaded: the thread that looked came to its turn seconds later."""
-    (tmp_path / "holds.py").write_text(
-        f"import re\nopen({str(tmp_path / 'there')!r}, 'w').close()\nre.match('(a+)+$', 'a' * 60 + 'b')\n"
-    )
-    begins = (
-        "from mechwright.beside import Beside; import time; b = Beside(['holds']);"
-        "print(b._process.pid, flush=True); time.sleep(60)"
+@pytest.mark.parametrize("modules", [[], ["sleeps"], ["holds"]])
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a thread looks, which may wait for a library")
+def test_a_worker_ends_with_a_caller_that_is_killed_whatever_it_does(tmp_path, modules):
+    """As while a large library is loaded: a thread that looks would come to its turn seconds later."""
+    there = f"open({str(tmp_path / 'there')!r}, 'w').close()"
+    (tmp_path / "sleeps.py").write_text(f"import time\n{there}\ntime.sleep(60)\n")
+    (tmp_path / "holds.py").write_text(f"import re\n{there}\nre.match('(a+)+$', 'a' * 60 + 'b')\n")
+    call = "time.sleep, 60" if modules else f"exec, {there + '; import time; time.sleep(60)'!r}"
+    code = (
+        "from mechwright.worker_pool.pool import WorkerPool; import time\n"
+        f"pool = WorkerPool([1], {modules})\n"
+        f"pool.submit({call})\n"
+        "while not pool._workers[0]._process: time.sleep(0.01)\n"
+        "print(pool._workers[0]._process.pid, flush=True); time.sleep(60)"
     )
     with subprocess.Popen(
-        [sys.executable, "-c", begins],
+        [sys.executable, "-c", code],
         stdout=subprocess.PIPE,
         text=True,
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        env={**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"},
     ) as caller:
-        second = int(caller.stdout.readline())
+        worker = int(caller.stdout.readline())
         end = time.monotonic() + 60
         while not (tmp_path / "there").exists() and time.monotonic() < end:
             time.sleep(0.02)
         caller.kill()
     end = time.monotonic() + 5
-    while runs(second) and time.monotonic() < end:
+    while runs(worker) and time.monotonic() < end:
         time.sleep(0.02)
-    left = runs(second)
+    left = runs(worker)
     if left:
-        os.kill(second, signal.SIGKILL)
+        os.kill(worker, signal.SIGKILL)
+    assert (tmp_path / "there").exists()
     assert not left
 
 
@@ -167,14 +170,14 @@ def pair(folder, command="build", formats=(), exporters=None):
 
 
 def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch, tmp_path):
-    assert cores() >= 1
+    assert available_cores() >= 1
     for exporter, count, command, begun in (
         (Heavy, 2, "build", True),
         (Heavy, 1, "build", False),
         (Heavy, 2, "model", False),
         (Light, 2, "build", False),
     ):
-        monkeypatch.setattr("mechwright_cad.making.cores", lambda count=count: count)
+        monkeypatch.setattr("mechwright_cad.making.available_cores", lambda count=count: count)
         monkeypatch.setattr(exporter, "name", "step")
         with pair(tmp_path, command, exporters=[exporter()]) as build:
             SolidFiles().warm(build)
@@ -231,9 +234,9 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     with pair(tmp_path, "model", ("step", "stl")) as build:
         motion, sample = build.pose
         exporters = [build.host.get(Exporter, name) for name in ("step", "stl")]
-        with closing(Beside([])) as second:
-            second.ask(compared_and_made, Work(build.design, exporters, motion, sample))
-            findings, files, grams = second.result(tuple)
+        with WorkerPool([1]) as pool:
+            work = Work(build.design, exporters, motion, sample)
+            findings, files, grams = pool.result(pool.submit(compared_and_made, work))
         solids = build.made(Solids)
         assert not solids.beside
         assert files.keys() == {"gear.step", "gear.stl", "assembly.step", "motion.html"}

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.cores import cores, keep_to, keeping
-from mechwright.scripting import shares
-from mechwright.scripting.shares import shared
+from mechwright.worker_pool import pool, sharing
+from mechwright.worker_pool.budget import available_cores, limit_cores, limited_cores
+from mechwright.worker_pool.sharing import shared
 
 HERE = os.getpid()
 
@@ -28,7 +28,7 @@ class Item:
 
 def told(item: Item) -> tuple[int, int, object, int]:
     """Its number, who was asked, its thing, and how many cores there were."""
-    return item.number, os.getpid(), item.thing, cores()
+    return item.number, os.getpid(), item.thing, available_cores()
 
 
 def odd(number: int) -> int:
@@ -64,17 +64,16 @@ def warned(process: int) -> int:
 
 @pytest.fixture(autouse=True)
 def four_cores_at_once(monkeypatch):
-    monkeypatch.setattr(shares, "BEGINS", 0.0)
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))  # where others find this module
-    with keeping(4):
+    monkeypatch.setattr(sharing, "START", 0.0)
+    with limited_cores(4):
         yield
 
 
 @pytest.mark.parametrize("most", [1, 2, 3, 8])
 def test_every_item_has_one_place_and_none_waits_for_less_than_another_took(most, monkeypatch):
-    monkeypatch.setattr(shares, "BEGINS", 2.0)
+    monkeypatch.setattr(sharing, "START", 2.0)
     seconds = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0]
-    found = shares.shares(seconds, most)
+    found = sharing.assign(seconds, most)
     assert sorted(place for places in found for place in places) == list(range(8))
     ends = [2.0 * (who > 0) + sum(seconds[place] for place in places) for who, places in enumerate(found)]
     assert max(ends) <= max(max(seconds) + 2, (sum(seconds) + 2 * (most - 1)) / most + max(seconds))
@@ -87,15 +86,15 @@ def test_results_are_in_order_refer_to_the_items_things_and_come_of_several_proc
     assert all(thing is item.thing for (_, _, thing, _), item in zip(found, items, strict=True))
     assert len({process for _, process, *_ in found}) == 3
     assert sorted(allowed for *_, allowed in found) == [1, 1, 2]
-    assert cores() == 4
+    assert available_cores() == 4
 
 
 def test_little_work_starts_nothing(monkeypatch):
-    monkeypatch.setattr(shares, "BEGINS", 2.0)
-    monkeypatch.setattr(shares, "Beside", None)
+    monkeypatch.setattr(sharing, "START", 2.0)
+    monkeypatch.setattr(pool, "_Worker", None)
     assert shared(odd, [2, 4], [1, 1]) == [2, 4]
     assert shared(odd, [], []) == []
-    keep_to(1)
+    limit_cores(1)
     assert shared(odd, [2, 4], [100, 100]) == [2, 4]
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from mechwright.contracts.synthesis import Progress
-from mechwright.cores import cores
-from mechwright.scripting.crew import side_by_side
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.sharing import side_by_side
 
 
 def squared(item: int, progress: Progress) -> tuple[int, int]:
@@ -18,7 +18,7 @@ def squared(item: int, progress: Progress) -> tuple[int, int]:
     progress(0.5, "half")
     if item == 13:
         os.kill(os.getpid(), signal.SIGKILL)
-    return item * item, cores()
+    return item * item, available_cores()
 
 
 def slept(folder: str, progress: Progress) -> None:
@@ -36,6 +36,15 @@ def test_every_item_is_done_once_and_one_that_kills_its_process_is_told() -> Non
     found = dict(side_by_side(squared, items, 2, lambda *at: heard.append(at)))
     assert found == {0: (4, 1), 1: None, 2: (25, 1), 3: (49, 1)}
     assert sorted(heard) == [(place, 0.5, "half") for place in range(4)]
+
+
+def failed(item: int, _: Progress) -> int:
+    return 1 // item
+
+
+def test_the_error_of_an_item_is_raised() -> None:
+    with pytest.raises(ZeroDivisionError):
+        list(side_by_side(failed, [1, 0], 1))
 
 
 def test_fewer_items_than_cores_share_them() -> None:

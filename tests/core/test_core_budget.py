@@ -3,7 +3,7 @@
 import threading
 import warnings
 
-from mechwright.cores import keeping, together
+from mechwright.worker_pool.budget import limited_cores, threaded_map
 
 
 def test_filters_of_warnings_are_as_before_when_threads_have_crossed() -> None:
@@ -22,6 +22,6 @@ def test_filters_of_warnings_are_as_before_when_threads_have_crossed() -> None:
         return place
 
     before = list(warnings.filters)
-    with keeping(2):
-        assert together(crossing, [0, 1]) == [0, 1]
+    with limited_cores(2):
+        assert threaded_map(crossing, [0, 1]) == [0, 1]
     assert warnings.filters == before
