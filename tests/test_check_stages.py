@@ -19,7 +19,7 @@ from mechwright.designs.design import Design, design_of
 from mechwright.errors import GeometryError, PluginFaultError
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.remedies import with_remedies
-from mechwright.worker_pool.budget import limit_cores, limited_cores
+from mechwright.worker_pool.budget import limited_cores
 from mechwright_cad.exporters import StepExporter
 from mechwright_geneva.family import Geneva
 
@@ -299,8 +299,8 @@ def test_the_verdict_names_the_stage_and_what_was_not_made(
 ) -> None:
     path = tmp_path / "wheel.toml"
     path.write_text(mechanism().toml)
-    limit_cores(1)
-    assert command_line("check", path, *options)[:2] == (0, f"{path}: {SAID[options]}\n")
+    with limited_cores(1):
+        assert command_line("check", path, *options)[:2] == (0, f"{path}: {SAID[options]}\n")
 
 
 def test_figures_are_a_table_and_json_has_everything(command_line: Command, tmp_path: Path) -> None:
