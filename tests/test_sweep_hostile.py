@@ -9,7 +9,7 @@ import sys
 import pytest
 from strokes import bytes_of, swept
 
-from mechwright.sweep import run
+from mechwright.studies import run
 
 TABLE, OTHER = "tables/part-000001.parquet", "tables/part-000002.parquet"
 COUNTS = b"mechwright.counts"
@@ -196,7 +196,7 @@ STOPPED = """
 import multiprocessing, os, signal, threading, time
 from pathlib import Path
 from endless import Endless
-from mechwright.sweep.workers import Processes
+from mechwright.studies.workers import Processes
 def stop():
     while len(list(Path().glob("begun-*"))) < 2:
         time.sleep(0.02)

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.sweep import workers
-from mechwright.sweep.task import Task
-from mechwright.sweep.workers import Processes
+from mechwright.studies import workers
+from mechwright.studies.task import Task
+from mechwright.studies.workers import Processes
 
 TASKS = [Task(f"part-{number:06d}", number, number) for number in range(4)]
 HERE = Path(__file__).parent
@@ -22,7 +22,7 @@ STOPPED = """\
 import sys, time; sys.path.append({here!r})
 from pathlib import Path
 from test_sweep_workers import TASKS, Torn
-from mechwright.sweep.workers import Processes
+from mechwright.studies.workers import Processes
 if __name__ == "__main__":
     for task, _ in Processes(2).done(Torn({folder!r}, "sleep"), TASKS):
         print(task.name, flush=True)

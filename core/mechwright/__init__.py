@@ -76,6 +76,7 @@ if TYPE_CHECKING:
     from mechwright.scripting.opening import design, load
     from mechwright.scripting.performing import Written
     from mechwright.scripting.synthesis import Found, synthesize
+    from mechwright.studies.scripts import Sweep, sweep
     from mechwright.tolerances import TOLERANCES
 
 _HOMES = {
@@ -129,6 +130,7 @@ _HOMES = {
     "mechwright.scripting.opening": "design load",
     "mechwright.scripting.performing": "Written",
     "mechwright.scripting.synthesis": "Found synthesize",
+    "mechwright.studies.scripts": "Sweep sweep",
     "mechwright.tolerances": "TOLERANCES",
 }
 """Module to the public names that come from it."""
@@ -136,7 +138,8 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
-__all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
+__all__ += ["Found", "Mechanism", "Named", "Result", "Sweep", "Written"]
+__all__ += ["design", "load", "sweep", "synthesize"]
 __all__ += [
     "Command",
     "Exporter",

@@ -14,7 +14,8 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from types import ModuleType
 from typing import IO, TypeVar, cast
 
 if sys.platform == "linux":
@@ -164,6 +165,21 @@ def _end_without(caller: int) -> None:
     while os.name == "nt" or os.getppid() == caller:  # Windows tells of a parent that is gone
         time.sleep(LOOK)
     os._exit(1)
+
+
+@contextlib.contextmanager
+def without_script() -> Iterator[None]:
+    """Have processes of multiprocessing that start meanwhile import no script.
+
+    They import the module ``__main__`` of their parent, and a script that works at its top level, without
+    ``if __name__ == "__main__"``, would begin again in each of them.
+    """
+    script = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
 
 
 def end_with_parent() -> None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, TypeVar
 
-from mechwright.beside import end_with_parent
+from mechwright.beside import end_with_parent, without_script
 from mechwright.contracts.synthesis import Progress
 from mechwright.cores import keep_to
 
@@ -101,7 +101,7 @@ def _hired(work: Callable[[T, Progress], R], cores: int) -> _Worker:
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
     process = context.Process(target=_serve, args=(there, work, cores), daemon=True)
-    with _deaf():
+    with _deaf(), without_script():
         process.start()
     there.close()
     return _Worker(process, here, cores)

@@ -2,6 +2,7 @@
 
 import contextlib
 import multiprocessing
+import os
 import signal
 import time
 from collections import deque
@@ -10,13 +11,16 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
 
-from mechwright.beside import end_with_parent
+from mechwright.beside import end_with_parent, without_script
 from mechwright.cores import cores, keep_to
-from mechwright.errors import MechwrightError, PluginError
-from mechwright.extras import optional
+from mechwright.errors import DesignError, MechwrightError, PluginError
+from mechwright.extras import optional, require
 from mechwright.scripting.heard import Heard, Teller
-from mechwright.sweep.portion import Portion
-from mechwright.sweep.task import Source, Task, fingerprint, unlike
+from mechwright.studies.portion import Portion
+from mechwright.studies.task import Source, Task, fingerprint, unlike
+
+ADDRESS = "DASK_SCHEDULER_ADDRESS"
+"""Environment variable: the scheduler whose workers are taken where no other one is named."""
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
@@ -141,7 +145,7 @@ class Processes:
         try:
             while True:
                 for task in _some(queue, AHEAD * self.count - len(running)):
-                    with _returned(queue, task):
+                    with _returned(queue, task), without_script():
                         running[pool.submit(source.told, task)] = task
                 if not running:
                     ended = True
@@ -202,6 +206,28 @@ def _some(queue: Queue, count: int) -> Iterator[Task]:
         if task is None:
             return
         yield task
+
+
+def workers_of(count: int | None, scheduler: str) -> "Workers":
+    """The workers of a number and an address; by default a process for each core of this machine.
+
+    Raises
+    ------
+    DesignError
+        Both are given.
+    PluginError
+        The cluster's library is not installed.
+    """
+    address = scheduler or ("" if count else os.environ.get(ADDRESS, ""))
+    if scheduler and count:
+        raise DesignError(
+            "--workers: goes with processes of this machine, and --scheduler with a cluster; take one"
+        )
+    if address:
+        require("distributed", by="--scheduler" if scheduler else ADDRESS)
+        return Cluster(address)
+    number = count or cores()
+    return Alone() if number == 1 else Processes(number)
 
 
 class Cluster:

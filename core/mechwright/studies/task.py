@@ -18,10 +18,10 @@ from mechwright.cores import keep_to
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
 from mechwright.scripting.heard import Heard, listen, taken
-from mechwright.sweep.draw import drawn
-from mechwright.sweep.portion import Order, Portion, portion, sliced
-from mechwright.sweep.shard import shard_of
-from mechwright.sweep.study import Study, study_of
+from mechwright.studies.draw import drawn
+from mechwright.studies.portion import Order, Portion, portion, sliced
+from mechwright.studies.shard import shard_of
+from mechwright.studies.study import Study, study_of
 
 LIBRARIES = ("numpy", "scipy", "pyarrow")
 """Whose versions change the bytes of a table."""
