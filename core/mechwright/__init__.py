@@ -73,7 +73,7 @@ if TYPE_CHECKING:
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.scripting.mechanism import Mechanism
-    from mechwright.scripting.opening import design, load
+    from mechwright.scripting.opening import check, design, load
     from mechwright.scripting.performing import Written
     from mechwright.scripting.synthesis import Found, synthesize
     from mechwright.studies.scripts import Sweep, sweep
@@ -127,7 +127,7 @@ _HOMES = {
     "mechwright.plugins.host": "Host host",
     "mechwright.plugins.hookspecs": "hookimpl",
     "mechwright.scripting.mechanism": "Mechanism",
-    "mechwright.scripting.opening": "design load",
+    "mechwright.scripting.opening": "check design load",
     "mechwright.scripting.performing": "Written",
     "mechwright.scripting.synthesis": "Found synthesize",
     "mechwright.studies.scripts": "Sweep sweep",
@@ -139,7 +139,7 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Found", "Mechanism", "Named", "Result", "Sweep", "Written"]
-__all__ += ["design", "load", "sweep", "synthesize"]
+__all__ += ["check", "design", "load", "sweep", "synthesize"]
 __all__ += [
     "Command",
     "Exporter",
