@@ -65,7 +65,7 @@ def design(family: str, /, *, name: str = "", **parameters: object) -> Mechanism
 
 
 def check(
-    subject: str | PathLike[str] | Mechanism, /, *, progress: Progress = unheard, **parameters: object
+    subject: str | PathLike[str] | Mechanism, /, *, progress: Progress = unheard, **parameters: Any
 ) -> Findings:
     """What ``mechwright check`` finds of a design, with remedies that were tried.
 
