@@ -236,7 +236,7 @@ def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, com
     findings = {one["code"]: one for one in json.loads(out)["findings"]}
     assert findings["machine.motor"]["severity"] == "error"
     assert list(findings["machine.motor"]["fix"]) == ["machine.gear"]  # the motor is at hand
-    assert findings["machine.torque"]["stage"] == "parts"
+    assert findings["machine.torque"]["stage"] == "assembly"
 
 
 @pytest.mark.parametrize(

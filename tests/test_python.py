@@ -142,7 +142,7 @@ def test_programs_are_those_of_the_command(command_line, tmp_path):
 def test_a_script_writes_what_the_command_writes(command_line, tmp_path):
     told = []
     built = mw.load(EXAMPLE).asked(command="solve", samples=91)
-    written = built.write(tmp_path / "one", mw.Stage.MOTION, lambda done, what: told.append((done, what)))
+    written = built.write(tmp_path / "one", lambda done, what: told.append((done, what)))
     assert command_line("solve", EXAMPLE, "-o", tmp_path / "two", "--samples", 91)[0] == 0
     for name in (*written.files, "manifest.json"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes(), name

@@ -28,10 +28,9 @@ class Model(Command):
         """Write the solids: parts and assembly as STEP."""
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform
-        from mechwright.contracts.finding import Stage
 
         wanted = Wanted("model", at=at, formats=names(also))
-        perform(design, output, wanted, Stage.PARTS, as_json=as_json)
+        perform(design, output, wanted, as_json=as_json)
 
 
 class Live(Command):

@@ -125,6 +125,11 @@ def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list
     return interference_findings(design, met, solids=solids)
 
 
+def plate_collisions(build: Build) -> list[Finding]:
+    """Which plates of a build collide; no CAD kernel is needed for it."""
+    return collisions(build.design, build.parts, solids=False)
+
+
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
     from mechwright_cad.animation import MOTION, PAGE_SAMPLES, motion_html
@@ -166,7 +171,7 @@ class Solids:
         """Begin the second process, if it gains something."""
         modules = {module for exporter in self._exporters for module in exporter.modules}
         heavy = sorted(modules - set(sys.modules))
-        if heavy and cores() > 1:
+        if heavy and cores() > 1 and self._second is None:
             self._second = Beside(heavy)
             self._build.when_closed(self._second.close)
 
@@ -191,8 +196,7 @@ class Solids:
         """Which bodies collide, and what else there is to say of that."""
         if self._second is not None:
             return self._result()[0]
-        solids = self._build.wanted.command in IN_SPACE
-        return collisions(self._build.design, self._build.parts, solids=solids)
+        return collisions(self._build.design, self._build.parts, solids=True)
 
     def files(self) -> dict[str, bytes]:
         """Every part, and the assembly, in every format."""

@@ -48,7 +48,7 @@ class MadeParts:
             copies.setdefault(part.name, []).append(part)
         design = self._build.design
         said = design.family.as_made(design.params, copies)
-        return replace(said, findings=tuple(at_stage(Stage.MACHINING, said.findings)))
+        return replace(said, findings=tuple(at_stage(Stage.OUTPUT, said.findings)))
 
 
 def not_closed(part: MadePart) -> list[Finding]:
@@ -71,7 +71,7 @@ def not_closed(part: MadePart) -> list[Finding]:
                         OPEN,
                         "mm",
                         "have that wall finished",
-                        Stage.MACHINING,
+                        Stage.OUTPUT,
                     )
                 ]
     return []

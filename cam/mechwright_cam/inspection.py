@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mechwright.build import Build, Inspection
+from mechwright.build import PROGRAMS, Build, Inspection
 from mechwright.contracts.finding import Finding, Severity, Stage
 
 
@@ -10,7 +10,6 @@ class Machinable(Inspection):
     """What control and cutters say of the parts."""
 
     name = "machining"
-    commands = frozenset({"check", "cam", "build"})
     stage = Stage.MACHINING
     order = 20
     doing = "drawings and programs"
@@ -27,8 +26,8 @@ class Running(Inspection):
     """What the family says of the mechanism with its parts as the programs leave them."""
 
     name = "as-made"
-    commands = frozenset({"build"})
-    stage = Stage.MACHINING
+    stage = Stage.OUTPUT
+    needs = frozenset({PROGRAMS})
     order = 40
     doing = "parts as made"
     share = 50.0
@@ -44,7 +43,6 @@ class InHand(Inspection):
     """Screws and pins of the mechanism that the shop does not keep."""
 
     name = "in-hand"
-    commands = frozenset({"check", "cam", "build"})
     stage = Stage.MACHINING
     order = 25
     doing = "what is in hand"

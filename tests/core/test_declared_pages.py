@@ -25,7 +25,6 @@ class Files(Page):
 
 class Looks(Inspection):
     name = "looks"
-    commands = frozenset({"check"})
     stage = Stage.PARTS
     gives: Any = None
 
@@ -51,8 +50,8 @@ def registered(plugin: Any, gives: Any) -> Any:
 @pytest.mark.parametrize(
     ("gives", "words"),
     [
-        (None, "what it gives is None; a mapping is wanted"),
-        (3, "what it gives is 3; a mapping is wanted"),
+        (None, "gives None; a mapping is wanted"),
+        (3, "gives 3; a mapping is wanted"),
         ([("a", "b")], "a mapping is wanted"),
         ({"a.txt": None}, r"\['a.txt'\] of what it gives is None; a text or bytes or an iterable is wanted"),
         ({1: "x"}, r"\[1\] of what it gives is 1; a text is wanted"),

@@ -194,13 +194,13 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
         ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
         ('title = "Cam"', "", "Cam has no title"),
-        ('summary = "A cam."', "summary = None", "Cam has no summary"),
+        ('summary = "A cam."', "summary = None", "Cam: summary is None; a text is wanted"),
         (
             "Params = Parameters",
             "Params = dict",
-            "Params is no subclass of mechwright.Parameters",
+            "Cam: Params is <class 'dict'>; a class of the kind Parameters is wanted",
         ),
-        ("Params = Parameters", "", "Cam: Params is no subclass"),
+        ("Params = Parameters", "", "Cam has no Params"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
         (
             "def check(self",
@@ -259,7 +259,7 @@ from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 
 class Process(Plugin):
-    kind, plural, texts = "process", "processes", ("title",)
+    kind, plural = "process", "processes"
     @classmethod
     def fault(cls): return "" if cls.name != "bad" else "it is bad"
 

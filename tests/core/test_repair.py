@@ -15,7 +15,6 @@ class Bores(Inspection):
     """A workshop that makes one size of bore, and any in a disc that is large."""
 
     name = "bores"
-    commands = frozenset({"check", "build"})
     stage = Stage.MACHINING
 
     def __init__(self, proposes: bool = True) -> None:

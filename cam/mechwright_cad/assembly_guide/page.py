@@ -29,7 +29,7 @@ class AssemblyGuide(Page):
         """Whether a second process makes solids meanwhile."""
         from mechwright_cad.making import Solids
 
-        return build.made(Solids).beside
+        return build.made_as_wanted(Solids).beside
 
     def shown(self, build: Build) -> bool:
         """Whether a build has this page."""

@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.build import Build
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import host
-from mechwright.remedies import tried
+from mechwright.scripting.checking import checked
 from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
 
 Answer = dict[str, Any]
@@ -60,9 +61,8 @@ def _seen(made: Sequence[Part], solved: Motion) -> bool:
 
 
 def remedies(path: Path, change: Change) -> list[dict[str, Any]]:
-    """The findings with remedies that were tried; it may take seconds, so a second process is asked."""
-    design = load(path, host()).changed(change)
-    return told(tried(design, design.check()))
+    """What ``check`` finds, with remedies that were tried; it may take seconds, in a second process."""
+    return told(checked(Build(load(path, host()).changed(change), host())))
 
 
 def told(findings: Sequence[Finding]) -> list[dict[str, Any]]:

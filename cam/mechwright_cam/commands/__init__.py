@@ -33,11 +33,10 @@ class Cam(Command):
         """
         from mechwright.build import Wanted
         from mechwright.cli.several import write
-        from mechwright.contracts.finding import Stage
 
         nothing = "makes no plate part, so there is nothing to mill; use mechwright model"
         wanted = Wanted("cam", curves=dxf_curves)
-        write(designs, output, wanted, Stage.MACHINING, workers, nothing, as_json)
+        write(designs, output, wanted, workers, nothing, as_json)
 
 
 def cam_settings(incomplete: str) -> list[tuple[str, str]]:

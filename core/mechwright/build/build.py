@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
@@ -78,27 +78,37 @@ class Build:
         self.progress: Callable[[float], None] = lambda done: None  # noqa: ARG005
         """Told by work that takes long how far it is, 0 to 1."""
         self._given = design
-        self._kept: dict[Callable[[Build], Any], Any] = {}
+        self._kept: dict[object, Any] = {}
         self._closing = ExitStack()
 
-    @cached_property
+    def asking(self, **wanted: Any) -> Self:
+        """The same design with other wishes; what does not depend on these is made once for both."""
+        other = type(self)(self._given, self.host, replace(self.wanted, **wanted))
+        other._kept = self._kept
+        return other
+
+    @property
     def design(self) -> "Design":
         """The design; raises what :func:`mechwright.designs.design.load` does."""
+        if not isinstance(self._given, Path):
+            return self._given
         from mechwright.designs.design import load
 
-        return load(self._given, self.host) if isinstance(self._given, Path) else self._given
+        given = self._given
+        return self._once("design", lambda: load(given, self.host))
 
-    @cached_property
+    @property
     def findings(self) -> "Findings":
         """What the family finds, and what there is to say of what stands around the mechanism."""
         from mechwright.contracts.finding import Findings
 
-        return Findings(self.design.check())
+        return self._once("findings", lambda: Findings(self.design.check()))
 
-    @cached_property
+    @property
     def motion(self) -> "Motion":
         """The motion, with as many samples as are wanted."""
-        return self.design.solve(self.wanted.samples)
+        samples = self.wanted.samples
+        return self._once(("motion", samples), lambda: self.design.solve(samples))
 
     def stretches(self) -> "Iterator[Motion]":
         """The same, a stretch after the other: nothing is kept of what is long, and short motions are one."""
@@ -108,12 +118,12 @@ class Build:
             return iter((self.motion,))
         return self.design.stretches(self.wanted.samples)
 
-    @cached_property
+    @property
     def parts(self) -> "Named[Part]":
         """The parts, with what the design file asks of them; raises what :meth:`Design.parts` does."""
         from mechwright.contracts.named import Named
 
-        return Named(self.design.parts())
+        return self._once("parts", lambda: Named(self.design.parts()))
 
     def result(self, name: str) -> Any:
         """What a plugin makes of this build, see :class:`~mechwright.contracts.result.Result`; made once.
@@ -178,10 +188,20 @@ class Build:
         return motion, pose.sample_at(motion, self.wanted.at)
 
     def made(self, make: "Callable[[Build], T]") -> T:
-        """What ``make`` makes of this build, such as a class that takes a build; made once, then kept."""
-        if make not in self._kept:
-            self._kept[make] = make(self)
-        return cast("T", self._kept[make])
+        """What ``make`` makes of this build, such as a class that takes a build; made once, then kept.
+
+        It must not depend on what is wanted besides the design; see :meth:`made_as_wanted`.
+        """
+        return self._once(make, lambda: make(self))
+
+    def made_as_wanted(self, make: "Callable[[Build], T]") -> T:
+        """What ``make`` makes of this build and of what is wanted besides, made once for the same wishes."""
+        return self._once((make, self.wanted), lambda: make(self))
+
+    def _once(self, key: object, make: "Callable[[], T]") -> T:
+        if key not in self._kept:
+            self._kept[key] = make()
+        return cast("T", self._kept[key])
 
     def when_closed(self, close: Callable[[], object]) -> None:
         """Have something called when the build is closed."""

@@ -6,31 +6,30 @@ from dataclasses import replace
 from mechwright.build.build import Build, Wanted
 from mechwright.build.inspection import Inspection
 from mechwright.build.page import FileName, Page
-from mechwright.contracts.exporter import Exporter
+from mechwright.build.work import WORK
 from mechwright.contracts.file_names import file_key, free_name, name_fault
 from mechwright.contracts.finding import Change, Finding, Stage
-
-STAGES = {"solve": Stage.MOTION, "model": Stage.PARTS, "cam": Stage.MACHINING, "build": Stage.MACHINING}
-"""The commands that write a design's files, and the stage of the work after which each ends."""
 
 
 class FileNames(Inspection):
     """Files of one design that would be one file, here or on a system that does not tell cases apart."""
 
     name = "file-names"
-    commands = frozenset({"check", *STAGES})
-    stage = Stage.MACHINING
+    stage = Stage.MOTION
     order = 30
     doing = "names of files"
     share = 1.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
-        """An error for each name that two files would have; of a check, in whatever command."""
+        """An error for each name that two files of the command would have.
+
+        Of a whole build, the stage is that of the first command which would write them.
+        """
         found: dict[str, Finding] = {}
-        for wanted in _lookahead(build):
-            stage = STAGES[wanted.command]
-            for key, finding in _faults(files_of(build, wanted)):
-                found.setdefault(key, replace(finding, stage=stage))
+        own = build.wanted.command
+        for command in WORK if own not in WORK or WORK[own].stage is Stage.OUTPUT else (own,):
+            for key, finding in _faults(files_of(build, replace(build.wanted, command=command))):
+                found.setdefault(key, replace(finding, stage=WORK[command].stage))
         return list(found.values())
 
 
@@ -38,14 +37,6 @@ def files_of(build: Build, wanted: Wanted) -> list[FileName]:
     """The files that the pages of a command would write, as far as they know before any work."""
     pages = [page for page in build.host.all(Page) if wanted.command in page.commands]
     return [one for page in pages for one in page.names(build, wanted)]
-
-
-def _lookahead(build: Build) -> list[Wanted]:
-    """What the build is asked for; of a check, what every command could be, in every format."""
-    if build.wanted.command in STAGES:
-        return [build.wanted]
-    formats = tuple(sorted(build.host.of(Exporter)))
-    return [replace(build.wanted, command=command, formats=formats) for command in STAGES]
 
 
 def _faults(files: Sequence[FileName]) -> Iterator[tuple[str, Finding]]:

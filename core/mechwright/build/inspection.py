@@ -12,15 +12,16 @@ from mechwright.contracts.plugin import Plugin
 class Inspection(Plugin):
     """Finds what speaks against a build: bodies that meet, cutters that do not reach.
 
-    An inspection is asked when the family itself has found no error; its errors stop the command.
+    An inspection is asked by every run that comes to its stage, ``check`` among them, when the family itself
+    has found no error; its errors stop the run.
     """
 
     kind = "inspection"
     plural = "inspections"
-    commands: ClassVar[frozenset[str]]
-    """Names of the commands that ask it."""
     stage: ClassVar[Stage]
-    """What its findings are about: in a command that ends before, they are told and stop nothing."""
+    """What its findings are about."""
+    needs: ClassVar[frozenset[str]] = frozenset()
+    """What has to be made for it and takes long: :data:`~mechwright.build.work.SOLIDS`, ``PROGRAMS``."""
     order: ClassVar[int] = 100
     """Inspections of lower order are told first."""
     doing: ClassVar[str] = ""
@@ -28,9 +29,20 @@ class Inspection(Plugin):
     share: ClassVar[float] = 1.0
     """How long that takes beside others, such as a page of text, which takes 1."""
 
+    @classmethod
+    def fault(cls) -> str:
+        """Whether it says when it is asked in the way of an earlier version."""
+        if hasattr(cls, "commands"):
+            return "it says commands; its stage says which runs ask it, leave commands out"
+        return super().fault()
+
     def late(self, build: Build) -> bool:  # noqa: ARG002 - for those whose work goes on beside
         """Whether it works beside other work and is best asked last; it is told in its order all the same."""
         return False
+
+    def outlook(self, build: Build) -> Sequence[Finding]:  # noqa: ARG002 - for those who know something
+        """What can be said before what it needs is made; by default nothing."""
+        return ()
 
     @abstractmethod
     def findings(self, build: Build) -> Sequence[Finding]:

@@ -3,11 +3,11 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, ClassVar
 
 from mechwright.build.build import Build, Wanted
-from mechwright.contracts.file_names import name_fault
-from mechwright.contracts.guard import UnsoundError, pieces
+from mechwright.contracts.file_names import hold_files
+from mechwright.contracts.guard import pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
 
@@ -30,6 +30,19 @@ class FileName:
     of: str
     key: str = ""
     text: str = ""
+
+
+def _hold_files(files: Mapping[str, Content], *_: object) -> Mapping[str, Content]:
+    """The same files; pieces are asked for under the guard."""
+    hold_files(files)
+    return {
+        name: content if isinstance(content, (str, bytes)) else pieces(content, f"{name!r}")
+        for name, content in files.items()
+    }
+
+
+PageFiles = Annotated[Mapping[str, Content], _hold_files]
+"""Files by their names."""
 
 
 class Page(Plugin):
@@ -55,25 +68,6 @@ class Page(Plugin):
     share: ClassVar[float] = 1.0
     """How long that step takes beside others, such as a page of text, which takes 1."""
 
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """Files have plain names and texts that can be written; pieces are asked for under the guard."""
-        found = super().sound(method, answer, arguments)
-        if method != "files":
-            return found
-        for name, content in found.items():
-            if fault := name_fault(name):
-                raise UnsoundError(f"{name!r} {fault}")
-            if isinstance(content, str):
-                try:
-                    content.encode()
-                except UnicodeEncodeError as error:
-                    raise UnsoundError(f"the text of {name!r} cannot be written: {error.reason}") from error
-        return {
-            name: content if isinstance(content, (str, bytes)) else pieces(content, f"{name!r}")
-            for name, content in found.items()
-        }
-
     def warm(self, build: Build) -> None:
         """Start what takes long before the design is even read; by default nothing."""
 
@@ -92,7 +86,7 @@ class Page(Plugin):
         return ()
 
     @abstractmethod
-    def files(self, build: Build) -> Mapping[str, Content]:
+    def files(self, build: Build) -> PageFiles:
         """File name to content; a long one may come in pieces of bytes, which are asked for as it is written.
 
         Raises

@@ -143,6 +143,19 @@ class Check(Command):
     def run(
         self,
         designs: DesignFiles,
+        to: Annotated[
+            str,
+            typer.Option(
+                "--to",
+                metavar="STAGE",
+                help="Make all up to a stage, and judge it: motion, parts, assembly, machining or output. "
+                "By default all stages are judged, and nothing is made.",
+                autocompletion=completing.stages,
+            ),
+        ] = "",
+        figures: Annotated[
+            bool, typer.Option("--figures", help="Add a table of the figures that were found.")
+        ] = False,
         as_json: AsJson = False,
         tolerances: Annotated[
             bool, typer.Option("--tolerances", help="What tolerances do: sensitivities, worst case, yield.")
@@ -155,7 +168,7 @@ class Check(Command):
         """
         from mechwright.cli import several
 
-        several.check(designs, workers, as_json, tolerances)
+        several.check(designs, workers, as_json, tolerances, to, figures)
 
 
 class Fix(Command):
@@ -172,10 +185,10 @@ class Fix(Command):
             typer.Option(
                 "--to",
                 metavar="STAGE",
-                help="How far it has to build: parts or machining.",
+                help="How far it has to build: motion, parts, assembly, machining or output.",
                 autocompletion=completing.stages,
             ),
-        ] = "machining",
+        ] = "output",
         output: Annotated[
             Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
         ] = None,
@@ -207,10 +220,9 @@ class Solve(Command):
         """
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform
-        from mechwright.contracts.finding import Stage
 
         still = "stands still: there is no motion to write; build writes its drawings and programs"
-        perform(design, output, Wanted("solve", samples), Stage.MOTION, still, as_json=as_json)
+        perform(design, output, Wanted("solve", samples), still, as_json=as_json)
 
 
 class Build(Command):
@@ -236,10 +248,9 @@ class Build(Command):
         """
         from mechwright.build import Wanted
         from mechwright.cli.several import write
-        from mechwright.contracts.finding import Stage
 
         wanted = Wanted("build", samples, at, names(also), dxf_curves)
-        write(designs, output, wanted, Stage.MACHINING, workers, as_json=as_json)
+        write(designs, output, wanted, workers, as_json=as_json)
 
 
 class Synthesize(Command):

@@ -9,15 +9,15 @@ from typing import Any
 
 import typer
 
-from mechwright.build import Wanted
+from mechwright.build import WORK, Wanted
 from mechwright.cli.check import check as check_one
+from mechwright.cli.check import stage_of
 from mechwright.cli.hosting import open_host
 from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.cli.perform import check_formats, data_of, perform, say
 from mechwright.cli.progress import fraction, stamp
 from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
-from mechwright.contracts.finding import Stage
 from mechwright.cores import cores, keep_to
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
@@ -30,7 +30,6 @@ def write(
     designs: Sequence[Path],
     folder: Path,
     wanted: Wanted,
-    stage: Stage,
     workers: int | None,
     empty: str = "",
     as_json: bool = False,
@@ -48,25 +47,28 @@ def write(
     """
     if len(designs) == 1:
         _keep(workers)
-        perform(designs[0], folder, wanted, stage, empty, as_json)
+        perform(designs[0], folder, wanted, empty, as_json)
         return
     check_formats(open_host(), wanted.formats)
     places = into(designs, folder)
     for place in places.values():
         check_folder(place)
-    orders = [Order(path, wanted, place, stage, empty) for path, place in places.items()]
+    orders = [Order(path, wanted, place, empty) for path, place in places.items()]
     _run(orders, workers, as_json, ("written", "refused"), _say_written, folder)
 
 
-def check(designs: Sequence[Path], workers: int | None, as_json: bool, tolerances: bool) -> None:
+def check(
+    designs: Sequence[Path], workers: int | None, as_json: bool, tolerances: bool, to: str, figures: bool
+) -> None:
     """Check designs; the exit code is 1 if one cannot be built."""
+    stage = stage_of(to)
     if len(designs) == 1:
         _keep(workers)
-        check_one(designs[0], as_json, tolerances)
+        check_one(designs[0], stage, as_json=as_json, tolerances=tolerances, figures=figures)
     if tolerances:
         raise DesignError("--tolerances: tells of one design; give one, and not several")
     open_host()
-    orders = [Order(path, Wanted("check")) for path in dict.fromkeys(designs)]
+    orders = [Order(path, Wanted(), to=stage) for path in dict.fromkeys(designs)]
     _run(orders, workers, as_json, ("can be built", "cannot be built"), _say_checked)
 
 
@@ -134,7 +136,7 @@ def _say_written(outcome: Outcome) -> None:
     if not outcome.said.findings and outcome.fault:
         typer.echo(f"mechwright: {_located(outcome)}", err=True)
     elif outcome.ok:
-        say(outcome.order.path, outcome.order.stage, outcome.said, files=False)
+        say(outcome.order.path, WORK[outcome.order.wanted.command].stage, outcome.said, files=False)
     else:
         _say_findings(outcome)
 

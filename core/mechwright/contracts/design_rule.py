@@ -158,7 +158,7 @@ class DesignRule(Generic[D]):
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) that break it; see :class:`RuleLike`."""
-        if self.severity is not Severity.ERROR or _is_later(self.stage, stage) or self.slow == "value":
+        if self.severity is not Severity.ERROR or self.stage.is_after(stage) or self.slow == "value":
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
         if not asked.any():
@@ -268,7 +268,7 @@ class Procedure(Generic[D]):
 
     def _stops(self, m: D, stage: Stage) -> bool:
         return any(
-            one.severity is Severity.ERROR and not _is_later(one.stage, stage) for one in self.inspect(m)
+            one.severity is Severity.ERROR and not one.stage.is_after(stage) for one in self.inspect(m)
         )
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
@@ -348,11 +348,6 @@ def _breaks(must_be: Comparison, value: Any, limit: Any) -> Any:
     if must_be == "at most":
         return exceeds(value, limit)
     return ~np.asarray(value > limit) if must_be == "above" else ~np.asarray(value < limit)
-
-
-def _is_later(stage: Stage, last: Stage) -> bool:
-    order = list(Stage)
-    return order.index(stage) > order.index(last)
 
 
 def _truth(value: Any, size: int) -> Bools:

@@ -24,8 +24,7 @@ class MachineDrive(Inspection):
     """Torque of the drive, and whether its motor is enough."""
 
     name = "machine-drive"
-    commands = frozenset({"check", "model", "build"})
-    stage = Stage.PARTS
+    stage = Stage.ASSEMBLY
     order = 40
     doing = "the drive"
 

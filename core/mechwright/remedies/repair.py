@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from mechwright.build import Build, Inspection, Wanted
+from mechwright.build import Build, Inspection, Wanted, work_to
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
@@ -18,7 +18,7 @@ FAMILY = Limits(tries=1500, seconds=60.0)
 INSPECTED = Limits(tries=60, seconds=120.0)
 """For what inspections judge: a second or so each, of cutters and of bodies that meet."""
 REFUSED = "build.refused"
-"""Code of the finding that work ended with an error: no cutter, no parts, a program that is not proven."""
+"""Code of the finding that something cannot be made: no cutter, no solid, a program that is not proven."""
 
 _PROPOSED = 3
 """Proposals that are followed from a change that pleases the family, before the next such change is tried."""
@@ -126,18 +126,19 @@ class Asked:
     Parameters
     ----------
     looks
-        One for every inspection: those of ``check``, then those that take longest.
+        What ``check`` asks, then the inspections of what is made.
     """
 
     def __init__(self, host: Host, stage: Stage) -> None:
         self.host, self.stage = host, stage
-        order = list(Stage)
-        wanted = [
+        asked = [
             one
             for one in sorted(host.all(Inspection), key=lambda one: one.order)
-            if "build" in one.commands and order.index(one.stage) <= order.index(stage)
+            if not one.stage.is_after(stage)
         ]
-        self.looks: list[Ask] = [one.findings for one in sorted(wanted, key=_slow)]
+        later = [one for one in asked if one.needs]
+        self.looks: list[Ask] = [one.outlook if one.needs else one.findings for one in asked]
+        self.looks += [one.findings for one in later if one.needs <= work_to(stage)[1].makes]
         self._answers: dict[tuple[str, Ask], list[Finding]] = {}
 
     def judge(self, looks: Sequence[Ask]) -> Judge:
@@ -181,7 +182,3 @@ def _parts(build: Build) -> Sequence[Finding]:
     """Nothing, or the error of parts that cannot be made."""
     _ = build.parts
     return ()
-
-
-def _slow(inspection: Inspection) -> bool:
-    return "check" not in inspection.commands

@@ -60,7 +60,6 @@ class ToleranceKeys(Inspection):
     """Keys of ``[tolerances]`` that the family has no use for, and joints that would jam."""
 
     name = "tolerance-keys"
-    commands = frozenset({"check", "build"})
     stage = Stage.PARTS
     order = 5
     doing = "tolerances"

@@ -194,7 +194,7 @@ class StressRule(Generic[D]):
 
     def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part; None if the stage is an earlier one."""
-        if list(Stage).index(self.stage) > list(Stage).index(stage):
+        if self.stage.is_after(stage):
             return None
         wrong = np.zeros(table.size, bool)
         for one in self.stresses(table):

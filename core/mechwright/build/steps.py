@@ -2,7 +2,9 @@
 
 from collections.abc import Iterable, Mapping
 
-from mechwright.build import Build, Inspection, Page
+from mechwright.build.build import Build
+from mechwright.build.inspection import Inspection
+from mechwright.build.page import Page
 from mechwright.contracts.synthesis import Progress
 
 CHECKING, WRITING = "checking", "writing"

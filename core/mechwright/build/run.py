@@ -1,0 +1,132 @@
+"""One run of a build: its inspections up to a stage, the cheap ones first, then the files of its pages."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from mechwright.build.build import Build
+from mechwright.build.inspection import Inspection
+from mechwright.build.page import Page
+from mechwright.build.steps import CHECKING, Steps, shares
+from mechwright.build.work import Work
+from mechwright.contracts.finding import Finding, Findings, errors
+from mechwright.contracts.refused import RefusedError
+from mechwright.contracts.synthesis import Progress, unheard
+from mechwright.errors import MechwrightError
+from mechwright.output.folder import Content, Output
+
+
+class Run:
+    """What is found of a build, and what is made of it.
+
+    Every command that judges a design goes through here. Inspections that need nothing come first, and all of
+    them are asked; what takes long is made where they find no error.
+
+    Parameters
+    ----------
+    build
+        The build; its wishes say whose pages are made.
+    work
+        How far the run goes, and what it makes.
+    progress
+        Told how far it is.
+    """
+
+    def __init__(self, build: Build, work: Work, progress: Progress = unheard) -> None:
+        self.build, self.work = build, work
+        asked = (one for one in build.host.all(Inspection) if not one.stage.is_after(work.stage))
+        self.inspections = sorted(asked, key=lambda one: one.order)
+        self._pages: list[Page] = []
+        self._progress = progress
+        self._found: dict[str, Sequence[Finding]] = {}
+        self._steps: Steps | None = None
+
+    @property
+    def made_later(self) -> list[Inspection]:
+        """Inspections that have to wait for what the run makes."""
+        return [one for one in self.inspections if one.needs and one.needs <= self.work.makes]
+
+    @property
+    def found(self) -> list[tuple[Inspection, Sequence[Finding]]]:
+        """What each inspection that was asked has found, in the order in which it is told."""
+        return [(one, self._found[one.name]) for one in self.inspections if one.name in self._found]
+
+    @property
+    def findings(self) -> Findings:
+        """All of it, what the family says first."""
+        return Findings([*self.build.findings, *(one for _, found in self.found for one in found)])
+
+    def look(self) -> None:
+        """Ask what can be said before anything is made; nothing where the family finds an error."""
+        self.step(CHECKING)
+        if errors(self.build.findings, self.work.stage):
+            return
+        later = self.made_later
+        self._ask(one for one in self.inspections if one not in later)
+        if errors(self.findings, self.work.stage):
+            for one in later:
+                self._found[one.name] = one.outlook(self.build)
+
+    def make(self, pages: Sequence[Page] = ()) -> Output:
+        """Look, ask what needs something that is made, and make the files of some pages.
+
+        Raises
+        ------
+        RefusedError
+            Findings forbid it.
+        MechwrightError
+            Something cannot be made.
+        """
+        self._pages, build = list(pages), self.build
+        for page in pages:
+            page.warm(build)
+        if not errors(build.findings, self.work.stage):
+            for page in pages:
+                page.begin(build)
+        self.look()
+        self.require()
+        asked = self.made_later
+        late = [one for one in asked if one.late(build)]
+        made = Output()
+        try:
+            self._ask(one for one in asked if one not in late)
+            self.require()
+            self._make((page for page in pages if not page.late(build)), made)
+        except MechwrightError:
+            self._ask(late)  # what is asked late is told first all the same
+            self.require()
+            raise
+        self._ask(late)
+        self.require()
+        self._make((page for page in pages if page.late(build)), made)
+        return made
+
+    def require(self) -> None:
+        """Do nothing where nothing that is found forbids the run; raises RefusedError with what does."""
+        if stopping := errors(self.findings, self.work.stage):
+            raise RefusedError(self.build.path, stopping)
+
+    def _ask(self, inspections: Iterable[Inspection]) -> None:
+        for one in inspections:
+            self.step(one.doing)
+            ask = one.findings if one.needs <= self.work.makes else one.outlook
+            self._found[one.name] = self.build.made_as_wanted(ask)
+
+    def _make(self, pages: Iterable[Page], made: Output) -> None:
+        known = self.build.made_as_wanted(_kept)
+        for page in pages:
+            self.step(page.doing)
+            files = known[page.name] if page.name in known else page.files(self.build)
+            if all(isinstance(content, str | bytes) for content in files.values()):  # pieces come once
+                known[page.name] = files
+            for name, content in files.items():
+                made.add(name, content)
+
+    def step(self, doing: str) -> None:
+        """Tell that another piece of work begins."""
+        if self._steps is None:
+            self._steps = Steps(self.build, shares([*self.inspections, *self._pages]), self._progress)
+        self._steps(doing)
+
+
+def _kept(build: Build) -> dict[str, Mapping[str, Content]]:  # noqa: ARG001 - one for the wishes of each build
+    """The files of pages by the names of these, as far as they have been made."""
+    return {}
