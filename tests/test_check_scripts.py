@@ -22,8 +22,8 @@ REFUSED: tuple[tuple[str, dict[str, Any]], ...] = (
 )
 
 
-def by_command(path: Path) -> tuple[bool, list[dict[str, Any]]]:
-    done = CliRunner().invoke(make_app(), ["check", str(path), "--json"])
+def by_command(path: Path, *more: str) -> tuple[bool, list[dict[str, Any]]]:
+    done = CliRunner().invoke(make_app(), ["check", str(path), "--json", *more])
     said = json.loads(done.stdout)
     return said["ok"], said["findings"]
 
@@ -40,6 +40,12 @@ def test_a_file_has_the_findings_of_the_command(name: str) -> None:
     assert (not found.errors, plain(found)) == by_command(path)
     assert not found.errors
     assert steps
+
+
+def test_a_stage_is_that_of_the_command() -> None:
+    path = EXAMPLES / "four-bar-double-rocker.toml"
+    found = mw.check(path, to="motion")
+    assert (not found.errors, plain(found)) == by_command(path, "--to", "motion")
 
 
 @pytest.mark.parametrize(("family", "table"), REFUSED, ids=[family for family, _ in REFUSED])

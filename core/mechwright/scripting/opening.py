@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from mechwright.contracts.finding import Findings
+from mechwright.contracts.finding import Findings, Stage
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.change import changed
 from mechwright.designs.design import design_of
@@ -65,7 +65,12 @@ def design(family: str, /, *, name: str = "", **parameters: object) -> Mechanism
 
 
 def check(
-    subject: str | PathLike[str] | Mechanism, /, *, progress: Progress = unheard, **parameters: Any
+    subject: str | PathLike[str] | Mechanism,
+    /,
+    *,
+    to: Stage | str | None = None,
+    progress: Progress = unheard,
+    **parameters: Any,
 ) -> Findings:
     """What ``mechwright check`` finds of a design, with remedies that were tried.
 
@@ -73,6 +78,8 @@ def check(
     ----------
     subject
         A design file, a family as design files name it, or a mechanism. A text without a point is a family.
+    to
+        The last stage that is looked at, with all that is produced for it; see :meth:`Mechanism.check`.
     progress
         Called with the part that is done, 0 to 1, and with words.
     parameters
@@ -96,9 +103,9 @@ def check(
     [('gear.undercut', 'set teeth = 20 (now 13)')]
     """
     if isinstance(subject, str) and "." not in subject:
-        return design(subject, **parameters).check(progress)
+        return design(subject, **parameters).check(progress, to)
     given = subject if isinstance(subject, Mechanism) else load(subject)
-    return (given.with_(**parameters) if parameters else given).check(progress)
+    return (given.with_(**parameters) if parameters else given).check(progress, to)
 
 
 def opened(content: Mapping[str, Any], path: Path, installed: Host) -> Mechanism:
