@@ -27,9 +27,9 @@ from harness import require
 from timed_source import Tasks, Timed
 
 from mechwright.plugins.host import host
-from mechwright.sweep.study import study_of
-from mechwright.sweep.task import Source, Task
-from mechwright.sweep.workers import Cluster, Processes, Workers
+from mechwright.studies.study import study_of
+from mechwright.studies.task import Source, Task
+from mechwright.studies.workers import Cluster, Processes, Workers
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "four-bar-study.toml"
 BATCH, FIRST, MORE, ROUNDS, WORKERS = 1 << 15, 10, 12, 3, 2

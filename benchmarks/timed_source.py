@@ -4,7 +4,7 @@ import struct
 import time
 from collections import deque
 
-from mechwright.sweep.task import Source, Task
+from mechwright.studies.task import Source, Task
 
 
 class Tasks(deque[Task]):

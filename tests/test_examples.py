@@ -9,7 +9,7 @@ from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
-from mechwright.sweep.study import load_study
+from mechwright.studies.study import load_study
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]

@@ -18,10 +18,10 @@ from strokes import bytes_of, swept
 import mechwright
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
-from mechwright.sweep import workers
-from mechwright.sweep.run import sweep
-from mechwright.sweep.study import load_study
-from mechwright.sweep.task import Source, Task
+from mechwright.studies import workers
+from mechwright.studies.run import evaluate
+from mechwright.studies.study import load_study
+from mechwright.studies.task import Source, Task
 from mechwright.worker_pool.pool import WorkerPool
 
 
@@ -103,7 +103,7 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
 def test_a_cluster_shares_one_batch_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
     path, port = tmp_path / "forces.toml", 20000 + (os.getpid() + 13) % 20000
     path.write_text(sweep_in_slices.TEXT.format(more=""))
-    sweep(load_study(path, host()), tmp_path / "one", workers.Alone(), host())
+    evaluate(load_study(path, host()), tmp_path / "one", workers.Alone(), host())
     first = scheduler_of(cluster, port)
     dying = [worker_of(cluster, port, tmp_path / name) for name in "ab"]
     command = [sys.executable, sweep_in_slices.__file__, "sweep", str(path), "-o", str(tmp_path / "two")]

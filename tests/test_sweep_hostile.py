@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from strokes import bytes_of, swept
 
-from mechwright.sweep import run
+from mechwright.studies import run
 
 TABLE, OTHER = "tables/part-000001.parquet", "tables/part-000002.parquet"
 COUNTS = b"mechwright.counts"
@@ -199,7 +199,7 @@ sys.path.append({tests!r})
 from pathlib import Path
 from endless import Endless
 from listed_tasks import ListedTasks
-from mechwright.sweep.workers import Processes
+from mechwright.studies.workers import Processes
 def stop():
     while len(list(Path().glob("begun-*"))) < 2:
         time.sleep(0.02)

@@ -7,8 +7,8 @@ from listed_tasks import ListedTasks
 from sweep_warners import Warner
 
 from mechwright.cli import failure
-from mechwright.sweep.task import Task
-from mechwright.sweep.workers import Processes
+from mechwright.studies.task import Task
+from mechwright.studies.workers import Processes
 
 TASKS = [Task(f"part-{n}", 0, n) for n in range(8)]
 

@@ -13,8 +13,8 @@ import pytest
 from listed_tasks import ListedTasks
 
 from mechwright.errors import PluginError
-from mechwright.sweep.task import Task
-from mechwright.sweep.workers import Processes
+from mechwright.studies.task import Task
+from mechwright.studies.workers import Processes
 from mechwright.worker_pool import serving
 
 TASKS = [Task(f"part-{number:06d}", number, number) for number in range(4)]
@@ -24,7 +24,7 @@ import sys, time; sys.path.append({here!r})
 from pathlib import Path
 from listed_tasks import ListedTasks
 from test_sweep_workers import TASKS, Torn
-from mechwright.sweep.workers import Processes
+from mechwright.studies.workers import Processes
 if __name__ == "__main__":
     for task, _ in Processes(2).done(Torn({folder!r}, "sleep"), ListedTasks(TASKS)):
         print(task.name, flush=True)

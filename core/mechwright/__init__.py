@@ -73,9 +73,10 @@ if TYPE_CHECKING:
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.scripting.mechanism import Mechanism
-    from mechwright.scripting.opening import design, load
+    from mechwright.scripting.opening import check, design, load
     from mechwright.scripting.performing import Written
     from mechwright.scripting.synthesis import Found, synthesize
+    from mechwright.studies.scripts import Sweep, sweep
     from mechwright.tolerances import TOLERANCES
 
 _HOMES = {
@@ -126,9 +127,10 @@ _HOMES = {
     "mechwright.plugins.host": "Host host",
     "mechwright.plugins.hookspecs": "hookimpl",
     "mechwright.scripting.mechanism": "Mechanism",
-    "mechwright.scripting.opening": "design load",
+    "mechwright.scripting.opening": "check design load",
     "mechwright.scripting.performing": "Written",
     "mechwright.scripting.synthesis": "Found synthesize",
+    "mechwright.studies.scripts": "Sweep sweep",
     "mechwright.tolerances": "TOLERANCES",
 }
 """Module to the public names that come from it."""
@@ -136,7 +138,8 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
-__all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
+__all__ += ["Found", "Mechanism", "Named", "Result", "Sweep", "Written"]
+__all__ += ["check", "design", "load", "sweep", "synthesize"]
 __all__ += [
     "Command",
     "Exporter",

@@ -5,13 +5,15 @@ list.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import combinations
 
-from mechwright import Finding, GeometryError, Scalar, Severity, Stage, kept, of_stage, until_error
+from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.gearing.usual import chosen
+from mechwright.mechanics.linkage import bushing_findings
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
@@ -24,7 +26,7 @@ from mechwright_five_bar.frames import layout_of
 from mechwright_five_bar.joints import bosses_of
 from mechwright_five_bar.limits import USUAL_FACE
 from mechwright_five_bar.params import FiveBarParams
-from mechwright_five_bar.peaks import JOINTS, loads_of, roughly_loaded
+from mechwright_five_bar.peaks import JOINTS, loads_of
 from mechwright_five_bar.phases import phases_of
 from mechwright_five_bar.reach import (
     bar_of,
@@ -55,14 +57,17 @@ def findings(params: FiveBarParams) -> tuple[Finding, ...]:
 
 @kept
 def judged(params: FiveBarParams) -> tuple[Finding, ...]:
-    """The same without the sizes that would bear a load, and with loads from fewer positions."""
-    return until_error(params, sound, _bearings_judged, teeth_judged, clamps_hold)
+    """The same without the sizes that would bear a load."""
+    return until_error(params, sound, _bearings, teeth_judged, clamps_hold)
 
 
 @kept
 def sound(params: FiveBarParams) -> tuple[Finding, ...]:
     """What is to be said of the motion and of the shapes, before any load."""
-    return until_error(params, _joined, _lever, _transmission, _gears, _room, places_apart, _layers, _figures)
+    bushings = partial(bushing_findings, "five-bar.bushing-wall")
+    return until_error(
+        params, _joined, _lever, _transmission, _gears, bushings, _room, places_apart, _layers, _figures
+    )
 
 
 def _joined(params: FiveBarParams) -> Iterator[Finding]:
@@ -271,15 +276,7 @@ def _figures(params: FiveBarParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _bearings(params: FiveBarParams) -> Iterator[Finding]:
-    yield from _pressed(params, loads_of(params).peaks)
-
-
-@of_stage(Stage.PARTS)
-def _bearings_judged(params: FiveBarParams) -> Iterator[Finding]:
-    yield from _pressed(params, roughly_loaded(params).peaks)
-
-
-def _pressed(params: FiveBarParams, peaks: Mapping[str, Scalar]) -> Iterator[Finding]:
+    peaks = loads_of(params).peaks
     widths = dict.fromkeys(JOINTS, params.thickness) | dict.fromkeys(("A0", "B0"), params.ground_thickness)
     joint, force, pressure = most_pressed(peaks, widths, params.pin_diameter)
     more = _stronger(params, pressure / SINTERED_PRESSURE)

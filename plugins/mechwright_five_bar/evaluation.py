@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.sampling import SAMPLES
+from mechwright.mechanics.linkage import too_thin
 from mechwright.mechanics.peak import PEAK_SAMPLES
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.mechanics.strength.allowed import REVERSING_ROOT, ROOT_SAFETY
@@ -124,6 +125,7 @@ def _parts(found: Answer, designs: Designs, bars: Bars, sine: Array, omega: Arra
     ``share`` is how much of what the roots of teeth are allowed may be used without a doubt.
     """
     pin, rim, wall = designs["pin_diameter"], designs["rim"], np.asarray(designs["bushing_wall"])
+    found.forbid("five-bar.bushing-wall", too_thin(wall, designs["running_fit"]))
     bore = pin + np.where(wall > 0, 2 * wall, designs["running_fit"])
     crowded = _short(bars.crank, pin + rim) | _short(bars.arm, pin + rim)
     crowded |= _short(bars.rocker, (bore + pin) / 2 + rim)

@@ -14,14 +14,14 @@ from mechwright_five_bar.hardware import turning_bore
 from mechwright_five_bar.limits import USUAL_FACE
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.reach import bar_of, transmission_of, turns_fully
-from mechwright_five_bar.strength_checks import rough_stresses
+from mechwright_five_bar.strength_checks import root_stresses
 from mechwright_five_bar.train import train_of
 
 MOST_MODULES = 12.0
 """Face width, in modules, from which on a shaft that is a little askew loads one end of the teeth alone."""
 
 SPARE = 1.02
-"""Of the width: a check takes loads from more positions."""
+"""Of the width: wider gears are heavier, and their inertia adds to the load."""
 
 STEPS = 2
 """Of a millimetre: the width is rounded to halves."""
@@ -37,7 +37,7 @@ def face_of(params: FiveBarParams) -> float:
     try:
         if _surely(usual) or errors(sound(usual)):
             return USUAL_FACE
-        stresses, module = rough_stresses(usual), train_of(usual).module
+        stresses, module = root_stresses(usual), train_of(usual).module
     except MechwrightError:
         return USUAL_FACE
     used = max(one.used for one in stresses)

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -15,12 +14,6 @@ from mechwright_five_bar.loop import Loop, close
 from mechwright_five_bar.masses import MILLI, Carried, carried_of, masses_of, wheel_force
 from mechwright_five_bar.params import FiveBarParams
 from mechwright_five_bar.reach import bar_of, course_of
-
-ROUGH_SAMPLES = 181
-"""Positions per turn for those who judge hundreds of designs."""
-
-SPARE = 1.003
-"""Times what is seen of a peak between positions: a design that bears so much bears the real one."""
 
 JOINTS = ("A0", "A", "C", "B1", "B0")
 
@@ -39,14 +32,9 @@ def period_of(params: FiveBarParams, samples: Samples | None = None) -> Period:
     """The period of a design whose links can be joined; by default as fine as peaks are sought."""
     course = course_of(params)
     if samples is None:
-        samples = samples_of(params, PEAK_SAMPLES)
+        samples = math.ceil(PEAK_SAMPLES * max(1.0, abs(course.travel) / math.tau))
     time, drive = course.period(samples, params.speed * math.tau / 60)
     return driven_by(params, drive, time)
-
-
-def samples_of(params: FiveBarParams, per_turn: int) -> int:
-    """Positions of a period with so many a turn."""
-    return math.ceil(per_turn * max(1.0, abs(course_of(params).travel) / math.tau))
 
 
 def driven_by(params: FiveBarParams, drive: Turning, time: Array) -> Period:
@@ -77,25 +65,15 @@ def peaks_of(params: FiveBarParams) -> Mapping[str, Scalar]:
 @kept
 def loads_of(params: FiveBarParams) -> Loads:
     """Forces of a period as far as checks ask for them; the parts can be made."""
-    return _of_period(params, PEAK_SAMPLES)
-
-
-@kept
-def roughly_loaded(params: FiveBarParams) -> Loads:
-    """The same from fewer positions, a parabola through the three at the top of each peak."""
-    return _of_period(params, ROUGH_SAMPLES, between=True)
-
-
-def _of_period(params: FiveBarParams, per_turn: int, *, between: bool = False) -> Loads:
-    top, period = partial(most, between=between), period_of(params, samples_of(params, per_turn))
+    period = period_of(params)
     found = carried(params, period)
     peaks = {
         **rate_peaks(period.bodies),
-        "drive_torque": top(found.drive, "N*m"),
-        "arm_torque": top(found.arm_torque, "N*m"),
-        "tooth_force": top(wheel_force(params, found.arm_torque), "N"),
-        "shaking_force": top(np.abs(found.forces.shaking) * MILLI, "N"),
-        **{f"force_{name}": top(found.joint(name), "N") for name in JOINTS},
+        "drive_torque": most(found.drive, "N*m"),
+        "arm_torque": most(found.arm_torque, "N*m"),
+        "tooth_force": most(wheel_force(params, found.arm_torque), "N"),
+        "shaking_force": most(np.abs(found.forces.shaking) * MILLI, "N"),
+        **{f"force_{name}": most(found.joint(name), "N") for name in JOINTS},
     }
     return Loads(peaks, float(found.arm_torque.min()) < 0 < float(found.arm_torque.max()))
 
@@ -106,13 +84,6 @@ def rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
     return {"omega_c": most(turning.omega, "rad/s"), "alpha_c": most(turning.alpha, "rad/s^2")}
 
 
-def most(values: Array, unit: str, *, between: bool = False) -> Scalar:
-    """The largest size among values, in their unit; with ``between`` also between three neighbours of it."""
-    sizes = np.abs(values)
-    at = int(sizes.argmax())
-    top = float(sizes[at])
-    if between and 0 < at < sizes.size - 1:
-        before, after = float(sizes[at - 1]), float(sizes[at + 1])
-        bend = 2 * top - before - after
-        top = SPARE * (top + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0))
-    return Scalar(top, unit)
+def most(values: Array, unit: str) -> Scalar:
+    """The largest size among values, in their unit."""
+    return Scalar(float(np.abs(values).max()), unit)

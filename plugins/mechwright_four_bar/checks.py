@@ -6,9 +6,11 @@ sound, so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
+from mechwright.mechanics.linkage import bushing_findings
 from mechwright.mechanics.linkage.usual import told
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
@@ -45,9 +47,10 @@ def judged(params: FourBarParams) -> tuple[Finding, ...]:
 
 @kept
 def _sound(params: FourBarParams) -> tuple[Finding, ...]:
+    bushings = partial(bushing_findings, "four-bar.bushing-wall")
     return until_error(
-        params, _joined, _accelerates, _turning, _transmission, room_findings, places_apart, _layers,
-        _figures, bearing_findings,
+        params, _joined, _accelerates, _turning, _transmission, bushings, room_findings, places_apart,
+        _layers, _figures, bearing_findings,
     )  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array, Stage
 from mechwright.contracts.by_arrays import Answer, Designs
+from mechwright.mechanics.linkage import too_thin
 from mechwright.mechanics.planar.course import counted_from
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION
 from mechwright.tolerances import falls_short
@@ -71,6 +72,7 @@ def _parts(found: Answer, designs: Designs, bar: FourBar, course: Period, least:
         designs["rim"],
         bore_about(*(designs[name] for name in OF_BORE)),
     )
+    found.forbid("four-bar.bushing-wall", too_thin(designs["bushing_wall"], designs["running_fit"]))
     crowded = (
         _short(bar.crank, pin + rim) | _short(bar.coupler, turning + rim) | _short(bar.follower, pin + rim)
     )

@@ -204,13 +204,12 @@ def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
     assert apart[0] < 30
     with pytest.raises(DesignError, match="no two plates are alike"):
         nested(tmp_path, '[cam.nest]\n[cam.part.gear]\norigin = "corner"\n')
-    of_nest = nested(tmp_path, '[cam.nest]\n[cam.part.nest]\nwork_offset = "G57"\n')
-    assert of_nest[0].settings.work_offset == "G57"
+    (nest,) = nested(tmp_path, '[cam.nest]\n[cam.part.nest]\nwork_offset = "G57"\n')
+    assert nest.settings.work_offset == "G57"
 
 
 def laid(file, parts):
-    design = load(file, host())
-    return arranged(design.path, settings_of(design), parts, LIBRARY)
+    return arranged(file, settings_of(load(file, host())), parts, LIBRARY)
 
 
 def names_of(tmp_path, table, *parts):

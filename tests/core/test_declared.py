@@ -397,17 +397,3 @@ def test_a_contract_says_all_of_an_answer_in_its_annotation() -> None:
     for laser.width, words in ((0.1, "gives 0.1; 0.2 is the least"), ("q", "gives 'q'; a number is wanted")):
         with pytest.raises(PluginFaultError, match=words):
             laser.kerf(0.2)
-
-
-def test_a_contract_that_checks_answers_in_the_earlier_way_is_refused_by_name() -> None:
-    class Dance(Plugin):
-        kind = "dance"
-
-        @classmethod
-        def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-            return answer
-
-    class Waltz(Dance):
-        name = "waltz"
-
-    assert Waltz.fault() == "its contract has sound; annotations of its methods say what they give"

@@ -10,6 +10,7 @@ from mechwright.build.inspection import Inspection
 from mechwright.build.page import Page
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.plugin import Plugin
 from mechwright.errors import PluginFaultError
 from mechwright.plugins.host import Registered
 
@@ -101,3 +102,17 @@ def test_findings_that_come_one_by_one_are_gathered() -> None:
 def test_exporters(gives: object) -> None:
     with pytest.raises(PluginFaultError, match=r"exporter shapes: part\(\): .*; bytes or None is wanted"):
         registered(Shapes(), gives).part(None)
+
+
+def test_a_contract_that_checks_answers_in_the_earlier_way_is_refused_by_name() -> None:
+    class Dance(Plugin):
+        kind = "dance"
+
+        @classmethod
+        def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+            return answer
+
+    class Waltz(Dance):
+        name = "waltz"
+
+    assert Waltz.fault() == "its contract has sound; annotations of its methods say what they give"

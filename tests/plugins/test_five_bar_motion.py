@@ -128,12 +128,8 @@ def test_a_judge_finds_what_a_check_finds_without_what_would_bear_more(changes):
     params = SizedParams(**changes)
     told, judged = ([one for one in found if one.code == "five-bar.root"] for found in (
         FAMILY.check(params), FAMILY.judge(params)))  # fmt: skip
-    assert [one.severity for one in judged] == [one.severity for one in told]
     assert told
-    for rough, exact in zip(judged, told, strict=True):
-        assert exact.value <= rough.value <= 1.006 * exact.value, (
-            "peaks of fewer positions, with a little to spare"
-        )
+    assert [(one.severity, one.message) for one in judged] == [(one.severity, one.message) for one in told]
     assert not any(one.proposed for one in judged)
     assert any(one.proposed for one in told) == (told[0].severity is not Severity.NOTE)
 

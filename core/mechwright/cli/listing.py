@@ -97,7 +97,7 @@ def schema(name: str, requirement: bool, study: bool, output: Path | None, force
     if schema:
         schema = as_file(schema)
     elif study:
-        from mechwright.sweep.schema import study_schema
+        from mechwright.studies.schema import study_schema
 
         schema = study_schema(found, name)
     else:

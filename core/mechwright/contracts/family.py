@@ -98,8 +98,8 @@ class Family(Plugin, Generic[P]):
     def judge(self, params: P) -> "Findings":
         """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
 
-        What it finds has codes, severities and messages of ``check``. Notes and remedies that take long to
-        find may be missing; ``check`` is asked about every remedy before it is told.
+        What it finds has codes, severities, parameters and messages of ``check``. Notes and remedies that
+        take long to find may be missing; ``check`` is asked about every remedy before it is told.
         """
         from mechwright.contracts.checking import findings_of
 

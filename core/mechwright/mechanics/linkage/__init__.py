@@ -12,6 +12,7 @@ layer
     A slice of the height that plates share, counted from the ground plate, which is layer 0.
 """
 
+from mechwright.mechanics.linkage.bushings import bushing_findings, too_thin
 from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
 from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, moving_figures, plate_mass, together
 from mechwright.mechanics.linkage.outlines import Boss, bent_link, disc, hull_link, rectangle, web_link
@@ -29,6 +30,7 @@ __all__ = [
     "Spindle",
     "Stack",
     "bent_link",
+    "bushing_findings",
     "bushing_part",
     "cylinder_mass",
     "disc",
@@ -39,5 +41,6 @@ __all__ = [
     "rectangle",
     "stack",
     "together",
+    "too_thin",
     "web_link",
 ]

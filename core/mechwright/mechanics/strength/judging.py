@@ -123,7 +123,8 @@ def judged(
     stresses_of
         The stresses of any design; where there are none, or all are 0, there is nothing to say.
     ways
-        What helps, the best first: those whose values have been found to help are named.
+        What helps, the best first: those whose values have been found to help are named. The finding has
+        the first of them as its parameter, with ``advise`` and without.
     load
         What loads the parts, for the message: ``"408 N at 12 degrees"``.
     advise
@@ -149,7 +150,7 @@ def judged(
     yield Finding(
         code,
         one.severity,
-        helps[0][0].key if helps else ways[0].key,
+        ways[0].key,
         said + (f", and it fails from {one.breaks:.4g}" if fails else ""),
         one.value,
         one.limit,

@@ -1,18 +1,22 @@
 """Who does the work of a sweep: processes of this machine, or the workers of a Dask cluster."""
 
 import contextlib
+import os
 import time
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, Protocol
 
-from mechwright.errors import MechwrightError, PluginError
-from mechwright.extras import optional
-from mechwright.sweep.portion import Portion
-from mechwright.sweep.task import Source, Task, fingerprint, unlike
+from mechwright.errors import DesignError, MechwrightError, PluginError
+from mechwright.extras import optional, require
+from mechwright.studies.portion import Portion
+from mechwright.studies.task import Source, Task, fingerprint, unlike
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import LostError, WorkerPool
 from mechwright.worker_pool.recorded_warnings import WarningRelay
+
+ADDRESS = "DASK_SCHEDULER_ADDRESS"
+"""Environment variable: the scheduler whose workers are taken where no other one is named."""
 
 AHEAD = 3
 """Tasks that are given out for each worker: one that is done, one that waits, and one at work."""
@@ -131,6 +135,28 @@ def _some(tasks: Queue, count: int) -> Iterator[Task]:
         if task is None:
             return
         yield task
+
+
+def workers_of(count: int | None, scheduler: str) -> "Workers":
+    """The workers of a number and an address; by default a process for each core of this machine.
+
+    Raises
+    ------
+    DesignError
+        Both are given.
+    PluginError
+        The cluster's library is not installed.
+    """
+    address = scheduler or ("" if count else os.environ.get(ADDRESS, ""))
+    if scheduler and count:
+        raise DesignError(
+            "--workers: goes with processes of this machine, and --scheduler with a cluster; take one"
+        )
+    if address:
+        require("distributed", by="--scheduler" if scheduler else ADDRESS)
+        return Cluster(address)
+    number = count or available_cores()
+    return Alone() if number == 1 else Processes(number)
 
 
 class Cluster:

@@ -15,11 +15,11 @@ import numpy as np
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.slices import Chunk, Places, Question, Work
 from mechwright.errors import PluginFaultError
-from mechwright.sweep.folder import SweepFolder
-from mechwright.sweep.portion import OfChunks, OfPlaces, Order, Portion, Survey, assembled, sliced
-from mechwright.sweep.slice_file import designs_in, saved_in, slice_of, work_of
-from mechwright.sweep.standing import Standing
-from mechwright.sweep.task import Task, batch_of
+from mechwright.studies.folder import SweepFolder
+from mechwright.studies.portion import OfChunks, OfPlaces, Order, Portion, Survey, assembled, sliced
+from mechwright.studies.slice_file import designs_in, saved_in, slice_of, work_of
+from mechwright.studies.standing import Standing
+from mechwright.studies.task import Task, batch_of
 
 SECONDS = 5.0
 """What a slice is to take: as much work as a sweep that is killed loses, times the workers."""
@@ -113,7 +113,7 @@ class _Open:
 
 
 class Schedule:
-    """The slices of some tasks, for workers: see :class:`~mechwright.sweep.workers.Queue`.
+    """The slices of some tasks, for workers: see :class:`~mechwright.studies.workers.Queue`.
 
     Parameters
     ----------

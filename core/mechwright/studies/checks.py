@@ -19,10 +19,10 @@ from mechwright.reading import read_bytes
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.pareto import spread
 from mechwright.scripting.provenance import facts
-from mechwright.sweep.folder import SweepFolder
-from mechwright.sweep.front import Chosen, Front
-from mechwright.sweep.shard import NUMBER
-from mechwright.sweep.study import Study, design_of, study_of
+from mechwright.studies.folder import SweepFolder
+from mechwright.studies.front import Chosen, Front
+from mechwright.studies.shard import NUMBER
+from mechwright.studies.study import Study, design_of, study_of
 from mechwright.worker_pool.budget import limited_cores
 from mechwright.worker_pool.sharing import side_by_side
 
@@ -88,12 +88,8 @@ def name_of(study: Study, number: int) -> str:
     return check_name(f"{study.name}-{number:0{len(str(study.asked.front))}}", "name of a design")
 
 
-def mechanism_of(study: Study, front: Front, at: int, name: str, known: Host) -> Mechanism:
-    """A design of the front."""
-    return _mechanism(study, front.design(at), name, known)
-
-
-def _mechanism(study: Study, values: dict[str, object], name: str, known: Host) -> Mechanism:
+def mechanism_of(study: Study, values: dict[str, object], name: str, known: Host) -> Mechanism:
+    """The design of a study whose parameters with a range have these values, by dotted name."""
     change = {f"parameters.{key}": value for key, value in values.items()}
     content = changed({"parameters": dict(study.content)}, change)["parameters"]
     return Mechanism(design_of(study, name, study.family.Params.model_validate(content), known), known)
@@ -108,7 +104,8 @@ def _verdicts(
     candidates = [Candidate(text, study.path, front.design(at), name) for at in some]
     installed = _installed(place.host)
     digests = [
-        _digest(_mechanism(study, one.values, name, place.host), place.host, installed) for one in candidates
+        _digest(mechanism_of(study, one.values, name, place.host), place.host, installed)
+        for one in candidates
     ]
     stems = [f"design-{int(front.columns[NUMBER][at]):012d}" for at in some]
     found = {n: said for n in range(len(some)) if (said := _kept(place, stems[n], digests[n])) is not None}
@@ -128,7 +125,7 @@ def _checks(
     if len(candidates) < 2 or cores < 2:
         with limited_cores(cores):
             for number, one in zip(numbers, candidates, strict=True):
-                yield number, _refused(_mechanism(study, one.values, one.name, known))
+                yield number, _refused(mechanism_of(study, one.values, one.name, known))
         return
     with closing(side_by_side(check, candidates, cores)) as found:
         for n, said in found:
@@ -144,7 +141,7 @@ def check(one: Candidate, progress: Progress = unheard) -> str:
     """What forbids a candidate, in a process of its own."""
     known = host()
     study = study_of(json.loads(one.file), one.path, known)
-    return _refused(_mechanism(study, one.values, one.name, known), progress)
+    return _refused(mechanism_of(study, one.values, one.name, known), progress)
 
 
 def _refused(mechanism: Mechanism, progress: Progress = unheard) -> str:

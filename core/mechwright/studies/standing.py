@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from mechwright.errors import MechwrightError
-from mechwright.sweep.folder import SweepFolder
-from mechwright.sweep.slice_file import saved_in
-from mechwright.sweep.study import Study
-from mechwright.sweep.task import Task
+from mechwright.studies.folder import SweepFolder
+from mechwright.studies.slice_file import saved_in
+from mechwright.studies.study import Study
+from mechwright.studies.task import Task
 
 ON = "the same command goes on"
 

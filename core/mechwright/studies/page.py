@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from mechwright.output.templates import templates
 from mechwright.scripting.moving import SHOWING, for_script
-from mechwright.sweep.front import Chosen, Front
-from mechwright.sweep.shard import NUMBER, Counts, read_file
-from mechwright.sweep.study import Study
+from mechwright.studies.front import Chosen, Front
+from mechwright.studies.shard import NUMBER, Counts, read_file
+from mechwright.studies.study import Study
 
 SHOWN = 100_000
 """Designs on the page besides the front, and of the front: some megabytes, and a brush still follows the

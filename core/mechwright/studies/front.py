@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.scripting.pareto import front_of
-from mechwright.sweep.axis import Axis
-from mechwright.sweep.shard import NUMBER
-from mechwright.sweep.study import Study
+from mechwright.studies.axis import Axis
+from mechwright.studies.shard import NUMBER
+from mechwright.studies.study import Study
 
 AROUND = 64
 """Designs that a round of refinement draws around each design of the front."""

@@ -17,9 +17,9 @@ from mechwright.output.staging import move
 from mechwright.plugins.host import Host
 from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
-from mechwright.sweep.shard import Counts, counts_of
-from mechwright.sweep.study import Study
-from mechwright.sweep.task import Task, fingerprint
+from mechwright.studies.shard import Counts, counts_of
+from mechwright.studies.study import Study
+from mechwright.studies.task import Task, fingerprint
 
 COMMAND = "sweep"
 BEGUN = "study.json"

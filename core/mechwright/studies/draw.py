@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.evaluation import Batch
-from mechwright.sweep.axis import Axis
-from mechwright.sweep.study import BITS, Study
+from mechwright.studies.axis import Axis
+from mechwright.studies.study import BITS, Study
 
 
 def drawn(study: Study, number: int) -> Batch[Any]:

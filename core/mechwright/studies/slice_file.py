@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mechwright.contracts.by_arrays import Answer
 from mechwright.contracts.slices import Answered, Chunk, Question, Singles, Work
-from mechwright.sweep.shard import frame_of, read_file, require, telling, written
-from mechwright.sweep.study import Study
+from mechwright.studies.shard import frame_of, read_file, require, telling, written
+from mechwright.studies.study import Study
 
 UNIT, PLACE, CODE, UNDECIDED = "slice.unit", "slice.place", "slice.code", "slice.undecided"
 """Columns: to which chunk or question a row belongs, which design of the batch it is, what forbids it, and

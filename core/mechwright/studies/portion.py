@@ -9,8 +9,8 @@ import numpy as np
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.singly import singles_of
 from mechwright.contracts.slices import Answered, Chunk, Places, Question, Slices, Work
-from mechwright.sweep.shard import table_of
-from mechwright.sweep.study import Study
+from mechwright.studies.shard import table_of
+from mechwright.studies.study import Study
 
 
 class Survey(NamedTuple):

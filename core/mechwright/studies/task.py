@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from mechwright.contracts.evaluation import Batch
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
-from mechwright.sweep.draw import drawn
-from mechwright.sweep.portion import Order, Portion, portion, sliced
-from mechwright.sweep.shard import shard_of
-from mechwright.sweep.study import Study, study_of
+from mechwright.studies.draw import drawn
+from mechwright.studies.portion import Order, Portion, portion, sliced
+from mechwright.studies.shard import shard_of
+from mechwright.studies.study import Study, study_of
 from mechwright.worker_pool.budget import limit_cores
 from mechwright.worker_pool.recorded_warnings import RecordedWarning, record_warnings, take_warnings
 

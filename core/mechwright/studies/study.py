@@ -37,12 +37,13 @@ from typing import Any, Literal
 from pydantic import Field
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Stage
+from mechwright.contracts.finding import Change, Stage
 from mechwright.contracts.inputs import input_files
 from mechwright.contracts.masses import is_mass
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
+from mechwright.designs.change import changed
 from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import units_of
@@ -51,7 +52,7 @@ from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.plugins.host import Host
 from mechwright.reading import once
-from mechwright.sweep.axis import Axis, Range, axis_of, flat
+from mechwright.studies.axis import Axis, Range, axis_of, flat
 from mechwright.units import convert
 
 TABLE = "study"
@@ -172,9 +173,10 @@ class Study:
 
 
 @once()
-def load_study(path: Path, host: Host) -> Study:
-    """Read a study file; raises as ``load`` of a design does."""
-    content, _ = read_toml(path)
+def load_study(path: Path, host: Host, change: Change | None = None) -> Study:
+    """Read a study file, with a change of its content; raises as ``load`` of a design does."""
+    content: Mapping[str, Any] = read_toml(path)[0]
+    content = changed(content, change or {})
     with telling_places(path, content, host, "parameters"):
         return study_of(content, path, host)
 

@@ -8,8 +8,8 @@ from mechwright.contracts.family import Family
 from mechwright.designs.schema import QUANTITY, file_schema, placed_schema
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import Host
-from mechwright.sweep.axis import Range
-from mechwright.sweep.study import BOUNDS, TABLE, Asked
+from mechwright.studies.axis import Range
+from mechwright.studies.study import BOUNDS, TABLE, Asked
 
 _WAYS = {"enum": ["least", "greatest"]}
 

@@ -14,16 +14,16 @@ from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
 from mechwright.scripting.moving import moving
 from mechwright.scripting.pareto import spread
-from mechwright.sweep.checks import checked, mechanism_of
-from mechwright.sweep.folder import SUFFIX, SweepFolder
-from mechwright.sweep.front import AROUND, MOST, Chosen, Front, around
-from mechwright.sweep.page import page_of
-from mechwright.sweep.schedule import Schedule, without_tables
-from mechwright.sweep.shard import NUMBER, Counts, read_file, written
-from mechwright.sweep.standing import Standing
-from mechwright.sweep.study import Study
-from mechwright.sweep.task import Source, Task
-from mechwright.sweep.workers import Workers
+from mechwright.studies.checks import checked, mechanism_of
+from mechwright.studies.folder import SUFFIX, SweepFolder
+from mechwright.studies.front import AROUND, MOST, Chosen, Front, around
+from mechwright.studies.page import page_of
+from mechwright.studies.schedule import Schedule, without_tables
+from mechwright.studies.shard import NUMBER, Counts, read_file, written
+from mechwright.studies.standing import Standing
+from mechwright.studies.study import Study
+from mechwright.studies.task import Source, Task
+from mechwright.studies.workers import Workers
 
 EVALUATED = 0.9
 """Share of a sweep's work that is the tables; the rest are the designs of the front."""
@@ -50,8 +50,16 @@ class Swept:
     chosen: tuple[Chosen, ...]
     files: tuple[str, ...]
 
+    def __str__(self) -> str:
+        counts = self.counts
+        return f"{counts.designs:,} designs, {counts.feasible:,} allowed, {self.front:,} on the front"
 
-def sweep(
+
+FRONT = f"front{SUFFIX}"
+"""The file of the designs that no other one dominates."""
+
+
+def evaluate(
     study: Study,
     folder: Path,
     workers: Workers,
@@ -188,11 +196,11 @@ def _written(
     for one in picked:
         if one.name:
             number = front.columns[NUMBER].tolist().index(one.design)
-            mechanism = mechanism_of(study, front, number, one.name, place.host)
+            mechanism = mechanism_of(study, front.design(number), one.name, place.host)
             output.add(f"{one.name}.toml", mechanism.toml)
             pictures[one.name] = moving(mechanism)
     if len(front):
-        output.add(f"front{SUFFIX}", written(front.columns, study.units))
+        output.add(FRONT, written(front.columns, study.units))
     summary = {
         "study": study.name,
         "family": study.family.name,

@@ -15,7 +15,7 @@ from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.errors import MechwrightError, OutputError
 from mechwright.extras import optional
 from mechwright.reading import read_bytes
-from mechwright.sweep.study import Study
+from mechwright.studies.study import Study
 
 NUMBER = "design"
 """Column of the number of a design in its study."""
