@@ -19,12 +19,12 @@ from pathlib import Path
 from typing import Any
 
 from mechwright import Stage, host
-from mechwright.build import WORK
 from mechwright.contracts.finding import errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.designs.change import changed
 from mechwright.designs.design import design_of, load
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import WORK
 from mechwright.remedies.keys import keys_of
 from mechwright.scripting.mechanism import Mechanism
 

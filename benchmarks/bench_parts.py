@@ -15,8 +15,8 @@ from statistics import median
 
 from harness import require
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.finding import errors
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.worker_pool.budget import limited_cores
 from mechwright_cam.machining import Machining

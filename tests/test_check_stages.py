@@ -12,11 +12,11 @@ import pytest
 import mechwright as mw
 import mechwright_cad.making
 import mechwright_cam.machining
-from mechwright.build import LOOK, PROGRAMS, SOLIDS, WORK, Build, Inspection, Run, work_to
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.designs.design import Design, design_of
 from mechwright.errors import GeometryError, PluginFaultError
+from mechwright.pipeline import LOOK, PROGRAMS, SOLIDS, WORK, Build, Inspection, Run, work_to
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.remedies import with_remedies
 from mechwright.worker_pool.budget import limited_cores

@@ -302,7 +302,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(
 ) -> None:
     (tmp_path / "foreign").write_text("x")
     monkeypatch.setattr("mechwright.designs.design.load", lambda *_: pytest.fail("worked"))
-    monkeypatch.setattr("mechwright.build.Build.findings", property(lambda _: pytest.fail("worked")))
+    monkeypatch.setattr("mechwright.pipeline.Build.findings", property(lambda _: pytest.fail("worked")))
     assert run("build", EXAMPLE, "-o", tmp_path)[0] == 2
 
 

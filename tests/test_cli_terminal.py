@@ -15,12 +15,12 @@ import pytest
 from by_night import by_night
 from hatchling.builders.wheel import WheelBuilder
 
-from mechwright.build import Wanted
 from mechwright.cli import completing, demo
 from mechwright.cli.perform import perform
 from mechwright.cli.progress import IN_LINES, fraction, line_of
 from mechwright.contracts.finding import Stage
 from mechwright.output import folder
+from mechwright.pipeline import Wanted
 from mechwright_cam.commands import cam_settings
 
 ROOT = Path(__file__).parents[1]

@@ -9,11 +9,11 @@ import pytest
 from by_night import thinned
 
 from mechwright import Build, Design, Host, Tolerances, Wanted
-from mechwright.build.tolerances import TolerancePage, TolerancesTable
 from mechwright.contracts.family import Family
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.designs.design import load
 from mechwright.designs.text import template
+from mechwright.pipeline.tolerances import TolerancePage, TolerancesTable
 from mechwright.plugins.host import host
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -8,8 +8,6 @@ import pytest
 from by_night import by_night
 from typer.testing import CliRunner
 
-from mechwright.build import WORK, Build, FileName, Page, Wanted
-from mechwright.build.file_names import FileNames, files_of
 from mechwright.cli.app import make_app
 from mechwright.cli.orders import into
 from mechwright.contracts.exporter import Exporter
@@ -23,6 +21,8 @@ from mechwright.designs.design import load
 from mechwright.errors import DesignError, GeometryError, OutputError
 from mechwright.geometry import Loop, Outline
 from mechwright.output.folder import Output, distinct_files
+from mechwright.pipeline import WORK, Build, FileName, Page, Wanted
+from mechwright.pipeline.file_names import FileNames, files_of
 from mechwright.plugins.host import host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.testing.names import design_names, name_faults, writing_faults

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, FileName, Wanted
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.file_names import free_name
 from mechwright.contracts.finding import Finding, errors
@@ -19,6 +18,7 @@ from mechwright.contracts.holes import joined
 from mechwright.designs.design import Design
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
+from mechwright.pipeline import Build, FileName, Wanted
 from mechwright.plugins.host import Host
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import WorkerPool

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from mechwright.build import SOLIDS, Build, FileName, Inspection, Page, Wanted
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.pipeline import SOLIDS, Build, FileName, Inspection, Page, Wanted
 
 if TYPE_CHECKING:
     from mechwright_cad.making import Solids

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from mechwright.build import PROGRAMS, Build, Inspection
 from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.pipeline import PROGRAMS, Build, Inspection
 
 
 class Machinable(Inspection):

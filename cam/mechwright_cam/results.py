@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from mechwright.build import WORK, Build, Run
 from mechwright.contracts.named import Named
 from mechwright.contracts.result import Result
+from mechwright.pipeline import WORK, Build, Run
 
 if TYPE_CHECKING:
     from mechwright_cam.machining import Machined
@@ -18,7 +18,7 @@ class Programs(Result[Build]):
     of = "build"
 
     def make(self, subject: Build) -> "Named[Machined]":
-        """Every program with its proof; raises as :attr:`mechwright.build.Build.programs` says."""
+        """Every program with its proof; raises as :attr:`mechwright.pipeline.Build.programs` says."""
         from mechwright_cam.machining import Machining
 
         Run(subject.asking(command="cam"), WORK["cam"]).make()

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from typing import Any
 
     from mechwright.arrays import Array
-    from mechwright.build import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
@@ -70,6 +69,7 @@ if TYPE_CHECKING:
     )
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
     from mechwright.geometry.segments import Point
+    from mechwright.pipeline import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.scripting.mechanism import Mechanism
@@ -81,7 +81,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.build": "Blank Build FileName Inspection Page RawStock Wanted",
+    "mechwright.pipeline": "Blank Build FileName Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",

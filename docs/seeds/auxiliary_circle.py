@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from mechwright.build.figures import Grid
+from mechwright.pipeline.figures import Grid
 from mechwright_slider_crank import construction_pictures as pictures
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
 from mechwright_slider_crank.construction_page import numbers, solutions

@@ -8,8 +8,8 @@ import numpy as np
 import six_bar_poles
 from signed_distances import SignedDistances, of_four_bar, of_slider_crank
 
-from mechwright.build.figures.sheet import INK, Window, linkage
-from mechwright.build.poles import Coupler, planes
+from mechwright.pipeline.figures.sheet import INK, Window, linkage
+from mechwright.pipeline.poles import Coupler, planes
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.poles_page import FourBarPoles
 from mechwright_four_bar.reach import bar_of

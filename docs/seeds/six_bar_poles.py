@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from mechwright.build.figures.sheet import INK, Window, linkage
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning, acceleration_pole
 from mechwright.mechanics.planar.dyad import joined
+from mechwright.pipeline.figures.sheet import INK, Window, linkage
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from numpy.typing import ArrayLike
 
-from mechwright.build.poles import Coupler, PolesPage
 from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright.pipeline.poles import Coupler, PolesPage
 from mechwright_four_bar.change_point import close_through
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import Loop, close

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Mapping
 
-from mechwright.build import Build, FileName, Page, Wanted
-from mechwright.build.figures import Figure, Grid, figures_page
+from mechwright.pipeline import Build, FileName, Page, Wanted
+from mechwright.pipeline.figures import Figure, Grid, figures_page
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
 from mechwright_slider_crank.params import SliderCrankParams
 

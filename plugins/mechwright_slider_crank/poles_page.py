@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright.build.poles import Coupler, PolesPage
 from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright.pipeline.poles import Coupler, PolesPage
 from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.params import SliderCrankParams
 

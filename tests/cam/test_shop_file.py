@@ -6,9 +6,9 @@ import pytest
 from by_control import LINUXCNC, asked
 from shop import DRILL, MILL, SPOT, plate_job, plate_program
 
-from mechwright.build import Build, Wanted
 from mechwright.designs.design import load
 from mechwright.errors import DesignError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright_cam.machining import Machining
 from mechwright_cam.planning.prepare import library_of, worn

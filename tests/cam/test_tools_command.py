@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.materials import MATERIALS
 from mechwright.designs.design import load
 from mechwright.errors import DesignError, OutputError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.scripting.provenance import facts
 from mechwright_cam.commands import tool_files

@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from mechwright.build.inspection import Inspection
-from mechwright.build.page import Page
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import PluginFaultError
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.page import Page
 from mechwright.plugins.host import Registered
 
 

@@ -3,8 +3,8 @@
 from beam_family import design
 from disc_family import Disc
 
-from mechwright.build import Inspection
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.pipeline import Inspection
 from mechwright.remedies import repair, repaired
 
 MADE = 22.2

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from by_night import by_night
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.errors import ProofError, ToolError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import LostError, WorkerPool

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from mechwright.build.poles.page import page as page_of
-from mechwright.build.poles.planes import MARKED
 from mechwright.mechanics.planar import Turning, acceleration_pole
+from mechwright.pipeline.poles.page import page as page_of
+from mechwright.pipeline.poles.planes import MARKED
 from mechwright.testing.commands import run
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close

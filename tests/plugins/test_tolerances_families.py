@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from tolerance_models import assert_exact, deviations
 
 from mechwright import Tolerances
-from mechwright.build.tolerances.report import remarks
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.mechanics.tolerance import analyse
+from mechwright.pipeline.tolerances.report import remarks
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, FileName, Page, RawStock, Wanted
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
+from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
 from mechwright_cad.turned_drawing.page import SUFFIXES
 
 if TYPE_CHECKING:

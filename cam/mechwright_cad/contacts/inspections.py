@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Finding, Stage, at_stage
+from mechwright.pipeline import Build, Inspection
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.build import Build
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright.scripting.checking import checked
 from mechwright_cad.animation.scene import PAGE_SAMPLES, scene

@@ -8,7 +8,6 @@ from typing import Any
 
 import typer
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.cli.progress import fraction
@@ -17,6 +16,7 @@ from mechwright.contracts.synthesis import Progress
 from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.commands.verify_drawing import drawn_scene, job_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machining, machine, second_setup

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import typer
 
-from mechwright.build.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.telling import plain, tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import DesignError
+from mechwright.pipeline.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.scripting.checking import unmade
 from mechwright.scripting.mechanism import Mechanism
 

@@ -218,8 +218,8 @@ class Solve(Command):
         They are motion.csv, summary.json and motion.html; poles.html and
         construction.html of linkages.
         """
-        from mechwright.build import Wanted
         from mechwright.cli.perform import perform
+        from mechwright.pipeline import Wanted
 
         still = "stands still: there is no motion to write; build writes its drawings and programs"
         perform(design, output, Wanted("solve", samples), still, as_json=as_json)
@@ -246,8 +246,8 @@ class Build(Command):
 
         Of several designs each goes into a folder of its own in DIR. The exit code is 1 if one is refused.
         """
-        from mechwright.build import Wanted
         from mechwright.cli.several import write
+        from mechwright.pipeline import Wanted
 
         wanted = Wanted("build", samples, at, names(also), dxf_curves)
         write(designs, output, wanted, workers, as_json=as_json)

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import typer
 
-from mechwright.build import Wanted
 from mechwright.cli.perform import perform
 from mechwright.designs.files import read_text
 from mechwright.errors import MechwrightError, OutputError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Wanted
 from mechwright.reading import regular
 
 DESIGN = "elliptic-pair.toml"

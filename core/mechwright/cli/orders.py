@@ -5,12 +5,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mechwright.build import Wanted
 from mechwright.contracts.file_names import file_key
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress
 from mechwright.errors import DesignError
+from mechwright.pipeline import Wanted
 from mechwright.plugins.host import host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.performing import Written

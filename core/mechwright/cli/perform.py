@@ -7,7 +7,6 @@ from typing import Any, NoReturn
 
 import typer
 
-from mechwright.build import WORK, Wanted
 from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction, standing
@@ -15,6 +14,7 @@ from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.refused import RefusedError
 from mechwright.errors import PluginError
+from mechwright.pipeline import WORK, Wanted
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.performing import Written

@@ -9,7 +9,6 @@ from typing import Any
 
 import typer
 
-from mechwright.build import WORK, Wanted
 from mechwright.cli.check import check as check_one
 from mechwright.cli.check import stage_of
 from mechwright.cli.hosting import open_host
@@ -20,6 +19,7 @@ from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
+from mechwright.pipeline import WORK, Wanted
 from mechwright.worker_pool.budget import available_cores, limit_cores
 from mechwright.worker_pool.sharing import side_by_side
 

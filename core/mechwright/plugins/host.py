@@ -210,11 +210,22 @@ def _class_fault(cls: Any, distribution: str) -> str:
     return f"{cls.__name__}: {faults[-1]}".replace(": has ", " has ") if faults[-1] else ""
 
 
+_MOVED = {
+    "mechwright.build": "mechwright.pipeline",
+    "mechwright.sweep": "mechwright.studies",
+    "mechwright.cores": "mechwright.worker_pool.budget",
+    "mechwright.beside": "mechwright.worker_pool",
+}
+"""Modules under the names that they had, and those that they have."""
+
+
 def _reason(error: BaseException) -> str:
     if isinstance(error, TimeUpError):
         return str(error)
     text = str(error).strip().splitlines()
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
+    if isinstance(error, ModuleNotFoundError) and (new := _MOVED.get(str(error.name))):
+        said += f"; it is called {new} now"
     return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
 
 

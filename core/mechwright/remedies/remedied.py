@@ -3,13 +3,14 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from mechwright.build import Build, Inspection, Run, Work
 from mechwright.contracts.finding import Change, Finding, Findings, Severity, Stage, errors
 from mechwright.designs.design import Design
+from mechwright.pipeline import Build, Inspection, Run, Work
+from mechwright.pipeline.run import REFUSED
 from mechwright.remedies.advice import advised
 from mechwright.remedies.bench import Bench, Limits, identity, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
-from mechwright.remedies.repair import INSPECTED, REFUSED, judge_of
+from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import (
     Worth,
     best_step,

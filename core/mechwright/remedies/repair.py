@@ -3,11 +3,12 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from mechwright.build import Build, Inspection, Wanted, work_to
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build, Inspection, Wanted, work_to
+from mechwright.pipeline.run import refused
 from mechwright.plugins.host import Host
 from mechwright.remedies.bench import Bench, Judge, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, candidates, nearest
@@ -17,8 +18,6 @@ FAMILY = Limits(tries=1500, seconds=60.0)
 """For what the family itself judges: milliseconds each."""
 INSPECTED = Limits(tries=60, seconds=120.0)
 """For what inspections judge: a second or so each, of cutters and of bodies that meet."""
-REFUSED = "build.refused"
-"""Code of the finding that something cannot be made: no cutter, no solid, a program that is not proven."""
 
 _PROPOSED = 3
 """Proposals that are followed from a change that pleases the family, before the next such change is tried."""
@@ -171,7 +170,7 @@ def _answer(ask: Ask, build: Build, stage: Stage) -> list[Finding]:
     try:
         return list(ask(build))
     except MechwrightError as error:
-        return [Finding.error(REFUSED, "", str(error), stage=stage)]
+        return [refused(error, build.path, stage)]
 
 
 def _family(build: Build) -> Sequence[Finding]:

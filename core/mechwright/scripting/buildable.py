@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from mechwright.build import LOOK, Build, Run
 from mechwright.contracts.finding import Change, Finding, Findings
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis
 from mechwright.designs.design import Design, design_of
 from mechwright.designs.requirement import Requirement
+from mechwright.pipeline import LOOK, Build, Run
 from mechwright.plugins.host import Host
 from mechwright.remedies import Bench, Limits, nearest
 from mechwright.remedies.words import said

@@ -1,12 +1,13 @@
 """What ``check`` tells: the run that a command would make, up to a stage, of which nothing is written."""
 
-from mechwright.build import LOOK, Build, Inspection, Run, work_to
 from mechwright.contracts.finding import Finding, Findings, Stage
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import MechwrightError, PluginFaultError
+from mechwright.pipeline import LOOK, Build, Inspection, Run, work_to
+from mechwright.pipeline.run import refused
 from mechwright.plugins.host import Host
-from mechwright.remedies import REFUSED, with_remedies
+from mechwright.remedies import with_remedies
 from mechwright.scripting.performing import pages_of
 
 
@@ -28,7 +29,7 @@ def checked(build: Build, to: Stage | None = None, progress: Progress = unheard)
     command, work = work_to(to)
     # The build's own wishes hold where it is what its command asks: nothing is made twice then.
     asked = build if build.wanted.command == command else build.asking(command=command or "check")
-    run, refused = Run(asked, work, progress), list[Finding]()
+    run, unmakeable = Run(asked, work, progress), list[Finding]()
     with asked:
         try:
             run.make(pages_of(asked) if command else [])
@@ -37,8 +38,8 @@ def checked(build: Build, to: Stage | None = None, progress: Progress = unheard)
         except PluginFaultError:
             raise
         except MechwrightError as error:
-            refused.append(Finding.error(REFUSED, "", str(error), stage=to))
-    return Findings([*with_remedies(run), *refused])
+            unmakeable.append(refused(error, asked.path, to))
+    return Findings([*with_remedies(run), *unmakeable])
 
 
 def unmade(host: Host, to: Stage | None) -> tuple[str, ...]:

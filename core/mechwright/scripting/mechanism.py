@@ -5,11 +5,11 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from mechwright.build import Build, Page
 from mechwright.contracts.finding import Findings, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Build, Page
 from mechwright.scripting.changes import change_of
 from mechwright.scripting.checking import checked
 from mechwright.scripting.performing import Written, perform

@@ -3,14 +3,14 @@
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from mechwright.build import WORK, Build, Page, Run, Work
-from mechwright.build.steps import WRITING
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Findings, Severity, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder, write_folder
+from mechwright.pipeline import WORK, Build, Page, Run, Work
+from mechwright.pipeline.steps import WRITING
 from mechwright.reading import once
 from mechwright.remedies import with_remedies
 from mechwright.scripting.provenance import facts

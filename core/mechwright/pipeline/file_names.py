@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from mechwright.build.build import Build, Wanted
-from mechwright.build.inspection import Inspection
-from mechwright.build.page import FileName, Page
-from mechwright.build.work import WORK
 from mechwright.contracts.file_names import file_key, free_name, name_fault
 from mechwright.contracts.finding import Change, Finding, Stage
+from mechwright.pipeline.build import Build, Wanted
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.page import FileName, Page
+from mechwright.pipeline.work import WORK
 
 
 class FileNames(Inspection):

@@ -5,12 +5,12 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from mechwright.build.build import Build, Wanted
-from mechwright.build.figures import Figure, Grid, figures_page
-from mechwright.build.page import FileName, Page
+from mechwright.pipeline.build import Build, Wanted
+from mechwright.pipeline.figures import Figure, Grid, figures_page
+from mechwright.pipeline.page import FileName, Page
 
 if TYPE_CHECKING:
-    from mechwright.build.poles.coupler import Coupler
+    from mechwright.pipeline.poles.coupler import Coupler
 
 NAME = "poles.html"
 """The file."""
@@ -61,7 +61,7 @@ def page(name: str, title: str, coupler: "Coupler") -> str:
     """The page of a coupler; raises NoPole where it has no pole."""
     import numpy as np
 
-    from mechwright.build.poles import planes
+    from mechwright.pipeline.poles import planes
 
     own = coupler.course.acceleration_ratio
     ratios = tuple(dict.fromkeys((own, *RATIOS)))

@@ -5,11 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-from mechwright.build.build import Build, Wanted
 from mechwright.contracts.file_names import hold_files
 from mechwright.contracts.guard import pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
+from mechwright.pipeline.build import Build, Wanted
 
 
 @dataclass(frozen=True)

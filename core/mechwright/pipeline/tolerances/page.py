@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from mechwright.build.build import Build, Wanted
-from mechwright.build.page import FileName, Page
 from mechwright.output.templates import templates
+from mechwright.pipeline.build import Build, Wanted
+from mechwright.pipeline.page import FileName, Page
 
 NAME = "tolerances.html"
 """The file."""
@@ -24,12 +24,12 @@ class TolerancePage(Page):
 
     def files(self, build: Build) -> Mapping[str, str]:
         """The page; none where the family has no analysis of tolerances."""
-        from mechwright.build.tolerances.asked import analysis_of
+        from mechwright.pipeline.tolerances.asked import analysis_of
 
         analysis = build.made(analysis_of)
         if analysis is None:
             return {}
-        from mechwright.build.tolerances import plots, report, units
+        from mechwright.pipeline.tolerances import plots, report, units
 
         outputs = []
         for result in analysis.results:

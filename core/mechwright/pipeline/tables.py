@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from mechwright.build.build import Build, Wanted
-from mechwright.build.page import FileName, Page
 from mechwright.contracts.motion import Motion
+from mechwright.pipeline.build import Build, Wanted
+from mechwright.pipeline.page import FileName, Page
 
 TABLE, SUMMARY = "motion.csv", "summary.json"
 """The files."""

@@ -4,9 +4,9 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from typing import ClassVar
 
-from mechwright.build.build import Build
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.plugin import Plugin
+from mechwright.pipeline.build import Build
 
 
 class Inspection(Plugin):
@@ -22,7 +22,7 @@ class Inspection(Plugin):
     stage: ClassVar[Stage]
     """What its findings are about."""
     needs: ClassVar[frozenset[str]] = frozenset()
-    """What has to be made for it and takes long: :data:`~mechwright.build.work.SOLIDS`, ``PROGRAMS``."""
+    """What has to be made for it and takes long: :data:`~mechwright.pipeline.work.SOLIDS`, ``PROGRAMS``."""
     order: ClassVar[int] = 100
     """Inspections of lower order are told first."""
     doing: ClassVar[str] = ""

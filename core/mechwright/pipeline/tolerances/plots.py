@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.build.tolerances.units import degrees, shown_unit
 from mechwright.mechanics.tolerance import Analysis, Result
 from mechwright.output.ticks import ticks
+from mechwright.pipeline.tolerances.units import degrees, shown_unit
 
 WIDTH, HEIGHT = 640, 250
 LEFT, RIGHT, TOP, BOTTOM = 74, 22, 12, 40

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from mechwright.build.build import Build
 from mechwright.contracts.plugin import Plugin
+from mechwright.pipeline.build import Build
 
 
 @dataclass(frozen=True)

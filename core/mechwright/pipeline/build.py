@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     import cadquery as cq
 
-    from mechwright.build.proven import Proven
     from mechwright.contracts.finding import Finding, Findings
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.named import Named
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
     from mechwright.errors import MechwrightError
+    from mechwright.pipeline.proven import Proven
     from mechwright.plugins.host import Host
 
 T = TypeVar("T")
@@ -180,7 +180,7 @@ class Build:
     @cached_property
     def pose(self) -> "tuple[Motion, int]":
         """A motion, and the sample of it that the assembly shows; raises DesignError for a wrong ``--at``."""
-        from mechwright.build import pose
+        from mechwright.pipeline import pose
 
         if not self.wanted.at:
             return self.design.solve(2), 0

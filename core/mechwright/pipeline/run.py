@@ -1,17 +1,24 @@
 """One run of a build: its inspections up to a stage, the cheap ones first, then the files of its pages."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
-from mechwright.build.build import Build
-from mechwright.build.inspection import Inspection
-from mechwright.build.page import Page
-from mechwright.build.steps import CHECKING, Steps, shares
-from mechwright.build.work import Work
-from mechwright.contracts.finding import Finding, Findings, errors
+from mechwright.contracts.finding import Finding, Findings, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.errors import MechwrightError
+from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, ToolError
 from mechwright.output.folder import Content, Output
+from mechwright.pipeline.build import Build
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.page import Page
+from mechwright.pipeline.steps import CHECKING, Steps, shares
+from mechwright.pipeline.work import Work
+
+REFUSED = "build.refused"
+"""Code of the finding that something cannot be made: no cutter, no solid, a program that is not proven."""
+
+_KEY = re.compile(r"[a-z_]+(\.[\w-]+)+")
 
 
 class Run:
@@ -62,8 +69,7 @@ class Run:
         later = self.made_later
         self._ask(one for one in self.inspections if one not in later)
         if errors(self.findings, self.work.stage):
-            for one in later:
-                self._found[one.name] = one.outlook(self.build)
+            self._ask(later, made=False)
 
     def make(self, pages: Sequence[Page] = ()) -> Output:
         """Look, ask what needs something that is made, and make the files of some pages.
@@ -104,11 +110,14 @@ class Run:
         if stopping := errors(self.findings, self.work.stage):
             raise RefusedError(self.build.path, stopping)
 
-    def _ask(self, inspections: Iterable[Inspection]) -> None:
+    def _ask(self, inspections: Iterable[Inspection], *, made: bool = True) -> None:
         for one in inspections:
             self.step(one.doing)
-            ask = one.findings if one.needs <= self.work.makes else one.outlook
-            self._found[one.name] = self.build.made_as_wanted(ask)
+            ask = one.findings if made and one.needs <= self.work.makes else one.outlook
+            try:
+                self._found[one.name] = self.build.made_as_wanted(ask)
+            except (DesignError, GeometryError, KinematicsError, ToolError) as error:
+                self._found[one.name] = [refused(error, self.build.path, one.stage)]
 
     def _make(self, pages: Iterable[Page], made: Output) -> None:
         known = self.build.made_as_wanted(_kept)
@@ -125,6 +134,20 @@ class Run:
         if self._steps is None:
             self._steps = Steps(self.build, shares([*self.inspections, *self._pages]), self._progress)
         self._steps(doing)
+
+
+def refused(error: MechwrightError, path: Path, stage: Stage) -> Finding:
+    """The finding that something cannot be made: an error in its own words.
+
+    >>> refused(GeometryError("d.toml: cam.mark: no free place; leave it out"), Path("d.toml"), Stage.PARTS)
+    <Finding error [build.refused] cam.mark: no free place; leave it out>
+    """
+    words = str(error).removeprefix(f"{path}: ")
+    key, _, rest = words.partition(": ")
+    if not rest or not _KEY.fullmatch(key):
+        key, rest = "", words
+    message, _, remedy = rest.rpartition("; ")
+    return Finding.error(REFUSED, key, message or remedy, remedy=remedy if message else "", stage=stage)
 
 
 def _kept(build: Build) -> dict[str, Mapping[str, Content]]:  # noqa: ARG001 - one for the wishes of each build

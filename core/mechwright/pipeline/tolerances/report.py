@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.build.tolerances.units import degrees, limits, nominal, percent, shown, shown_unit
 from mechwright.contracts.tolerances import Contributor, Output
 from mechwright.mechanics.tolerance import Analysis, Place, Result, Trial
+from mechwright.pipeline.tolerances.units import degrees, limits, nominal, percent, shown, shown_unit
 
 _MISS = 0.05
 """Part of sigma by which the first order may miss that of the mechanisms before it is told."""

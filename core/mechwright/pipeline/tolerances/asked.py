@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 
-from mechwright.build.build import Build
-from mechwright.build.inspection import Inspection
-from mechwright.build.tolerances.table import TolerancesTable
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.contracts.tolerances import ToleranceModel
 from mechwright.errors import DesignError
 from mechwright.mechanics.tolerance import Analysis, analyse, check_keys
+from mechwright.pipeline.build import Build
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.tolerances.table import TolerancesTable
 
 KEYS = "tolerances.key"
 """Code of the finding that a key of ``[tolerances]`` cannot be obeyed."""

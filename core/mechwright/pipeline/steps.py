@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Mapping
 
-from mechwright.build.build import Build
-from mechwright.build.inspection import Inspection
-from mechwright.build.page import Page
 from mechwright.contracts.synthesis import Progress
+from mechwright.pipeline.build import Build
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.page import Page
 
 CHECKING, WRITING = "checking", "writing"
 CHECK = 20.0

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mechwright.build.figures.sheet import INK, Window, linkage
-from mechwright.build.poles.coupler import Coupler
 from mechwright.mechanics.planar import Plane
+from mechwright.pipeline.figures.sheet import INK, Window, linkage
+from mechwright.pipeline.poles.coupler import Coupler
 
 COLOURS = ("#b3261e", "#1f5fa8", "#2e7d32", "#8a5a00", "#6a3d9a")
 """Of the ratios of a picture, in their order."""
