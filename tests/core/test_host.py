@@ -107,7 +107,10 @@ def test_what_is_not_installed_is_named_with_what_is(plugin, what, known):
     ("source", "reason"),
     [
         ("import no_such_module", "ModuleNotFoundError: No module named 'no_such_module'"),
-        ("from mechwright.build import Page", "it is called mechwright.pipeline now"),
+        (
+            "from mechwright.build import Page",
+            "ModuleNotFoundError: No module named 'mechwright.build'; it is called mechwright.pipeline now",
+        ),
         ("def f(:", "SyntaxError: invalid syntax"),
         ("import sys; sys.exit('no licence')", "SystemExit: no licence"),
         ("raise SystemExit", "SystemExit"),
