@@ -11,18 +11,14 @@ from mechwright.cli.progress import fraction
 from mechwright.cli.telling import plain, tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import DesignError
+from mechwright.pipeline import Wanted
 from mechwright.pipeline.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.scripting.checking import unmade
 from mechwright.scripting.mechanism import Mechanism
 
 
 def check(
-    path: Path,
-    to: Stage | None = None,
-    *,
-    as_json: bool = False,
-    tolerances: bool = False,
-    figures: bool = False,
+    path: Path, wanted: Wanted, to: Stage | None, *, as_json: bool, tolerances: bool, figures: bool
 ) -> None:
     """Print the verdict, and what led to it; the exit code is 1 if a finding is an error.
 
@@ -31,7 +27,7 @@ def check(
     DesignError
         Tolerances are asked for, and the family has no analysis of them.
     """
-    with Mechanism(path, open_host()) as build, fraction() as progress:
+    with Mechanism(path, open_host(), wanted) as build, fraction() as progress:
         findings = build.check(progress, to)
         name = build.design.name
         # A mechanism that does not move has no errors of its motion.

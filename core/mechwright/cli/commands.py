@@ -153,6 +153,7 @@ class Check(Command):
                 autocompletion=completing.stages,
             ),
         ] = "",
+        also: Also = "",
         figures: Annotated[
             bool, typer.Option("--figures", help="Add a table of the figures that were found.")
         ] = False,
@@ -167,8 +168,9 @@ class Check(Command):
         The exit code is 1 if something forbids building.
         """
         from mechwright.cli import several
+        from mechwright.pipeline import Wanted
 
-        several.check(designs, workers, as_json, tolerances, to, figures)
+        several.check(designs, Wanted(formats=names(also)), to, workers, as_json, tolerances, figures)
 
 
 class Fix(Command):

@@ -10,16 +10,19 @@ from typing import Any
 import typer
 
 from mechwright.cli.check import check as check_one
-from mechwright.cli.check import stage_of
+from mechwright.cli.check import shown, stage_of, verdict
 from mechwright.cli.hosting import open_host
 from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.cli.perform import check_formats, data_of, perform, say
 from mechwright.cli.progress import fraction, stamp
 from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
+from mechwright.contracts.finding import Stage
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
 from mechwright.pipeline import WORK, Wanted
+from mechwright.plugins.host import host
+from mechwright.scripting.checking import unmade
 from mechwright.worker_pool.budget import available_cores, limit_cores
 from mechwright.worker_pool.sharing import side_by_side
 
@@ -58,18 +61,34 @@ def write(
 
 
 def check(
-    designs: Sequence[Path], workers: int | None, as_json: bool, tolerances: bool, to: str, figures: bool
+    designs: Sequence[Path],
+    wanted: Wanted,
+    to: str,
+    workers: int | None,
+    as_json: bool,
+    tolerances: bool,
+    figures: bool,
 ) -> None:
-    """Check designs; the exit code is 1 if one cannot be built."""
+    """Check designs; the exit code is 1 if one cannot be built.
+
+    Raises
+    ------
+    DesignError
+        An option is not known, or goes with none of the others.
+    """
     stage = stage_of(to)
+    if wanted.formats and stage not in {Stage.ASSEMBLY, Stage.OUTPUT}:
+        raise DesignError(f"--also: goes with --to {Stage.ASSEMBLY} or --to {Stage.OUTPUT}, which make files")
+    check_formats(open_host(), wanted.formats)
     if len(designs) == 1:
         _keep(workers)
-        check_one(designs[0], stage, as_json=as_json, tolerances=tolerances, figures=figures)
-    if tolerances:
-        raise DesignError("--tolerances: tells of one design; give one, and not several")
-    open_host()
-    orders = [Order(path, Wanted(), to=stage) for path in dict.fromkeys(designs)]
-    _run(orders, workers, as_json, ("can be built", "cannot be built"), _say_checked)
+        check_one(designs[0], wanted, stage, as_json=as_json, tolerances=tolerances, figures=figures)
+    if tolerances or figures:
+        raise DesignError("--tolerances and --figures tell of one design; give one, and not several")
+    orders = [Order(path, wanted, to=stage) for path in dict.fromkeys(designs)]
+    # What they were judged without is the same for all of them.
+    remark = verdict(stage, unmade(host(), stage), failed=False).removeprefix("can be built")
+    _run(orders, workers, as_json, ("can be built", "cannot be built"), _say_checked, remark=remark)
 
 
 def _keep(workers: int | None) -> None:
@@ -84,6 +103,7 @@ def _run(
     words: tuple[str, str],
     say_one: Callable[[Outcome], None],
     folder: Path | None = None,
+    remark: str = "",
 ) -> None:
     before = {order.path: stamp(order.folder) for order in orders}
     found: dict[int, Outcome] = {}
@@ -103,7 +123,7 @@ def _run(
         say_one(one)
     for line in _table(outcomes, words):
         typer.echo(line)
-    typer.echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}")
+    typer.echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}{remark}")
     raise typer.Exit(int(bool(failed)))
 
 
@@ -148,7 +168,7 @@ def _say_checked(outcome: Outcome) -> None:
 
 
 def _say_findings(outcome: Outcome) -> None:
-    for finding in outcome.said.findings:
+    for finding in shown(outcome.said.findings):
         tell(finding, err=True, path=outcome.order.path)
 
 
