@@ -15,6 +15,7 @@ from mechwright.errors import DesignError
 from mechwright.machine.inspection import MachineDrive
 from mechwright.machine.page import FIGURES, DrivePage
 from mechwright.machine.table import MachineTable
+from mechwright.pipeline import LOOK, Run
 from mechwright.remedies import proposed_tried
 
 Run = Callable[..., tuple[int, str, str]]
@@ -110,7 +111,9 @@ def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fi
     assert fault.limit is not None
     assert fault.value < fault.limit
     assert f"{fault.limit - fault.value:.3g} N·m are missing" in fault.message
-    (told,) = (one for one in proposed_tried(build, inspection, [fault]) if one.code == "machine.motor")
+    (told,) = (
+        one for one in proposed_tried(Run(build, LOOK), inspection, [fault]) if one.code == "machine.motor"
+    )
     assert told.fix is not None
     assert list(told.fix) == [fixed]
     motors = ["machine.motor" in change for change in fault.proposed]
@@ -146,7 +149,9 @@ def test_a_motor_that_turns_unevenly_is_a_warning_whose_remedy_works(
     if fixed is None:
         return
     assert said.severity is Severity.WARNING
-    (told,) = (one for one in proposed_tried(build, inspection, [said]) if one.code == "machine.speed")
+    (told,) = (
+        one for one in proposed_tried(Run(build, LOOK), inspection, [said]) if one.code == "machine.speed"
+    )
     assert told.fix is not None
     assert list(told.fix) == [fixed]
     changed = Build(build.design.changed(told.fix), host())
@@ -176,7 +181,7 @@ def test_a_stepper_that_feels_too_much_inertia_is_told(tmp_path: Path) -> None:
     assert warned.value > warned.limit == 10
     assert "machine.resonance" in told
     assert "machine.braking" in told
-    (tried,) = proposed_tried(build, MachineDrive(), [warned])
+    (tried,) = proposed_tried(Run(build, LOOK), MachineDrive(), [warned])
     assert tried.fix is not None
 
 

@@ -18,6 +18,9 @@ from mechwright.pipeline.work import Work
 REFUSED = "build.refused"
 """Code of the finding that something cannot be made: no cutter, no solid, a program that is not proven."""
 
+_REFUSALS = (DesignError, GeometryError, KinematicsError, ToolError)
+"""Errors that are a design's, and no fault of a plugin, of a file or of ours."""
+
 _KEY = re.compile(r"[a-z_]+(\.[\w-]+)+")
 
 
@@ -41,6 +44,8 @@ class Run:
         self.build, self.work = build, work
         asked = (one for one in build.host.all(Inspection) if not one.stage.is_after(work.stage))
         self.inspections = sorted(asked, key=lambda one: one.order)
+        self.unmade: list[Finding] = []
+        """That the parts cannot be made."""
         self._pages: list[Page] = []
         self._progress = progress
         self._found: dict[str, Sequence[Finding]] = {}
@@ -58,18 +63,34 @@ class Run:
 
     @property
     def findings(self) -> Findings:
-        """All of it, what the family says first."""
-        return Findings([*self.build.findings, *(one for _, found in self.found for one in found)])
+        """All of it: what the family says, that parts cannot be made, and what inspections find."""
+        inspected = (one for _, found in self.found for one in found)
+        return Findings([*self.build.findings, *self.unmade, *inspected])
 
-    def look(self) -> None:
-        """Ask what can be said before anything is made; nothing where the family finds an error."""
+    def is_stopped(self) -> bool:
+        """Whether something that is found forbids the run."""
+        return bool(errors(self.findings, self.work.stage))
+
+    def look(self, *, every: bool = True) -> None:
+        """Ask what can be said before anything is made; nothing where the family finds an error.
+
+        Without ``every`` only up to the first inspection that finds an error.
+        """
         self.step(CHECKING)
-        if errors(self.build.findings, self.work.stage):
+        if self.is_stopped() or Stage.PARTS.is_after(self.work.stage):
+            return
+        try:
+            _ = self.build.parts
+        except _REFUSALS as error:
+            self.unmade.append(refused(error, self.build.path, Stage.PARTS))
             return
         later = self.made_later
-        self._ask(one for one in self.inspections if one not in later)
-        if errors(self.findings, self.work.stage):
-            self._ask(later, made=False)
+        for one in self.inspections:
+            if one not in later and (every or not self.is_stopped()):
+                self._ask(one)
+        if self.is_stopped() and every:
+            for one in later:
+                self._ask(one, made=False)
 
     def make(self, pages: Sequence[Page] = ()) -> Output:
         """Look, ask what needs something that is made, and make the files of some pages.
@@ -93,14 +114,18 @@ class Run:
         late = [one for one in asked if one.late(build)]
         made = Output()
         try:
-            self._ask(one for one in asked if one not in late)
-            self.require()
+            for one in asked:
+                if one not in late:
+                    self._ask(one)
+                    self.require()
             self._make((page for page in pages if not page.late(build)), made)
         except MechwrightError:
-            self._ask(late)  # what is asked late is told first all the same
+            for one in late:  # what is asked late is told first all the same
+                self._ask(one)
             self.require()
             raise
-        self._ask(late)
+        for one in late:
+            self._ask(one)
         self.require()
         self._make((page for page in pages if page.late(build)), made)
         return made
@@ -110,14 +135,17 @@ class Run:
         if stopping := errors(self.findings, self.work.stage):
             raise RefusedError(self.build.path, stopping)
 
-    def _ask(self, inspections: Iterable[Inspection], *, made: bool = True) -> None:
-        for one in inspections:
-            self.step(one.doing)
-            ask = one.findings if made and one.needs <= self.work.makes else one.outlook
-            try:
-                self._found[one.name] = self.build.made_as_wanted(ask)
-            except (DesignError, GeometryError, KinematicsError, ToolError) as error:
-                self._found[one.name] = [refused(error, self.build.path, one.stage)]
+    def ask(self, one: Inspection, build: Build) -> Sequence[Finding]:
+        """What an inspection finds of a build such as this one, as this run asks it."""
+        return (one.findings if one.needs <= self.work.makes else one.outlook)(build)
+
+    def _ask(self, one: Inspection, *, made: bool = True) -> None:
+        self.step(one.doing)
+        ask = one.findings if made and one.needs <= self.work.makes else one.outlook
+        try:
+            self._found[one.name] = self.build.made_as_wanted(ask)
+        except _REFUSALS as error:
+            self._found[one.name] = [refused(error, self.build.path, one.stage)]
 
     def _make(self, pages: Iterable[Page], made: Output) -> None:
         known = self.build.made_as_wanted(_kept)

@@ -105,9 +105,9 @@ def with_remedies(run: Run) -> Findings:
     own, last = run.build.findings, run.work.stage
     sought = [one for one in own if one.severity is not Severity.ERROR or not one.stage.is_after(last)]
     known = dict(zip(map(id, sought), tried(run.build.design, sought), strict=True))
-    told = [(one, known.get(id(one), one)) for one in own]
+    told = [*((one, known.get(id(one), one)) for one in own), *((one, one) for one in run.unmade)]
     for each, found in run.found:
-        told += zip(found, proposed_tried(run.build, each, found), strict=True)
+        told += zip(found, proposed_tried(run, each, found), strict=True)
     whole = _Whole(run)
     confirmed = [(before, whole.confirmed(before, after)) for before, after in told]
     return Findings(whole.agreeing(confirmed))
@@ -118,13 +118,7 @@ class _Whole:
 
     def __init__(self, run: Run) -> None:
         design, last = run.build.design, run.work.stage
-
-        def judge(design: Design) -> Sequence[Finding]:
-            with Build(design, run.build.host) as build:
-                looked = Run(build, Work(last))
-                looked.look()
-                return looked.findings
-
+        judge = judge_of(run.build.host, Work(last), every=True)
         self._benches = {
             Severity.ERROR: Bench(design, judge, last, CONFIRMED),
             Severity.WARNING: Bench(design, judge, last, REMARKED),
@@ -200,8 +194,8 @@ def _in_the_way(finding: Finding) -> str:
     return f"{finding.code}: {where}{finding.message}"
 
 
-def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
-    """What an inspection finds of a build, with the first of what each finding proposes that removes it.
+def proposed_tried(run: Run, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
+    """What an inspection finds in a run, with the first of what each finding proposes that removes it.
 
     Values that its words advise count as proposals. Nothing else is tried: a design takes an inspection a
     second or so. A finding whose proposals all fail keeps its words, and says so.
@@ -210,12 +204,13 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
     if all(finding.severity is Severity.NOTE for finding in findings):
         return findings
 
-    def ask(one: Build) -> Sequence[Finding]:
-        return () if errors(one.findings) else inspection.findings(one)
+    def judge(design: Design) -> Sequence[Finding]:
+        with Build(design, run.build.host) as build:
+            found = build.findings
+            return found if errors(found, inspection.stage) else [*found, *run.ask(inspection, build)]
 
-    judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
     limits = INSPECTED if errors(findings) else REMARKED
-    bench = Bench(build.design, judge, inspection.stage, limits)
+    bench = Bench(run.build.design, judge, inspection.stage, limits)
     told = [with_proposed(bench, finding) for finding in findings]
     fixes = [one.fix for one in told if one.fix is not None]
     return [_as_others(bench, finding, one, fixes) for finding, one in zip(findings, told, strict=True)]
