@@ -18,7 +18,7 @@ from mechwright.machine.table import MachineTable
 from mechwright.pipeline import LOOK, Run
 from mechwright.remedies import proposed_tried
 
-Run = Callable[..., tuple[int, str, str]]
+Command = Callable[..., tuple[int, str, str]]
 ROOT = Path(__file__).parents[1]
 
 
@@ -234,7 +234,7 @@ def test_a_wrong_key_is_told_in_one_line(tmp_path: Path, table: str, said: str) 
     assert len(str(caught.value).splitlines()) == 1
 
 
-def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, command_line: Run) -> None:
+def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, command_line: Command) -> None:
     path = build_of(tmp_path, FOUR_BAR, 'load = 0.3\nmotor = "NEMA 17 - 34"').path
     code, out, _ = command_line("check", path, "--json")
     assert code == 1
