@@ -314,3 +314,30 @@ def test_figures_are_a_table_and_json_has_everything(command_line: Command, tmp_
         assert line.startswith(note["code"])
         assert note["message"] in line
     assert (data["to"], data["unmade"]) == ("output", ["programs", "solids"])
+
+
+def test_parts_that_cannot_be_made_are_one_finding(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Every inspection would fail of them; the key that the error names is that of the finding."""
+
+    def fails(*_: object) -> list[Any]:
+        raise GeometryError("wheel.toml: cam.mark: no free place on part wheel; leave mark out")
+
+    monkeypatch.setattr(Design, "parts", fails)
+    (said,) = mechanism().check().errors
+    assert (said.code, said.parameter, said.stage) == ("build.refused", "cam.mark", Stage.PARTS)
+    assert (said.message, said.remedy) == ("no free place on part wheel", "leave mark out")
+    with pytest.raises(RefusedError) as refused:
+        mechanism().write(tmp_path / "out")
+    assert codes(refused.value.findings) == {"build.refused"}
+    assert mechanism().check(to="motion").errors == ()
+
+
+def test_a_mark_without_a_place_is_told_by_check() -> None:
+    pair = mw.design("elliptic-gears", cam={"mark": "LONG TEXT", "mark_height": 90})
+    (said,) = pair.check().errors
+    assert (said.code, said.parameter) == ("build.refused", "cam.part.gear.mark")
+
+
+def test_names_of_files_are_asked_of_every_command() -> None:
+    names = [[one.name for one in Run(mechanism(), work).inspections] for work in WORK.values()]
+    assert all("file-names" in each for each in names)

@@ -77,12 +77,7 @@ class Run:
         Without ``every`` only up to the first inspection that finds an error.
         """
         self.step(CHECKING)
-        if self.is_stopped() or Stage.PARTS.is_after(self.work.stage):
-            return
-        try:
-            _ = self.build.parts
-        except _REFUSALS as error:
-            self.unmade.append(refused(error, self.build.path, Stage.PARTS))
+        if self.is_stopped() or not self._has_parts():
             return
         later = self.made_later
         for one in self.inspections:
@@ -91,6 +86,16 @@ class Run:
         if self.is_stopped() and every:
             for one in later:
                 self._ask(one, made=False)
+
+    def _has_parts(self) -> bool:
+        """Whether the parts can be made, where the run comes to them."""
+        if self.unmade or Stage.PARTS.is_after(self.work.stage):
+            return not self.unmade
+        try:
+            _ = self.build.parts
+        except _REFUSALS as error:
+            self.unmade.append(refused(error, self.build.path, Stage.PARTS))
+        return not self.unmade
 
     def make(self, pages: Sequence[Page] = ()) -> Output:
         """Look, ask what needs something that is made, and make the files of some pages.
@@ -105,7 +110,7 @@ class Run:
         self._pages, build = list(pages), self.build
         for page in pages:
             page.warm(build)
-        if not errors(build.findings, self.work.stage):
+        if not self.is_stopped() and self._has_parts():
             for page in pages:
                 page.begin(build)
         self.look()
