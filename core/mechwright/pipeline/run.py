@@ -3,10 +3,10 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mechwright.contracts.finding import Finding, Findings, Stage, errors
 from mechwright.contracts.refused import RefusedError
-from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, ToolError
 from mechwright.output.folder import Content, Output
 from mechwright.pipeline.build import Build
@@ -14,6 +14,9 @@ from mechwright.pipeline.inspection import Inspection
 from mechwright.pipeline.page import Page
 from mechwright.pipeline.steps import CHECKING, Steps, shares
 from mechwright.pipeline.work import Work
+
+if TYPE_CHECKING:
+    from mechwright.contracts.synthesis import Progress
 
 REFUSED = "build.refused"
 """Code of the finding that something cannot be made: no cutter, no solid, a program that is not proven."""
@@ -40,14 +43,14 @@ class Run:
         Told how far it is.
     """
 
-    def __init__(self, build: Build, work: Work, progress: Progress = unheard) -> None:
+    def __init__(self, build: Build, work: Work, progress: "Progress | None" = None) -> None:
         self.build, self.work = build, work
         asked = (one for one in build.host.all(Inspection) if not one.stage.is_after(work.stage))
         self.inspections = sorted(asked, key=lambda one: one.order)
         self.unmade: list[Finding] = []
         """That the parts cannot be made."""
         self._pages: list[Page] = []
-        self._progress = progress
+        self._progress = progress or (lambda done, what: None)  # noqa: ARG005
         self._found: dict[str, Sequence[Finding]] = {}
         self._steps: Steps | None = None
 
@@ -150,7 +153,9 @@ class Run:
         try:
             self._found[one.name] = self.build.made_as_wanted(ask)
         except _REFUSALS as error:
-            self._found[one.name] = [refused(error, self.build.path, one.stage)]
+            said = refused(error, self.build.path, one.stage)
+            known = {(each.code, each.message) for each in self.findings}  # what two ask for is told once
+            self._found[one.name] = [] if (said.code, said.message) in known else [said]
 
     def _make(self, pages: Iterable[Page], made: Output) -> None:
         known = self.build.made_as_wanted(_kept)

@@ -1,11 +1,14 @@
 """How far a run of several pieces of work is."""
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
-from mechwright.contracts.synthesis import Progress
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
 from mechwright.pipeline.page import Page
+
+if TYPE_CHECKING:
+    from mechwright.contracts.synthesis import Progress
 
 CHECKING, WRITING = "checking", "writing"
 CHECK = 20.0
@@ -33,7 +36,7 @@ class Steps:
         Who is told.
     """
 
-    def __init__(self, build: Build, work: Mapping[str, float], progress: Progress) -> None:
+    def __init__(self, build: Build, work: Mapping[str, float], progress: "Progress") -> None:
         self._work, self._progress = work, progress
         self._whole = sum(work.values())
         self._begun: set[str] = set()
