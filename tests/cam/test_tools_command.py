@@ -278,7 +278,7 @@ def test_a_design_with_a_packed_library_is_built_and_tells_what_was_left_out(tmp
     text = command_line("new", "four-bar")[1]
     assert "\n[cam]\n" in text
     design.write_text(text.replace("\n[cam]\n", '\n[cam]\ntool_library = "crib.tools"\n'))
-    code, out, _ = command_line("check", design)
+    code, out, _ = command_line("check", design, "--figures")
     assert code == 0, out
     assert "cam.tool-library" in out
     assert f"mechwright tools {design} lists them" in out
