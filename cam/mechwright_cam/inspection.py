@@ -22,6 +22,25 @@ class Machinable(Inspection):
         return build.made(Machining).findings
 
 
+class Proven(Inspection):
+    """Whether each program can be planned, and is proven."""
+
+    name = "proofs"
+    stage = Stage.MACHINING
+    needs = frozenset({PROGRAMS})
+    order = 35
+    limited = False  # programs of large machines are planned and proven in it
+    doing = "drawings and programs"
+    share = 60.0
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """Nothing; raises as :attr:`mechwright_cam.machining.Machining.made` does."""
+        from mechwright_cam.machining import Machining
+
+        _ = build.made(Machining).made
+        return ()
+
+
 class Running(Inspection):
     """What the family says of the mechanism with its parts as the programs leave them."""
 
@@ -29,7 +48,7 @@ class Running(Inspection):
     stage = Stage.OUTPUT
     needs = frozenset({PROGRAMS})
     order = 40
-    limited = False  # programs of large machines are planned and proven in it
+    limited = False
     doing = "parts as made"
     share = 50.0
 

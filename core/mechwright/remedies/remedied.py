@@ -25,7 +25,7 @@ from mechwright.remedies.search import (
 )
 from mechwright.remedies.words import said
 
-NOT_ENOUGH = "that was tried, and is not enough by itself"
+NOT_ENOUGH = "what is proposed was tried, and is not enough by itself"
 
 FOLLOWED = 3
 """Proposals of an inspection that are followed one after the other, each of what the one before brings to
