@@ -49,6 +49,8 @@ class Run:
         self.inspections = sorted(asked, key=lambda one: one.order)
         self.unmade: list[Finding] = []
         """That the parts cannot be made."""
+        self.raised: MechwrightError | None = None
+        """The first error that is told as a finding."""
         self._pages: list[Page] = []
         self._progress = progress or (lambda done, what: None)  # noqa: ARG005
         self._found: dict[str, Sequence[Finding]] = {}
@@ -97,6 +99,7 @@ class Run:
         try:
             _ = self.build.parts
         except _REFUSALS as error:
+            self.raised = error
             self.unmade.append(refused(error, self.build.path, Stage.PARTS))
         return not self.unmade
 
@@ -153,6 +156,7 @@ class Run:
         try:
             self._found[one.name] = self.build.made_as_wanted(ask)
         except _REFUSALS as error:
+            self.raised = self.raised or error
             said = refused(error, self.build.path, one.stage)
             known = {(each.code, each.message) for each in self.findings}  # what two ask for is told once
             self._found[one.name] = [] if (said.code, said.message) in known else [said]

@@ -10,6 +10,7 @@ from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder, write_folder
 from mechwright.pipeline import WORK, Build, Page, Run, Work
+from mechwright.pipeline.run import REFUSED
 from mechwright.pipeline.steps import WRITING
 from mechwright.reading import once
 from mechwright.remedies import with_remedies
@@ -68,7 +69,7 @@ def perform(
     RefusedError
         Findings forbid it; nothing is written.
     MechwrightError
-        It cannot be made or written; nothing is written.
+        It cannot be made, which a check tells as ``build.refused``, or written; nothing is written.
     """
     found, wanted = build.host, build.wanted
     work = WORK[wanted.command] if work is None else work
@@ -80,6 +81,8 @@ def perform(
         try:
             output = run.make(pages_of(build))
         except RefusedError as refused:
+            if run.raised is not None and all(one.code == REFUSED for one in refused.findings):
+                raise run.raised from None  # a mistake in the file, in its own words
             raise RefusedError(build.path, errors(with_remedies(run), work.stage)) from refused
         if not output.files and empty:
             raise DesignError(f"{build.path}: family {build.design.family.name} {empty}")
