@@ -2,6 +2,7 @@
 
 import doctest
 import html
+import importlib.util
 import json
 import re
 import subprocess
@@ -26,7 +27,13 @@ def pair():
 
 
 def test_the_page_on_python_says_what_happens():
-    done = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8")
+    page = ROOT / "docs" / "python.md"
+    text = page.read_text(encoding="utf-8")
+    if importlib.util.find_spec("pyarrow") is None:
+        text, _, rest = text.partition("## Many designs of a family")
+        text += "".join(rest.partition("\n## ")[1:])
+    shown = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    done = doctest.DocTestRunner().run(shown)
     assert done.attempted > 10
     assert done.failed == 0
 

@@ -80,7 +80,8 @@ class Bench:
     def __post_init__(self) -> None:
         keys, fixed = keys_of(self.design), tuple(f"{table}." for table in self.fixed)
         self.keys = {path: key for path, key in keys.items() if not (key.given or path.startswith(fixed))}
-        self._given = keys.keys() - self.keys.keys()
+        self.given = keys.keys() - self.keys.keys()
+        """Keys that stay as they are."""
         self._found: dict[frozenset[tuple[str, str]], tuple[Finding, ...] | None] = {}
         self._used = 0.0
 
@@ -169,7 +170,7 @@ class Bench:
         return ASKED if key.first else SAID
 
     def _judged(self, change: Change) -> tuple[Finding, ...] | None:
-        if not self._given.isdisjoint(change):
+        if not self.given.isdisjoint(change):
             return None
         start = time.process_time()
         try:

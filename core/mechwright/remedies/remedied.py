@@ -221,7 +221,8 @@ def _as_others(bench: Bench, finding: Finding, told: Finding, fixes: Iterable[Ch
 
     What is about no key of the file, such as the shop, keeps its own words.
     """
-    if told.fix is not None or finding.severity is Severity.NOTE or _about_no_key(bench, finding):
+    of_file = path_of(bench, finding.parameter) in bench.given or not _about_no_key(bench, finding)
+    if told.fix is not None or finding.severity is Severity.NOTE or not of_file:
         return told
     before = errors([finding])
     change = next((one for one in fixes if worth(bench, finding, before, one) <= Worth.HELPS), None)
