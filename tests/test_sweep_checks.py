@@ -60,7 +60,7 @@ class Check:
 
 
 def swept(study, folder, check, monkeypatch, standing=None):
-    monkeypatch.setattr(Mechanism, "check", lambda mechanism, progress=None: check(mechanism, progress))
+    monkeypatch.setattr(Mechanism, "check", lambda mechanism, progress=None, **_: check(mechanism, progress))
     return evaluate(study, folder, Alone(), host(), standing=standing)
 
 

@@ -10,10 +10,11 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.synthesis import BEYOND, Candidate, Progress, Reason, Rejected, Synthesis
 from mechwright.designs.design import Design, design_of
 from mechwright.designs.requirement import Requirement
-from mechwright.pipeline import LOOK, Build, Run
+from mechwright.pipeline import Build
 from mechwright.plugins.host import Host
 from mechwright.remedies import Bench, Limits, nearest
 from mechwright.remedies.words import said
+from mechwright.scripting.checking import checked
 
 REMEDIED = 3
 """Designs, the best, for which a change of the requirement's tables is sought where none can be built."""
@@ -132,9 +133,7 @@ class _Judge:
 
     def _found(self, design: Design) -> Findings:
         with Build(design, self.installed) as build:
-            run = Run(build, LOOK)
-            run.look()
-            return run.findings
+            return checked(build, remedies=False)
 
     def of(self, one: Candidate[Any]) -> tuple[Design, Findings]:
         """The design that the file of a candidate will hold, and what ``check`` finds of it."""

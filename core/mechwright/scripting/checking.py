@@ -11,8 +11,10 @@ from mechwright.remedies import with_remedies
 from mechwright.scripting.performing import pages_of
 
 
-def checked(build: Build, to: Stage | None = None, progress: Progress = unheard) -> Findings:
-    """All that is found of a build up to a stage, with remedies that were tried.
+def checked(
+    build: Build, to: Stage | None = None, progress: Progress = unheard, *, remedies: bool = True
+) -> Findings:
+    """All that is found of a build up to a stage, with remedies that were tried if they are wanted.
 
     Without a stage nothing is made: it is said what can be said before. With one it is what the command says
     that ends there.
@@ -25,7 +27,7 @@ def checked(build: Build, to: Stage | None = None, progress: Progress = unheard)
     if to is None:
         run = Run(build, LOOK, progress)
         run.look()
-        return with_remedies(run)
+        return with_remedies(run) if remedies else run.findings
     command, work = work_to(to)
     # The build's own wishes hold where it is what its command asks: nothing is made twice then.
     asked = build if build.wanted.command == command else build.asking(command=command or "check")
@@ -39,7 +41,7 @@ def checked(build: Build, to: Stage | None = None, progress: Progress = unheard)
             raise
         except MechwrightError as error:
             unmakeable.append(refused(error, asked.path, to))
-    return Findings([*with_remedies(run), *unmakeable])
+    return Findings([*(with_remedies(run) if remedies else run.findings), *unmakeable])
 
 
 def unmade(host: Host, to: Stage | None) -> tuple[str, ...]:

@@ -70,7 +70,9 @@ class Mechanism(Build):
         write_new(Path(path), self.toml, replace=replace)
         return Path(path)
 
-    def check(self, progress: Progress = unheard, to: Stage | str | None = None) -> Findings:
+    def check(
+        self, progress: Progress = unheard, to: Stage | str | None = None, *, remedies: bool = True
+    ) -> Findings:
         """What ``mechwright check`` tells, with remedies that were tried.
 
         That is what the family finds, and if this allows it what every inspection does: bodies that meet,
@@ -84,8 +86,10 @@ class Mechanism(Build):
             The last stage that is looked at, and all is made for: solids, programs with their proofs, files.
             By default every stage is looked at, and nothing is made. What is made stays, and ``write`` takes
             it.
+        remedies
+            Whether changes are tried against what is found, which may take seconds.
         """
-        return checked(self, None if to is None else Stage(to), progress)
+        return checked(self, None if to is None else Stage(to), progress, remedies=remedies)
 
     def write(
         self,

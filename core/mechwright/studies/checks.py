@@ -145,7 +145,7 @@ def check(one: Candidate, progress: Progress = unheard) -> str:
 
 
 def _refused(mechanism: Mechanism, progress: Progress = unheard) -> str:
-    said = errors(mechanism.check(progress))
+    said = errors(mechanism.check(progress, remedies=False))
     return f"[{said[0].code}] {said[0].message}" if said else ""
 
 
