@@ -162,9 +162,10 @@ def sweep(
 
     Examples
     --------
-    >>> rods = {"rod": {"least": 60, "greatest": 120, "count": 61}}
-    >>> sweep({"family": "slider-crank", "name": "rods"}, method="grid", ranges=rods, workers=1)
-    <Sweep rods: 61 designs, 61 allowed, 0 on the front>
+    61 designs, each with another rod::
+
+        rods = {"rod": {"least": 60, "greatest": 120, "count": 61}}
+        sweep({"family": "slider-crank", "name": "rods"}, method="grid", ranges=rods)
     """
     require("pyarrow", by="sweep")
     chosen = workers_of(workers, scheduler)
