@@ -79,7 +79,7 @@ def stopped(
 ) -> str:
     """What is wrong after a build was stopped; empty if nothing is."""
     radius, stop = rng.choice((40, 45)), rng.choice(SIGNALS)
-    before = digest(folder)
+    before, there = digest(folder), set(path.parent.iterdir())
     words = command(path, folder, radius)
     running = subprocess.Popen(
         words,
@@ -105,11 +105,10 @@ def stopped(
         return f"{stop!r}: another run stands, and it said {said!r}"
     if code == 0 and digests[after] != radius:
         return f"{stop!r}: it was written, and is not there: {out!r}"
-    rest = [one.name for one in path.parent.iterdir() if one.name not in {path.name, folder.name}]
+    rest = set(path.parent.iterdir()) - there
     if rest and stop != signal.SIGKILL:
-        return f"{stop!r}: {rest} are left"
-    for name in rest:  # what a killed build was at, which the next one takes away
-        tally["left by a killed build"] += bool(name)
+        return f"{stop!r}: {sorted(one.name for one in rest)} are left"
+    tally["left by a killed build"] += bool(rest)
     time.sleep(0.5)
     alive = [
         status for status in map(status_of, Path("/proc").glob("[0-9]*/stat")) if status[2] == running.pid
