@@ -16,7 +16,7 @@ from mechwright.contracts.finding import Finding, Findings, Severity, Stage, err
 from mechwright.contracts.refused import RefusedError
 from mechwright.designs.design import Design, design_of
 from mechwright.errors import GeometryError, PluginFaultError
-from mechwright.pipeline import LOOK, PROGRAMS, SOLIDS, WORK, Build, Inspection, Run, work_to
+from mechwright.pipeline import LOOK, PROGRAMS, SOLIDS, WORK, Build, Inspection, Page, Run, Work, work_to
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.remedies import with_remedies
 from mechwright.worker_pool.budget import limited_cores
@@ -340,3 +340,46 @@ def test_a_mark_without_a_place_is_told_by_check() -> None:
 def test_names_of_files_are_asked_of_every_command() -> None:
     names = [[one.name for one in Run(mechanism(), work).inspections] for work in WORK.values()]
     assert all("file-names" in each for each in names)
+
+
+def test_what_only_programs_need_refuses_no_earlier_stage(tmp_path: Path) -> None:
+    """Names of programs are known where tools are; no stage before asks for them."""
+    lacking = {"cam": {"tools": ["none-such"]}}
+    for to in ("motion", "parts", "assembly"):
+        assert mechanism(**lacking).check(to=to).errors == (), to
+    (said,) = mechanism(**lacking).check(to="machining").errors
+    assert (said.code, said.stage) == ("build.refused", Stage.MACHINING)
+    mechanism(**lacking).asked(command="model").write(tmp_path / "model")
+
+
+class Sheets(Page):
+    """What a process that is no milling writes."""
+
+    name = "sheets"
+    commands = frozenset({"laser"})
+
+    def files(self, build: Build) -> dict[str, str]:
+        return {"sheet.txt": f"{len(build.parts)} parts\n"}
+
+
+class WithSheets(Among):
+    """What is installed, with the page of such a process."""
+
+    def all(self, contract: Any) -> list[Any]:
+        return [*super().all(contract), *([Sheets()] if contract is Page else [])]
+
+
+@pytest.mark.parametrize(
+    ("work", "refused"), [(Work(Stage.PARTS), False), (Work(Stage.ASSEMBLY), True), (None, True)]
+)
+def test_a_command_of_somebody_else_says_how_far_it_goes(
+    tmp_path: Path, work: Work | None, *, refused: bool
+) -> None:
+    """One that does not say is judged by all that can be said before anything is made."""
+    looks = Looks(Finding.error("looks.bad", "", "it is bad", stage=Stage.ASSEMBLY))
+    laser = mechanism(WithSheets(looks)).asking(command="laser", work=work)  # type: ignore[arg-type]
+    if refused:
+        with pytest.raises(RefusedError, match="it is bad"):
+            laser.write(tmp_path / "out")
+    else:
+        assert laser.write(tmp_path / "out").files == ("sheet.txt",)

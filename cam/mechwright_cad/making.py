@@ -18,7 +18,7 @@ from mechwright.contracts.holes import joined
 from mechwright.designs.design import Design
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
-from mechwright.pipeline import Build, FileName, Wanted
+from mechwright.pipeline import SOLIDS, Build, FileName, Wanted
 from mechwright.plugins.host import Host
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import WorkerPool
@@ -26,9 +26,6 @@ from mechwright.worker_pool.pool import WorkerPool
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
-
-IN_SPACE = frozenset({"model", "build"})
-"""Commands that make solids; the others look at plates alone, for which no CAD kernel is needed."""
 
 Made = tuple[list[Finding], dict[str, bytes], dict[str, float]]
 """What collides; the files, name to content; and the mass of one of each part, g."""
@@ -219,7 +216,7 @@ class Solids:
         if self._second is not None:
             return {MOTION: self._result[1][MOTION]}
         build = self._build
-        if build.wanted.command in IN_SPACE:
+        if SOLIDS in build.wanted.extent.makes:
             return motion_page(build.design, build.parts, solids=True)
         try:
             return motion_page(build.design, build.parts, solids=False)

@@ -14,7 +14,7 @@ from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.refused import RefusedError
 from mechwright.errors import PluginError
-from mechwright.pipeline import WORK, Wanted
+from mechwright.pipeline import Wanted
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.performing import Written
@@ -48,7 +48,7 @@ def perform(path: Path, folder: Path, wanted: Wanted, empty: str = "", as_json: 
         if as_json:
             _print(data_of(build.design.name, written, ok=True))
         else:
-            say(path, WORK[wanted.command].stage, written)
+            say(path, wanted.extent.stage, written)
 
 
 def say(path: Path, stage: Stage, written: Written, *, files: bool = True) -> None:

@@ -20,7 +20,7 @@ from mechwright.cli.telling import plain, tell
 from mechwright.contracts.finding import Stage
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
-from mechwright.pipeline import WORK, Wanted
+from mechwright.pipeline import Wanted
 from mechwright.plugins.host import host
 from mechwright.scripting.checking import unmade
 from mechwright.worker_pool.budget import available_cores, limit_cores
@@ -156,7 +156,7 @@ def _say_written(outcome: Outcome) -> None:
     if not outcome.said.findings and outcome.fault:
         typer.echo(f"mechwright: {_located(outcome)}", err=True)
     elif outcome.ok:
-        say(outcome.order.path, WORK[outcome.order.wanted.command].stage, outcome.said, files=False)
+        say(outcome.order.path, outcome.order.wanted.extent.stage, outcome.said, files=False)
     else:
         _say_findings(outcome)
 

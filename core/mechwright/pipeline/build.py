@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.errors import GeometryError, KinematicsError, PluginFaultError
+from mechwright.pipeline.work import LOOK, WORK, Work
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -34,7 +35,7 @@ class Wanted:
     Parameters
     ----------
     command
-        The command that is run; pages and inspections say which ones they belong to.
+        The command that is run; pages say which ones they belong to.
     samples
         Of the motion over one period.
     at
@@ -43,6 +44,8 @@ class Wanted:
         Names of exporters whose files are wanted besides.
     curves
         Kind of curves in drawings.
+    work
+        How far the run goes, and what it makes; None leaves it to the command.
     """
 
     command: str = "build"
@@ -50,6 +53,12 @@ class Wanted:
     at: str = ""
     formats: tuple[str, ...] = ()
     curves: str = "spline"
+    work: Work | None = None
+
+    @property
+    def extent(self) -> Work:
+        """How far the run goes; of a command that is not known all is looked at, and nothing made for it."""
+        return WORK.get(self.command, LOOK) if self.work is None else self.work
 
 
 class Build:

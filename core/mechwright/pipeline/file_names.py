@@ -7,7 +7,7 @@ from mechwright.contracts.file_names import file_key, free_name, name_fault
 from mechwright.contracts.finding import Change, Finding, Stage
 from mechwright.pipeline.build import Build, Wanted
 from mechwright.pipeline.inspection import Inspection
-from mechwright.pipeline.page import FileName, Page
+from mechwright.pipeline.page import FileName, pages_of
 from mechwright.pipeline.work import WORK
 
 
@@ -23,11 +23,12 @@ class FileNames(Inspection):
     def findings(self, build: Build) -> Sequence[Finding]:
         """An error for each name that two files of the command would have.
 
-        Of a whole build, the stage is that of the first command which would write them.
+        Of a whole build and of a check, the stage is that of the first command which would write them.
         """
         found: dict[str, Finding] = {}
-        own = build.wanted.command
-        for command in WORK if own not in WORK or WORK[own].stage is Stage.OUTPUT else (own,):
+        own, last = build.wanted.command, build.wanted.extent.stage
+        upto = [command for command, work in WORK.items() if not work.stage.is_after(last)]
+        for command in upto if own not in WORK or last is Stage.OUTPUT else (own,):
             for key, finding in _faults(files_of(build, replace(build.wanted, command=command))):
                 found.setdefault(key, replace(finding, stage=WORK[command].stage))
         return list(found.values())
@@ -35,8 +36,7 @@ class FileNames(Inspection):
 
 def files_of(build: Build, wanted: Wanted) -> list[FileName]:
     """The files that the pages of a command would write, as far as they know before any work."""
-    pages = [page for page in build.host.all(Page) if wanted.command in page.commands]
-    return [one for page in pages for one in page.names(build, wanted)]
+    return [one for page in pages_of(build.host, wanted.command) for one in page.names(build, wanted)]
 
 
 def _faults(files: Sequence[FileName]) -> Iterator[tuple[str, Finding]]:

@@ -3,13 +3,16 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from mechwright.contracts.file_names import hold_files
 from mechwright.contracts.guard import pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
 from mechwright.pipeline.build import Build, Wanted
+
+if TYPE_CHECKING:
+    from mechwright.plugins.host import Host
 
 
 @dataclass(frozen=True)
@@ -94,3 +97,8 @@ class Page(Plugin):
         MechwrightError
             It cannot be made; nothing of the whole run is written then.
         """
+
+
+def pages_of(host: "Host", command: str) -> list[Page]:
+    """The pages that a command writes."""
+    return [page for page in host.all(Page) if command in page.commands]

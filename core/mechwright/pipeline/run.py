@@ -1,7 +1,7 @@
 """One run of a build: its inspections up to a stage, the cheap ones first, then the files of its pages."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -47,7 +47,7 @@ class Run:
         self.build, self.work = build, work
         asked = (one for one in build.host.all(Inspection) if not one.stage.is_after(work.stage))
         self.inspections = sorted(asked, key=lambda one: one.order)
-        self.unmade: list[Finding] = []
+        self.part_errors: list[Finding] = []
         """That the parts cannot be made."""
         self.raised: MechwrightError | None = None
         """The first error that is told as a finding."""
@@ -70,7 +70,7 @@ class Run:
     def findings(self) -> Findings:
         """All of it: what the family says, that parts cannot be made, and what inspections find."""
         inspected = (one for _, found in self.found for one in found)
-        return Findings([*self.build.findings, *self.unmade, *inspected])
+        return Findings([*self.build.findings, *self.part_errors, *inspected])
 
     def is_stopped(self) -> bool:
         """Whether something that is found forbids the run."""
@@ -94,14 +94,14 @@ class Run:
 
     def _has_parts(self) -> bool:
         """Whether the parts can be made, where the run comes to them."""
-        if self.unmade or Stage.PARTS.is_after(self.work.stage):
-            return not self.unmade
+        if self.part_errors or Stage.PARTS.is_after(self.work.stage):
+            return not self.part_errors
         try:
             _ = self.build.parts
         except _REFUSALS as error:
             self.raised = error
-            self.unmade.append(refused(error, self.build.path, Stage.PARTS))
-        return not self.unmade
+            self.part_errors.append(refused(error, self.build.path, Stage.PARTS))
+        return not self.part_errors
 
     def make(self, pages: Sequence[Page] = ()) -> Output:
         """Look, ask what needs something that is made, and make the files of some pages.
@@ -148,11 +148,14 @@ class Run:
 
     def ask(self, one: Inspection, build: Build) -> Sequence[Finding]:
         """What an inspection finds of a build such as this one, as this run asks it."""
-        return (one.findings if one.needs <= self.work.makes else one.outlook)(build)
+        return self._question(one)(build)
+
+    def _question(self, one: Inspection) -> Callable[[Build], Sequence[Finding]]:
+        return one.findings if one.needs <= self.work.makes else one.outlook
 
     def _ask(self, one: Inspection, *, made: bool = True) -> None:
         self.step(one.doing)
-        ask = one.findings if made and one.needs <= self.work.makes else one.outlook
+        ask = self._question(one) if made else one.outlook
         try:
             self._found[one.name] = self.build.made_as_wanted(ask)
         except _REFUSALS as error:

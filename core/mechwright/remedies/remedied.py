@@ -105,7 +105,7 @@ def with_remedies(run: Run) -> Findings:
     own, last = run.build.findings, run.work.stage
     sought = [one for one in own if one.severity is not Severity.ERROR or not one.stage.is_after(last)]
     known = dict(zip(map(id, sought), tried(run.build.design, sought), strict=True))
-    told = [*((one, known.get(id(one), one)) for one in own), *((one, one) for one in run.unmade)]
+    told = [*((one, known.get(id(one), one)) for one in own), *((one, one) for one in run.part_errors)]
     for each, found in run.found:
         told += zip(found, proposed_tried(run, each, found), strict=True)
     whole = _Whole(run)

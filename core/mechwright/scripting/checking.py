@@ -5,10 +5,10 @@ from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.pipeline import LOOK, Build, Inspection, Run, work_to
+from mechwright.pipeline.page import pages_of
 from mechwright.pipeline.run import refused
 from mechwright.plugins.host import Host
 from mechwright.remedies import with_remedies
-from mechwright.scripting.performing import pages_of
 
 
 def checked(
@@ -30,11 +30,12 @@ def checked(
         return with_remedies(run) if remedies else run.findings
     command, work = work_to(to)
     # The build's own wishes hold where it is what its command asks: nothing is made twice then.
-    asked = build if build.wanted.command == command else build.asking(command=command or "check")
+    same = build.wanted.command == command
+    asked = build if same else build.asking(command=command or "check", work=work)
     run, unmakeable = Run(asked, work, progress), list[Finding]()
     with asked:
         try:
-            run.make(pages_of(asked) if command else [])
+            run.make(pages_of(asked.host, command))
         except RefusedError:
             pass
         except PluginFaultError:

@@ -98,7 +98,7 @@ class Mechanism(Build):
         empty: str = "",
     ) -> Written:
         """Write everything that the command asked for writes, ``build`` by default; see :func:`perform`."""
-        return perform(self, Path(folder), None, progress, empty)
+        return perform(self, Path(folder), progress, empty)
 
     @property
     def page(self) -> str:

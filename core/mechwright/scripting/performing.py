@@ -9,7 +9,8 @@ from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder, write_folder
-from mechwright.pipeline import WORK, Build, Page, Run, Work
+from mechwright.pipeline import Build, Run
+from mechwright.pipeline.page import pages_of
 from mechwright.pipeline.run import REFUSED
 from mechwright.pipeline.steps import WRITING
 from mechwright.reading import once
@@ -46,19 +47,15 @@ class Written:
         return f"<Written {self.folder}: {', '.join(self.files)}>"
 
 
-def perform(
-    build: Build, folder: Path, work: Work | None = None, progress: Progress = unheard, empty: str = ""
-) -> Written:
+def perform(build: Build, folder: Path, progress: Progress = unheard, empty: str = "") -> Written:
     """Make the pages of a build's command, and write them into a folder as one.
 
     Parameters
     ----------
     build
-        What is asked of it says the command; it is closed afterwards.
+        What is asked of it says the command and how far the run goes; it is closed afterwards.
     folder
         New, empty, or written by an earlier run.
-    work
-        How far the run goes; by default as far as the command of that name.
     progress
         Told how far it is.
     empty
@@ -71,15 +68,14 @@ def perform(
     MechwrightError
         It cannot be made, which a check tells as ``build.refused``, or written; nothing is written.
     """
-    found, wanted = build.host, build.wanted
-    work = WORK[wanted.command] if work is None else work
+    found, wanted, work = build.host, build.wanted, build.wanted.extent
     for name in wanted.formats:
         found.get(Exporter, name)
     check_folder(folder)
     run = Run(build, work, progress)
     with build, once():
         try:
-            output = run.make(pages_of(build))
+            output = run.make(pages_of(found, wanted.command))
         except RefusedError as refused:
             if run.raised is not None and all(one.code == REFUSED for one in refused.findings):
                 raise run.raised from None  # a mistake in the file, in its own words
@@ -94,8 +90,3 @@ def perform(
     said = Findings(replace(one, remedy="") if one in later else one for one in told)
     files = tuple(sorted(output.files))
     return Written(folder, files, said, later, tuple(build.missing), tuple(build.faults))
-
-
-def pages_of(build: Build, command: str = "") -> list[Page]:
-    """The pages that a command writes, by default the build's."""
-    return [page for page in build.host.all(Page) if (command or build.wanted.command) in page.commands]
