@@ -1,0 +1,216 @@
+"""Motion of all links of a planar machine over its input, group after group, from pose to jerk.
+
+Inputs and designs are arrays: the last axis are the samples of the input, one before it the designs.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Geared, Group, assembly_order
+from mechwright.mechanics.planar.cluster import followed
+from mechwright.mechanics.planar.dyads import (
+    Slide,
+    Solved,
+    Way,
+    body_at,
+    crossing,
+    pin_and_slide,
+    pins,
+    slide_between,
+    turned,
+)
+from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.machine import Machine, Prismatic, Revolute
+from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
+
+
+@dataclass(frozen=True)
+class Solution:
+    """How a machine moves.
+
+    Parameters
+    ----------
+    bodies
+        Link to its motion (..., n), the ground among them; NaN where a group does not close.
+    sines
+        What a group is named by, its inner joint, to the sine (..., n) of its transmission angle; of larger
+        groups the smallest singular value over the largest one. At 0 is a dead point.
+    """
+
+    bodies: Mapping[str, BodyMotion]
+    sines: Mapping[str, Array]
+
+    def place(self, joint: Revolute) -> PointMotion:
+        """How a pin moves."""
+        link = joint.two if joint.one == GROUND else joint.one
+        return self.bodies[link].point(joint.place(link))
+
+    @property
+    def closes(self) -> Array:
+        """Whether every link stands (..., n)."""
+        stands = [np.isfinite(body.turning.theta) for body in self.bodies.values()]
+        return np.logical_and.reduce(np.broadcast_arrays(*stands))
+
+
+def solve(
+    machine: Machine, inputs: Sequence[Turning], order: Sequence[Group] | None = None
+) -> Solution:
+    """Find the motion of every link.
+
+    Parameters
+    ----------
+    machine
+        Links, joints and drives.
+    inputs
+        Of each drive its angle, or its slide in mm, and three rates (..., n); rates per unit of the input are
+        those of the input with the rates 1, 0, 0.
+    order
+        That of :func:`assembly_order`, where it is known.
+
+    Raises
+    ------
+    KinematicsError
+        The machine cannot be put together.
+
+    Examples
+    --------
+    >>> from mechwright.mechanics.planar.machine import Drive
+    >>> joints = [
+    ...     Revolute("A0", "ground", "crank", 0, 0), Revolute("A", "crank", "coupler", 30, 0),
+    ...     Revolute("B", "coupler", "rocker", 80, 70), Revolute("B0", "ground", "rocker", 90, 0),
+    ... ]
+    >>> found = solve(Machine(joints, [Drive("crank")]), [Turning.of([0.0, 1.0], 1.0)])
+    >>> np.degrees(found.bodies["rocker"].turning.theta).round(3).tolist()
+    [101.787, 124.391]
+    """
+    still = np.zeros(np.broadcast_shapes(*(one.theta.shape for one in inputs)))
+    bodies = {GROUND: BodyMotion.about(0j, Turning.of(still))}
+    sines: dict[str, Array] = {}
+    for group in assembly_order(machine) if order is None else order:
+        if isinstance(group, Driven):
+            bodies[group.link] = _driven(machine, group, bodies, inputs[group.drive])
+        elif isinstance(group, Geared):
+            bodies[group.link] = _geared(group, bodies)
+        elif isinstance(group, Dyad):
+            one, two, sine = _dyad(machine, group, bodies)
+            bodies |= dict(zip(group.links, (one, two), strict=True))
+            sines[group.inner.name] = sine
+        else:
+            found, sine = followed(machine, group, bodies, inputs)
+            bodies |= found
+            sines[_name(group)] = sine
+    return Solution(bodies, sines)
+
+
+def _name(group: Cluster) -> str:
+    return next(joint.name for joint in group.joints if set(joint.links) <= set(group.links))
+
+
+def _driven(machine: Machine, group: Driven, bodies: Mapping[str, BodyMotion], drive: Turning) -> BodyMotion:
+    joint, on = group.joint, bodies[group.on]
+    backwards = machine.drives[group.drive].link != group.link
+    sense = -1.0 if backwards else 1.0
+    if isinstance(joint, Revolute):
+        turning = _sum(on.turning, drive.scaled(sense))
+        return body_at(on.point(joint.place(group.on)), joint.place(group.link), turning)
+    # The slide counts along the line of the guide, whichever of the two is found.
+    sense = 1.0 if group.on == joint.guide else -1.0
+    slide = _line(joint, on, group.on)
+    way = Way(sense * drive.theta, sense * drive.omega, sense * drive.alpha, sense * drive.jerk)
+    own = turned(slide.turning, -joint.direction(group.link))
+    return body_at(slide.at(way), joint.place(group.link), own)
+
+
+def _geared(group: Geared, bodies: Mapping[str, BodyMotion]) -> BodyMotion:
+    gears, pin = group.gears, group.pin
+    carrier = bodies[gears.carrier].turning
+    forwards = group.link == gears.two
+    mate = bodies[gears.one if forwards else gears.two].turning
+    ratio = gears.ratio if forwards else 1 / gears.ratio
+    phase = gears.phase if forwards else -gears.phase / gears.ratio
+    turning = turned(_sum(carrier.scaled(1 - ratio), mate.scaled(ratio)), phase)
+    stands = pin.one if pin.two == group.link else pin.two
+    return body_at(bodies[stands].point(pin.place(stands)), pin.place(group.link), turning)
+
+
+def _sum(one: Turning, two: Turning) -> Turning:
+    return Turning(one.theta + two.theta, one.omega + two.omega, one.alpha + two.alpha, one.jerk + two.jerk)
+
+
+def _dyad(machine: Machine, group: Dyad, bodies: Mapping[str, BodyMotion]) -> Solved:
+    inner, (first, last), (one, two) = group.inner, group.outer, group.links
+    branch = _branch(machine, group)
+    if isinstance(first, Revolute) and isinstance(last, Revolute):
+        ends = [_standing(joint, link, bodies) for joint, link in ((first, one), (last, two))]
+        if isinstance(inner, Revolute):
+            places = [(joint.place(link), inner.place(link)) for joint, link in ((first, one), (last, two))]
+            return pins(ends[0], ends[1], (places[0], places[1]), branch)
+        offset = _across(inner, first.place(one), last.place(two), one)
+        own = [(joint.place(link), inner.direction(link)) for joint, link in ((first, one), (last, two))]
+        return slide_between(ends[0], ends[1], offset, tuple(own), branch)
+    assert isinstance(last, Prismatic)  # noqa: S101 - as groups are ordered
+    slide = _line(last, bodies[_stands(last, two)], _stands(last, two))
+    if isinstance(inner, Revolute) and isinstance(first, Revolute):
+        moved = Slide(slide.point, slide.turning, _offset(last, two, inner.place(two)))
+        second = inner.place(two), last.direction(two)
+        places_ = first.place(one), inner.place(one)
+        return pin_and_slide(_standing(first, one, bodies), places_, moved, second, branch)
+    if isinstance(inner, Revolute):  # PRP: the pin slides along two lines
+        assert isinstance(first, Prismatic)  # noqa: S101 - as groups are ordered
+        other = _line(first, bodies[_stands(first, one)], _stands(first, one))
+        lines = [
+            Slide(line.point, line.turning, _offset(joint, link, inner.place(link)))
+            for line, joint, link in ((other, first, one), (slide, last, two))
+        ]
+        pin, sine = crossing(lines[0], lines[1])
+        turnings = [turned(line.turning, -j.direction(k)) for line, j, k in zip(lines, (first, last), (one, two), strict=True)]
+        places = [body_at(pin, inner.place(k), t) for k, t in zip((one, two), turnings, strict=True)]
+        return places[0], places[1], sine
+    # RPP: the second link slides on what stands, and the first, pinned to what stands, slides on it.
+    assert isinstance(first, Revolute)  # noqa: S101 - a group of three slides does not close
+    second_turning = turned(slide.turning, -last.direction(two))
+    direction = turned(second_turning, inner.direction(two))
+    first_turning = turned(direction, -inner.direction(one))
+    own = body_at(_standing(first, one, bodies), first.place(one), first_turning)
+    sought = Slide(slide.point, slide.turning, _offset(last, two, inner.place(two)))
+    point, sine = crossing(sought, Slide(own.point(inner.place(one)), direction))
+    return own, body_at(point, inner.place(two), second_turning), sine
+
+
+def _branch(machine: Machine, group: Dyad) -> Any:
+    """The branch of a dyad, whose joints may stand in another order than the links of its inner joint."""
+    branch = machine.branches.get(group.inner.name, 1)
+    swapped = group.links != group.inner.links
+    return -np.asarray(branch) if swapped and group.kind in {"RRR", "RPR"} else branch
+
+
+def _standing(joint: Revolute, link: str, bodies: Mapping[str, BodyMotion]) -> PointMotion:
+    """How an outer pin of a link moves."""
+    stands = _stands(joint, link)
+    return bodies[stands].point(joint.place(stands))
+
+
+def _stands(joint: Revolute | Prismatic, link: str) -> str:
+    one, two = joint.links
+    return one if two == link else two
+
+
+def _line(joint: Prismatic, body: BodyMotion, link: str) -> Slide:
+    """The line of a slide as the link that stands has it: through its own point of the joint."""
+    return Slide(body.point(joint.place(link)), turned(body.turning, joint.direction(link)))
+
+
+def _offset(joint: Prismatic, link: str, place: Any) -> Any:
+    """How far a place of the link that slides is to the left of the line."""
+    lever = np.asarray(place, complex) - joint.place(link)
+    return (lever * np.exp(-1j * np.asarray(joint.direction(link)))).imag
+
+
+def _across(joint: Prismatic, one: Any, two: Any, first: str) -> Any:
+    """How far the second outer pin is to the left of the first along the slide between two bars."""
+    second = joint.block if first == joint.guide else joint.guide
+    return _offset(joint, second, two) - _offset(joint, first, one)
