@@ -163,12 +163,11 @@ def _outer(machine: Machine, standing: set[str], link: str) -> list[Revolute | P
     ]
 
 
-def _tied(
-    machine: Machine, standing: set[str], links: Sequence[str], known: Sequence[Joint]
-) -> bool:
+def _tied(machine: Machine, standing: set[str], links: Sequence[str], known: Sequence[Joint]) -> bool:
     """Whether more than a dyad's three joints ties two links: a gear, a second joint, a drive."""
     joints, drives = _ties(machine, standing, links)
-    return len(joints) != 3 or bool(drives) or not set(known) <= set(joints)
+    # By name: places may be columns, which have no hash.
+    return len(joints) != 3 or bool(drives) or not {one.name for one in known} <= {one.name for one in joints}
 
 
 def _ties(

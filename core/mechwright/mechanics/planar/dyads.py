@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.planar.dyad import joined
+from mechwright.mechanics.planar.dyad import continuous, joined
 from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning
 
 Solved = tuple[BodyMotion, BodyMotion, Array]
@@ -73,9 +73,7 @@ def pins(
     first, second = joined(one, two, lengths[0], lengths[1], branch)
     found = [
         body_at(pin, outer, turned(bar.turning, -np.angle(vector)))
-        for pin, (outer, _), bar, vector in zip(
-            (one, two), places, (first, second), bars, strict=True
-        )
+        for pin, (outer, _), bar, vector in zip((one, two), places, (first, second), bars, strict=True)
     ]
     sine = (np.conj(first.turning.direction) * second.turning.direction).imag
     return found[0], found[1], np.abs(sine)
@@ -114,7 +112,7 @@ def pin_and_slide(
         w2, s2 = _bar_rates(right, z)
         right = (q.jerk - pin.jerk) / n + a3 * e + 3 * a2 * s1 + 3 * b1 * s2 + (3 * w1 * w2 + 1j * w1**3) * z
         w3, _ = _bar_rates(right, z)
-    own = Turning.of(_followed(np.angle(z * n)) - np.angle(bar), w1, w2, w3)
+    own = Turning.of(continuous(np.angle(z * n)) - np.angle(bar), w1, w2, w3)
     first = body_at(pin, outer, own)
     place, angle = second
     return first, body_at(first.point(inner), place, turned(turning, -angle)), np.abs(along) / length
@@ -147,7 +145,7 @@ def slide_between(
         x = (two.jerk - one.jerk) / n - 3j * b1 * s2 - 3 * (1j * b2 - b1**2) * s1
         x = x + (3 * b1 * b2 + 1j * b1**3) * e
         b3, _ = _swing_rates(x, sigma, offset)
-    turning = Turning.of(_followed(np.angle(n)), b1, b2, b3)
+    turning = Turning.of(continuous(np.angle(n)), b1, b2, b3)
     (a, first), (b, second) = links
     bodies = body_at(one, a, turned(turning, -first)), body_at(two, b, turned(turning, -second))
     return *bodies, np.abs(sigma) / distance
@@ -174,9 +172,7 @@ def crossing(one: Slide, two: Slide) -> tuple[PointMotion, Array]:
             rate = _RATES[order]
             right = getattr(there, rate) - getattr(here, rate)
             along = (right * np.conj(n2)).imag / sine, (right * np.conj(n1)).imag / sine
-            ways = [
-                Way(**{**_fields(way), order: value}) for way, value in zip(ways, along, strict=True)
-            ]
+            ways = [Way(**{**_fields(way), order: value}) for way, value in zip(ways, along, strict=True)]
     return one.at(ways[0]), np.abs(sine)
 
 
@@ -185,11 +181,3 @@ _RATES = {"value": "position", "first": "velocity", "second": "acceleration", "t
 
 def _fields(way: Way) -> dict[str, Array]:
     return {"value": way.value, "first": way.first, "second": way.second, "third": way.third}
-
-
-def _followed(angle: Array) -> Array:
-    """Angles (..., n) without jumps by a turn along the samples; those that are no number stay."""
-    angle = np.asarray(angle)
-    if angle.ndim == 0 or not np.isfinite(angle).all():
-        return angle
-    return np.unwrap(angle)
