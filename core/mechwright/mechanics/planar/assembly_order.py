@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.errors import KinematicsError
-from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Drive, GearPair, Joint, Machine, Prismatic, Revolute
 
 
@@ -168,7 +168,8 @@ def _tied(
 ) -> bool:
     """Whether more than a dyad's three joints ties two links: a gear, a second joint, a drive."""
     joints, drives = _ties(machine, standing, links)
-    return len(joints) != 3 or bool(drives) or not set(known) <= set(joints)
+    names = {joint.name for joint in joints}
+    return len(joints) != 3 or bool(drives) or not {joint.name for joint in known} <= names
 
 
 def _ties(
