@@ -10,14 +10,43 @@ from mechwright.mechanics.linkage import fields
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.units import Millimetres, Unit
 from mechwright_linkage.catalogue.entry import Entry
-from mechwright_linkage.catalogue.quick_return import CrankShaper
+from mechwright_linkage.catalogue.legs import Jansen, Klann
+from mechwright_linkage.catalogue.parallels import Pantograph, ParallelGuide
+from mechwright_linkage.catalogue.quick_return import CrankShaper, Whitworth
+from mechwright_linkage.catalogue.six_bars import StephensonOne, StephensonThree, WattOne, WattTwo
+from mechwright_linkage.catalogue.slides import ScissorLift, ScotchYoke, TogglePress
+from mechwright_linkage.catalogue.stephenson_two import StephensonTwo
+from mechwright_linkage.catalogue.straight_lines import Chebyshev, Hoecken, Peaucellier, Roberts, WattLine
+from mechwright_linkage.catalogue.wipers import Wiper
 from mechwright_linkage.sketch import refuse_strangers
 from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, Word
 
 MOST_LINKS, MOST_POINTS = 16, 60
 """Of a drawn linkage: layers are sought for all of them."""
 
-LinkageName = Literal["drawn", "crank_shaper"]
+LinkageName = Literal[
+    "drawn",
+    "watt-1",
+    "watt-2",
+    "stephenson-1",
+    "stephenson-2",
+    "stephenson-3",
+    "whitworth",
+    "crank-shaper",
+    "scotch-yoke",
+    "pantograph",
+    "parallel-guide",
+    "peaucellier",
+    "hoecken",
+    "chebyshev",
+    "roberts",
+    "watt-line",
+    "jansen",
+    "klann",
+    "toggle-press",
+    "wiper",
+    "scissor-lift",
+]
 
 
 class LoadTable(Parameters):
@@ -37,8 +66,8 @@ class LinkageParams(Parameters):
 
     Examples
     --------
-    >>> LinkageParams(linkage="crank_shaper").entry.crank
-    10.0
+    >>> LinkageParams(linkage="jansen").entry.m
+    15.0
     """
 
     also: ClassVar[Mapping[str, str]] = {
@@ -49,12 +78,31 @@ class LinkageParams(Parameters):
     }
 
     linkage: LinkageName = Field(
-        "crank_shaper",
+        "jansen",
         description="A linkage of the catalogue, whose dimensions stand in the table of its name; or drawn, "
         "by points and links.",
         json_schema_extra=FIRST,
     )
-    crank_shaper: CrankShaper = Field(CrankShaper(), description="Dimensions of the crank-shaper.")
+    watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
+    watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
+    stephenson_1: StephensonOne = Field(StephensonOne(), description='Dimensions for linkage = "stephenson-1".')
+    stephenson_2: StephensonTwo = Field(StephensonTwo(), description='Dimensions for linkage = "stephenson-2".')
+    stephenson_3: StephensonThree = Field(StephensonThree(), description='Dimensions for linkage = "stephenson-3".')
+    whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
+    crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
+    scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
+    pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
+    parallel_guide: ParallelGuide = Field(ParallelGuide(), description='Dimensions for linkage = "parallel-guide".')
+    peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
+    hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
+    chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
+    roberts: Roberts = Field(Roberts(), description='Dimensions for linkage = "roberts".')
+    watt_line: WattLine = Field(WattLine(), description='Dimensions for linkage = "watt-line".')
+    jansen: Jansen = Field(Jansen(), description='Dimensions for linkage = "jansen".')
+    klann: Klann = Field(Klann(), description='Dimensions for linkage = "klann".')
+    toggle_press: TogglePress = Field(TogglePress(), description='Dimensions for linkage = "toggle-press".')
+    wiper: Wiper = Field(Wiper(), description='Dimensions for linkage = "wiper".')
+    scissor_lift: ScissorLift = Field(ScissorLift(), description='Dimensions for linkage = "scissor-lift".')
     points: dict[Word, PointTable] = Field(
         default_factory=dict,
         max_length=MOST_POINTS,
@@ -176,8 +224,13 @@ class LinkageParams(Parameters):
     @property
     def entry(self) -> Entry:
         """The linkage of the catalogue with its dimensions; raises AttributeError of one that is drawn."""
-        found: Entry = getattr(self, self.linkage)
+        found: Entry = getattr(self, self.table_name)
         return found
+
+    @property
+    def table_name(self) -> str:
+        """The key of the table that has the dimensions: of a linkage of the catalogue its own, else points."""
+        return "points" if self.linkage == "drawn" else self.linkage.replace("-", "_")
 
     @property
     def link_points(self) -> Mapping[str, Sequence[str]]:

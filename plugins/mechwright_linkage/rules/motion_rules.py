@@ -22,7 +22,7 @@ Fails = Failure[LinkageTable]
 
 def _joints(table: LinkageTable) -> Iterator[Finding]:
     """Whether links and joints make a machine of one degree of freedom."""
-    key = "links" if table.given.linkage == "drawn" else table.given.linkage
+    key = table.given.table_name
     try:
         table.order  # noqa: B018 - it raises
     except KinematicsError as error:
@@ -41,7 +41,7 @@ def _reach(table: LinkageTable) -> Iterator[Finding]:
     if not ways:
         yield Finding.error(
             "linkage.closure",
-            "points" if table.given.linkage == "drawn" else table.given.linkage,
+            table.given.table_name,
             "the links cannot be put together at any position of the input",
             remedy="make a link longer, or put its ends nearer to each other",
             stage=Stage.MOTION,
@@ -56,7 +56,7 @@ def _out_of_reach(table: LinkageTable) -> Finding:
     if asked is None:
         return Finding.error(
             "linkage.closure",
-            "points" if table.given.linkage == "drawn" else table.given.linkage,
+            table.given.table_name,
             f"the links are within {math.degrees(TURN_BACK):g} degree of a dead point wherever the input "
             "stands",
             remedy="make a link longer, or put its ends nearer to each other",
@@ -109,7 +109,7 @@ def least_transmission(table: LinkageTable) -> object:
 
 TRANSMISSION = Rule(
     "linkage.transmission",
-    lambda f: "points" if f.m.given.linkage == "drawn" else f.m.given.linkage,
+    lambda f: f.m.given.table_name,
     lambda f: f"the transmission angle at {f.m.worst_joint} falls to {f.value:.3g} degrees",
     value=least_transmission,
     limit=LEAST_TRANSMISSION,

@@ -23,7 +23,7 @@ from mechwright.mechanics.planar.dyads import (
     slide_between,
     turned,
 )
-from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Machine, Prismatic, Revolute
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
