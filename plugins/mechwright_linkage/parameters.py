@@ -61,6 +61,22 @@ class LoadTable(Parameters):
     )
 
 
+class SpringTable(Parameters):
+    """A tension or compression spring between points of two links."""
+
+    link: Word = Field("", description="One link.")
+    point: Word = Field("", description="The point of it.")
+    on: Word = Field(GROUND, description="The other link, or the ground.")
+    on_point: Word = Field("", description="The point of that.")
+    rate: Annotated[float, Field(ge=0, le=1e5), Unit("N/mm")] = Field(0.0, description="Spring rate.")
+    free_length: Millimetres = Field(0.0, ge=0, le=5000, description="Length at which it bears nothing.")
+
+    @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Link and point of both ends."""
+        return (self.link, self.point), (self.on, self.on_point)
+
+
 class LinkageParams(Parameters):
     """Links, pins and slides in a plane, made of plates; from the catalogue, or as they are drawn.
 
@@ -144,6 +160,13 @@ class LinkageParams(Parameters):
         None, description="The other end of that stroke."
     )
     loads: tuple[LoadTable, ...] = Field((), max_length=16, description="Forces and torques on links.")
+    springs: tuple[SpringTable, ...] = Field((), max_length=16, description="Springs between links.")
+    gravity_x: Annotated[float, Field(ge=-100, le=100), Unit("m/s^2")] = Field(
+        0.0, description="Acceleration of free fall along X; 0 for a machine that lies flat."
+    )
+    gravity_y: Annotated[float, Field(ge=-100, le=100), Unit("m/s^2")] = Field(
+        0.0, description="The same along Y: -9.81 for a machine that stands upright."
+    )
     thickness: Millimetres = Field(
         6.0, ge=1, le=100, description="Of the moving links.", json_schema_extra=FIRST
     )
@@ -210,16 +233,19 @@ class LinkageParams(Parameters):
         elif self.driver or self.driver_on != GROUND:
             raise ValueError("driver: a linkage of the catalogue has its own; leave driver and driver_on out")
         asked += [("pairs", link, list(points)) for pair in self.pairs for link in pair]
-        asked += [("loads", load.link, moving) for load in self.loads]
+        asked += [("loads", load.link or "?", moving) for load in self.loads]
+        asked += [("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends]
         for key, link, known in asked:
             if link and link not in known:
                 raise ValueError(f"{key}: no link is called {link!r}; there are {', '.join(known)}")
         for one, two in self.pairs:
             if one == two:
                 raise ValueError(f"pairs: {one} does not move relative to itself; name two links")
-        for load in self.loads:
-            if load.point and load.point not in points[load.link]:
-                raise ValueError(f"loads: {load.link} has no point {load.point!r}: {', '.join(points[load.link])}")
+        stated = [("loads", load.link, load.point) for load in self.loads if load.point]
+        stated += [("springs", *one) for spring in self.springs for one in spring.ends]
+        for key, link, point in stated:
+            if point not in points[link]:
+                raise ValueError(f"{key}: {link} has no point {point!r}; it has {', '.join(points[link])}")
 
     @property
     def entry(self) -> Entry:

@@ -84,7 +84,7 @@ def read_address(text: str, source: str) -> Drawing:
         raise DesignError(f"{source}: it is no address of PMKS+, which has eight parts after the '?'")
     joints, links = _lists(pieces[4:])
     found, names = Drawing(), dict[str, str]()
-    still, driven, sliding = set[str](), "", dict[str, float]()
+    still, driven, sliding = list[str](), "", dict[str, float]()
     for one in joints:
         flags, (key, name, x, y, angle) = DIGITS.find(one[:1]), _cells(one[1:], 5, source)
         if flags < 0:
@@ -96,7 +96,7 @@ def read_address(text: str, source: str) -> Drawing:
         if flags & _SLIDES:
             sliding[names[key]] = _value(angle, source) * 57.29577951308232
         elif flags & _STANDS:
-            still.add(names[key])
+            still.append(names[key])
         driven = names[key] if flags & _INPUT else driven
     for point in still:
         found.add(point, GROUND)

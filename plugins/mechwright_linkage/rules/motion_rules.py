@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -11,13 +12,28 @@ from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright_linkage.kinematics.linkage_table import LinkageTable
-from mechwright_linkage.kinematics.period import ends_of, is_lever, ranges_of, requested, turns_fully
+from mechwright_linkage.kinematics.figures import least_transmission, worst_joint
+from mechwright_linkage.kinematics.period import (
+    course_of,
+    ends_of,
+    interval_of,
+    is_lever,
+    range_of,
+    requested,
+    sure_to_turn,
+    turns_fully,
+)
 
 GOOD_TRANSMISSION = 30.0
 """Degrees below which a link mainly presses the next one into its bearings."""
 
 Rule = DesignRule[LinkageTable]
 Fails = Failure[LinkageTable]
+
+
+def _doubtful(table: LinkageTable) -> Any:
+    """Which linkages may not turn all the way; of one, always."""
+    return np.array(True) if table.single or not table.may_turn else ~sure_to_turn(table)
 
 
 def _joints(table: LinkageTable) -> Iterator[Finding]:
@@ -37,8 +53,7 @@ def _joints(table: LinkageTable) -> Iterator[Finding]:
 
 def _reach(table: LinkageTable) -> Iterator[Finding]:
     """Whether the links close somewhere, and over all of the way that the input is to go."""
-    ways = ranges_of(table)
-    if not ways:
+    if not range_of(table).intervals:
         yield Finding.error(
             "linkage.closure",
             table.given.table_name,
@@ -51,7 +66,7 @@ def _reach(table: LinkageTable) -> Iterator[Finding]:
 
 
 def _out_of_reach(table: LinkageTable) -> Finding:
-    ways = [(one.low, one.high) for one in ranges_of(table)]
+    ways = [(one.low, one.high) for one in range_of(table).intervals]
     asked = requested(table)
     if asked is None:
         return Finding.error(
@@ -83,14 +98,10 @@ def _rotation(table: LinkageTable) -> Iterator[Finding]:
     """A driver that cannot turn fully, where the design does not say between which angles it swings."""
     if table.driver_slides or requested(table) is not None or turns_fully(table):
         return
-    ends = ends_of(table)
-    assert ends is not None  # noqa: S101 - asked before
-    low, high = sorted(math.degrees(end) for end in ends)
-    here = next((one for one in ranges_of(table) if one.low <= math.radians((low + high) / 2) <= one.high), None)
-    dead = "" if here is None else (
-        f"; {here.low_joint} is at its dead point at {math.degrees(here.low):.3f} degrees and "
-        f"{here.high_joint} at {math.degrees(here.high):.3f}"
-    )
+    course, way = course_of(table), interval_of(table)
+    low, high = sorted(math.degrees(end) for end in (course.start, course.start + course.travel))
+    joints = {} if way is None else {one.joint: None for one in (way.low_limit, way.high_limit) if one}
+    dead = f", up to the dead points of {' and '.join(joints)}" if joints else ""
     yield Finding.warning(
         "linkage.rotation",
         "swing_from",
@@ -102,16 +113,36 @@ def _rotation(table: LinkageTable) -> Iterator[Finding]:
     )
 
 
-def least_transmission(table: LinkageTable) -> object:
-    """The least transmission angle over the way of the input, degrees; a number or a column."""
-    return np.degrees(table.least_sine_angle)
+def _changes(table: LinkageTable) -> Iterator[Finding]:
+    """Positions in which nothing decides how the linkage goes on."""
+    course, found = course_of(table), range_of(table).change_points
+    low, high = sorted((course.start, course.start + course.travel))
+    for one in found:
+        turn = 0.0 if table.driver_slides else math.tau
+        at = one.value + (turn * round(((low + high) / 2 - one.value) / turn) if turn else 0.0)
+        if low <= at <= high:
+            unit, shown = ("mm", at) if table.driver_slides else ("deg", math.degrees(at))
+            yield Finding.error(
+                "linkage.change-point",
+                "swing_from",
+                f"with the driver at {shown:.3f} {unit} the links at {one.joint} line up ({one.kind}), and "
+                "nothing decides how they go on",
+                shown,
+                unit=unit,
+                remedy="turn the driver back before that with swing_from and swing_to, or change a length",
+            )
+            return
+
+
+def _degrees(table: LinkageTable) -> Any:
+    return np.degrees(least_transmission(table))
 
 
 TRANSMISSION = Rule(
     "linkage.transmission",
     lambda f: f.m.given.table_name,
-    lambda f: f"the transmission angle at {f.m.worst_joint} falls to {f.value:.3g} degrees",
-    value=least_transmission,
+    lambda f: f"the transmission angle at {worst_joint(f.m)} falls to {f.value:.3g} degrees",
+    value=_degrees,
     limit=LEAST_TRANSMISSION,
     unit="deg",
     remedy=lambda f: "give a shorter swing with swing_from and swing_to"
@@ -121,17 +152,18 @@ TRANSMISSION = Rule(
 LOW_TRANSMISSION = TRANSMISSION.but(
     severity=Severity.WARNING,
     limit=GOOD_TRANSMISSION,
-    when=lambda m: np.asarray(least_transmission(m)) >= LEAST_TRANSMISSION,
+    when=lambda m: np.asarray(_degrees(m)) >= LEAST_TRANSMISSION,
 )
 
 MOTION = in_turn(
     Procedure[LinkageTable](("linkage.joints",), _joints, common=True),
-    Procedure[LinkageTable](("linkage.closure", "linkage.swing", "linkage.stroke"), _reach),
+    Procedure[LinkageTable](("linkage.closure", "linkage.swing", "linkage.stroke"), _reach, when=_doubtful),
 )
 """All that a motion needs, in order."""
 
 TRANSMISSIONS = all_of(
-    Procedure[LinkageTable](("linkage.rotation",), _rotation),
+    Procedure[LinkageTable](("linkage.rotation",), _rotation, when=_doubtful),
+    Procedure[LinkageTable](("linkage.change-point",), _changes, when=_doubtful),
     TRANSMISSION,
     LOW_TRANSMISSION,
 )
