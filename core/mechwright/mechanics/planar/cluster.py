@@ -27,7 +27,7 @@ SHORTEST = 2.0**-20
 
 
 @dataclass
-class _Sought:
+class ClusterEquations:
     """The links of a cluster, whose coordinates (d, 3 k) are origins and angles, among those that stand.
 
     Numbers are of d designs at one sample.
@@ -138,7 +138,7 @@ def followed(
     Samples are followed from the one that is nearest to the drawn input, to both ends; NaN beyond a dead
     point.
     """
-    sought = _Sought(machine, cluster)
+    sought = ClusterEquations(machine, cluster)
     shape = np.broadcast_shapes(
         *(one.theta.shape for one in inputs), *(body.turning.theta.shape for body in standing.values()),
         *(np.shape(machine.drawn[link].origin) for link in cluster.links),
@@ -177,7 +177,7 @@ def _drawn(machine: Machine, cluster: Cluster, designs: int) -> Array:
     return np.stack(columns, axis=-1).astype(float)
 
 
-def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> Array:
+def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _Here) -> Array:
     """The pose at the next sample: in one step where that is sure, else in as many as it needs."""
     moved = here[1][0].theta - last[1][0].theta
     speed = last[1][0].omega
@@ -191,7 +191,7 @@ def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> 
     return found
 
 
-def _careful(sought: _Sought, x: Array, last: _Here, here: _Here, place: int) -> Array:
+def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place: int) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
     one, two = _one(last, place), _one(here, place)
     done, step = 0.0, 0.5
@@ -210,7 +210,7 @@ def _careful(sought: _Sought, x: Array, last: _Here, here: _Here, place: int) ->
     return x[0]
 
 
-def _newton(sought: _Sought, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
+def _newton(sought: ClusterEquations, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
     size = _scale(x)[2]
     for _ in range(ITERATIONS):
         gap = sought.residual(x, standing, inputs)
