@@ -167,7 +167,8 @@ def _solved(matrix: Array, right: Array, *, single: bool) -> Array:
             found[finite] = _solved(matrix[finite], right[finite], single=single)
         return found
     try:
-        return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+        solution: Array = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+        return solution
     except np.linalg.LinAlgError as error:
         if single:
             raise KinematicsError(

@@ -73,7 +73,7 @@ class Pin:
 class Slide:
     """A slide of ``two`` along ``direction``, a unit vector (..., n) or constant.
 
-    Its force on ``two`` by ``one`` acts at ``place`` (..., n), normal to the direction, together with a moment.
+    Its force on ``two`` by ``one`` acts at ``place`` (..., n), normal to the direction, with a moment.
     """
 
     name: str
