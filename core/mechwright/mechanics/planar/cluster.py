@@ -49,10 +49,10 @@ class _Sought:
         return cls(machine, replace(cluster, joints=tuple(one for one in machine.joints if one.name in own)))
 
     def bodies(self, orders: Sequence[Array], standing: Mapping[str, BodyMotion]) -> dict[str, BodyMotion]:
-        """All bodies with coordinates and their three rates, each (d, 3 k)."""
+        """All bodies with coordinates and their three rates, each (..., d, 3 k)."""
         found = dict(standing)
         for number, link in enumerate(self.cluster.links):
-            x, y, angle = ([one[:, 3 * number + part] for one in orders] for part in range(3))
+            x, y, angle = ([one[..., 3 * number + part] for one in orders] for part in range(3))
             origin = PointMotion(*(a + 1j * b for a, b in zip(x, y, strict=True)))
             found[link] = BodyMotion(origin, Turning(*angle))
         return found
@@ -116,13 +116,11 @@ class _Sought:
         """Derivatives (d, m, 3 k) by the coordinates: each is the rate if that one alone has the rate 1."""
         still = _rest(standing)
         rest = [Turning.of(one.theta) for one in inputs]
-        columns = []
-        for number in range(x.shape[1]):
-            unit = np.zeros_like(x)
-            unit[:, number] = 1.0
-            rows = self.equations(self.bodies((x, unit, np.zeros_like(x), np.zeros_like(x)), still), rest)
-            columns.append(np.stack([np.broadcast_to(one[1], x.shape[:1]) for one in rows], axis=-1))
-        return np.stack(columns, axis=-1)
+        unit = np.broadcast_to(np.eye(x.shape[1])[:, None, :], (x.shape[1], *x.shape))
+        zero = np.zeros_like(unit)
+        rows = self.equations(self.bodies((np.broadcast_to(x, unit.shape), unit, zero, zero), still), rest)
+        found = np.stack([np.broadcast_to(one[1], unit.shape[:2]) for one in rows], axis=-1)
+        return np.asarray(np.moveaxis(found, 0, -1))
 
     def rates(
         self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
