@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar.dynamics import GROUND
@@ -74,15 +75,15 @@ def extremes(curve: Curve, begin: Any = None, end: Any = None) -> Extremes:
     )
     closes = np.isfinite(curve.value).all(axis=-1)
 
-    def taken(table: Array, place: Array) -> Array:
+    def taken(table: Array, place: NDArray[np.intp]) -> Array:
         return np.where(closes, np.take_along_axis(table, place, axis=-1)[..., 0], np.nan)
 
     return Extremes(taken(values, low), taken(inputs, low), taken(values, high), taken(inputs, high))
 
 
-def _within(curve: Curve, inputs: Array, begin: float, end: float) -> Array:
+def _within(curve: Curve, inputs: Array, begin: float, end: float) -> NDArray[np.bool_]:
     if not curve.closed:
-        return (begin <= inputs) & (inputs <= end)
+        return np.asarray((begin <= inputs) & (inputs <= end))
     stretch = end - begin if 0 <= end - begin <= curve.span else (end - begin) % curve.span
     return np.asarray((inputs - begin) % curve.span <= stretch)
 
@@ -294,9 +295,8 @@ def stance(path: Path, height: float) -> Stance:
     whole = 1 + np.where(signs == 0, 0.0, signs * after).sum(axis=-1) / curve.span
     share = np.where(np.isnan(begin), whole, (end - begin) / curve.span)
     ends = path.along.at_input(np.stack([begin, end], axis=-1))
-    return Stance(
-        begin, end, *(np.where(np.isfinite(low.lowest), one, np.nan) for one in (share, whole)), ends
-    )
+    share, whole = (np.where(np.isfinite(low.lowest), one, np.nan) for one in (share, whole))
+    return Stance(begin, end, share, whole, ends)
 
 
 def _least(values: Array) -> Array:
