@@ -221,7 +221,8 @@ def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> 
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = x + rates * np.where(speed != 0, moved / speed, 0.0)[:, None]
     found = _newton(sought, ahead, *here)
-    off, way = np.abs(found - ahead).max(axis=1), np.abs(ahead - x).max(axis=1)
+    scale = _scale(x)
+    off, way = (np.abs(one * scale).max(axis=1) for one in (found - ahead, ahead - x))
     sure = (off <= QUARTER * way + 1e-6) | ~np.isfinite(x).all(axis=1)
     for place in np.flatnonzero(~sure):
         found[place] = _careful(sought.row(int(place)), x[place : place + 1], last, here, place)
@@ -231,13 +232,13 @@ def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> 
 def _careful(sought: _Sought, x: Array, last: _Here, here: _Here, place: int) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
     one, two = _one(last, place), _one(here, place)
-    done, step = 0.0, 0.5
+    done, step, scale = 0.0, 0.5, _scale(x)
     while done < 1:
         step = min(step, 1 - done)
         target = _between(one, two, done + step)
         found = _newton(sought, x, *target)
         ahead = _newton(sought, x, *_between(one, two, done + step / 2))
-        off, way = np.abs(2 * ahead - x - found).max(), np.abs(found - x).max()
+        off, way = (np.abs(one * scale).max() for one in (2 * ahead - x - found, found - x))
         if np.isfinite(found).all() and off <= QUARTER * way + 1e-9:
             x, done, step = found, done + step, 2 * step
         else:
