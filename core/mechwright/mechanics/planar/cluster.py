@@ -49,10 +49,10 @@ class ClusterEquations:
         return cls(machine, replace(cluster, joints=tuple(one for one in machine.joints if one.name in own)))
 
     def bodies(self, orders: Sequence[Array], standing: Mapping[str, BodyMotion]) -> dict[str, BodyMotion]:
-        """All bodies with coordinates and their three rates, each (d, 3 k)."""
+        """All bodies with coordinates and their three rates, each (..., d, 3 k)."""
         found = dict(standing)
         for number, link in enumerate(self.cluster.links):
-            x, y, angle = ([one[:, 3 * number + part] for one in orders] for part in range(3))
+            x, y, angle = ([one[..., 3 * number + part] for one in orders] for part in range(3))
             origin = PointMotion(*(a + 1j * b for a, b in zip(x, y, strict=True)))
             found[link] = BodyMotion(origin, Turning(*angle))
         return found
@@ -116,13 +116,11 @@ class ClusterEquations:
         """Derivatives (d, m, 3 k) by the coordinates: each is the rate if that one alone has the rate 1."""
         still = _rest(standing)
         rest = [Turning.of(one.theta) for one in inputs]
-        columns = []
-        for number in range(x.shape[1]):
-            unit = np.zeros_like(x)
-            unit[:, number] = 1.0
-            rows = self.equations(self.bodies((x, unit, np.zeros_like(x), np.zeros_like(x)), still), rest)
-            columns.append(np.stack([np.broadcast_to(one[1], x.shape[:1]) for one in rows], axis=-1))
-        return np.stack(columns, axis=-1)
+        unit = np.broadcast_to(np.eye(x.shape[1])[:, None, :], (x.shape[1], *x.shape))
+        zero = np.zeros_like(unit)
+        rows = self.equations(self.bodies((np.broadcast_to(x, unit.shape), unit, zero, zero), still), rest)
+        found = np.stack([np.broadcast_to(one[1], unit.shape[:2]) for one in rows], axis=-1)
+        return np.asarray(np.moveaxis(found, 0, -1))
 
     def rates(
         self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
@@ -223,7 +221,8 @@ def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = x + rates * np.where(speed != 0, moved / speed, 0.0)[:, None]
     found = _newton(sought, ahead, *here)
-    off, way = np.abs(found - ahead).max(axis=1), np.abs(ahead - x).max(axis=1)
+    scale = _scale(x)
+    off, way = (np.abs(one * scale).max(axis=1) for one in (found - ahead, ahead - x))
     sure = (off <= QUARTER * way + 1e-6) | ~np.isfinite(x).all(axis=1)
     for place in np.flatnonzero(~sure):
         found[place] = _careful(sought.row(int(place)), x[place : place + 1], last, here, place)
@@ -233,13 +232,13 @@ def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _
 def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place: int) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
     one, two = _one(last, place), _one(here, place)
-    done, step = 0.0, 0.5
+    done, step, scale = 0.0, 0.5, _scale(x)
     while done < 1:
         step = min(step, 1 - done)
         target = _between(one, two, done + step)
         found = _newton(sought, x, *target)
         ahead = _newton(sought, x, *_between(one, two, done + step / 2))
-        off, way = np.abs(2 * ahead - x - found).max(), np.abs(found - x).max()
+        off, way = (np.abs(one * scale).max() for one in (2 * ahead - x - found, found - x))
         if np.isfinite(found).all() and off <= QUARTER * way + 1e-9:
             x, done, step = found, done + step, 2 * step
         else:

@@ -96,19 +96,21 @@ def solve(machine: Machine, inputs: Sequence[Turning], order: Sequence[Group] | 
     still = np.zeros(np.broadcast_shapes(*(one.theta.shape for one in inputs)))
     bodies = {GROUND: BodyMotion.about(0j, Turning.of(still))}
     sines: dict[str, Array] = {}
-    for group in assembly_order(machine) if order is None else order:
-        if isinstance(group, Driven):
-            bodies[group.link] = _driven(machine, group, bodies, inputs[group.drive])
-        elif isinstance(group, Geared):
-            bodies[group.link] = _geared(group, bodies)
-        elif isinstance(group, Dyad):
-            one, two, sine = _dyad(machine, group, bodies)
-            bodies |= dict(zip(group.links, (one, two), strict=True))
-            sines[group.inner.name] = sine
-        else:
-            found, sine = followed(machine, group, bodies, inputs)
-            bodies |= found
-            sines[_name(group)] = sine
+    groups = assembly_order(machine) if order is None else order
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # infinite rates at a dead point
+        for group in groups:
+            if isinstance(group, Driven):
+                bodies[group.link] = _driven(machine, group, bodies, inputs[group.drive])
+            elif isinstance(group, Geared):
+                bodies[group.link] = _geared(group, bodies)
+            elif isinstance(group, Dyad):
+                one, two, sine = _dyad(machine, group, bodies)
+                bodies |= dict(zip(group.links, (one, two), strict=True))
+                sines[group.inner.name] = sine
+            else:
+                found, sine = followed(machine, group, bodies, inputs)
+                bodies |= found
+                sines[_name(group)] = sine
     return Solution(bodies, sines)
 
 
