@@ -5,13 +5,14 @@ with as many of the ground's eyes as go; then the same with one link as two plat
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mechwright import GeometryError, Outline, Poses
 from mechwright.mechanics.linkage import Boss, Closeness, Plate, Spindle, Stack, rectangle, stack
-from mechwright.mechanics.linkage.turned import HEAD
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.rigid import BodyMotion
 from mechwright_linkage.linkage import Linkage
@@ -206,27 +207,36 @@ def _stacked(
 ) -> tuple[Stack, list[Pin]]:
     """The layers, and the pins: all that may have a head, or those that nothing covers."""
     sizes = given.sizes
-    plain = [replace(pin, head=False) for pin in pins]
-    every = [replace(pin, head=pin.headed) for pin in pins]
-    spindles = [*(pin.spindle(sizes) for pin in plain), *posts]
+    every = [replace(pin, head=not (pin.below or pin.above)) for pin in pins]
+    spindles = [*(pin.spindle(sizes) for pin in pins), *posts]
     close = Closeness(plates, spindles, given.poses, sizes.clearance)
 
     def dealt(some: Sequence[Pin]) -> Stack:
         own = [*(pin.spindle(sizes) for pin in some), *posts]
         return stack(plates, own, given.poses, sizes.clearance, sizes.washer, measured=[close])
 
+    found = None
     if scheme.sides == 1:
-        try:
-            return dealt(every), every
-        except GeometryError:
-            pass
-    found = dealt(plain)
+        with suppress(GeometryError):
+            found = dealt(every)
+    found = found or dealt(pins)
+    return found, [_with_head(pin, found, close, sizes) for pin in pins]
 
-    def covered(pin: Pin) -> bool:
-        top = max(found.layer[plate] for plate in pin.plates)
-        spindle = replace(pin, head=True).spindle(sizes)
-        return any(
-            close.spindle(spindle, plate, spindle.head) for plate in plates if found.layer[plate.name] > top
-        )
 
-    return found, [replace(pin, head=pin.headed and not covered(pin)) for pin in pins]
+def _with_head(pin: Pin, found: Stack, close: Closeness, sizes: Sizes) -> Pin:
+    """A pin with a head below a slot in which it ends, else on top, where nothing is in the way of it."""
+    if pin.below or pin.above:
+        return pin
+    low, high = found.spans[pin.name]
+    height, head = HEAD_HEIGHT * sizes.pin_diameter, HEAD * sizes.pin_diameter / 2
+    spindle = pin.spindle(sizes)
+    near = [
+        plate
+        for plate in (course.plate for course in close.courses.values())
+        if plate.name not in pin.plates and close.spindle(spindle, plate, head)
+    ]
+    lowest = min(pin.plates, key=found.bottom)
+    over = any(found.bottom(plate.name) >= high for plate in near)
+    under = any(low - height < found.bottom(plate.name) + plate.thickness <= low for plate in near)
+    foot = not under and lowest in (plate for plate, _ in pin.rolling)
+    return replace(pin, foot=foot, head=not foot and not over)

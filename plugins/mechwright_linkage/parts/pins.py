@@ -70,11 +70,6 @@ class Pin:
         """All plates that it joins."""
         return (*self.pressed, *(one for one, _ in self.turning), *(one for one, _ in self.rolling))
 
-    @property
-    def headed(self) -> bool:
-        """Whether it may have a head on top: it neither drives, nor goes on above, nor has one below."""
-        return not (self.below or self.above or self.foot)
-
     def spindle(self, sizes: Sizes) -> Spindle:
         """What keeps plates off it; what goes on above its plates covers others as a head does."""
         radius = sizes.pin_diameter / 2
@@ -100,7 +95,6 @@ def pins_of(
                     (),
                     tuple((plate, slide.block) for plate in slots),
                     slide.name,
-                    foot=GROUND in slots,
                     number=count,
                 )
             )
@@ -131,7 +125,6 @@ def _pin(linkage: Linkage, axis: Axis, scheme: Scheme) -> Pin:
         turning,
         rolling,
         axis.point,
-        foot=any(plate == GROUND for plate, _ in rolling),
         below=SHAFT if axis.shaft else 0.0,
         above=SHAFT if output else 0.0,
     )
