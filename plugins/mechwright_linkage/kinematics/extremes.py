@@ -1,4 +1,4 @@
-"""Least and greatest values over a period, refined between samples; of one linkage or of a table."""
+"""The least value over a period, refined between samples; of one linkage or of a table."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -46,9 +46,3 @@ def least(table: LinkageTable, value: Value, order: int = 0) -> Extreme:
         step, values = step / FINER, at(phases)
     best = values.argmin(axis=-1)[:, None]
     return Extreme(values[rows, best], phases[rows, best])
-
-
-def greatest(table: LinkageTable, value: Value, order: int = 0) -> Extreme:
-    """The greatest value over a period."""
-    found = least(table, lambda solution: -value(solution), order)
-    return Extreme(-found.value, found.phase)

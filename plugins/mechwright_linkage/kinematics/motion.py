@@ -15,7 +15,7 @@ from mechwright_linkage.kinematics.channels import PHI, STROKE, input_channels, 
 from mechwright_linkage.kinematics.figures import figures_of
 from mechwright_linkage.kinematics.forces import force_channels, peaks_of
 from mechwright_linkage.kinematics.linkage_table import LinkageTable, table_of
-from mechwright_linkage.kinematics.period import Period, period_of
+from mechwright_linkage.kinematics.period import Period, drives_at, period_of
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.parts.design import frames_of, held_by, masses_or_none
 from mechwright_linkage.rules.motion_rules import MOTION
@@ -89,9 +89,9 @@ class _ChannelsOfTable(Mapping[str, Channel]):
     def __init__(self, table: LinkageTable, samples: int) -> None:
         self._table, self._samples = table, samples
         phases = travelled(2 * np.pi, samples)
-        period = table.period_at(phases)
-        self._found = input_channels(table, period.drive, period.time)
-        self._found |= solution_channels(table, period.solution)
+        time, drive = drives_at(table, phases)
+        self._found = input_channels(table, drive, time)
+        self._found |= solution_channels(table, table.solved(drive))
 
     def _forces(self) -> dict[str, Channel]:
         def compute() -> dict[str, Channel]:

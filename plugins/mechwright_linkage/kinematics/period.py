@@ -189,3 +189,13 @@ def drives_at(table: LinkageTable, phases: Array) -> tuple[Array, Turning]:
     return time, Turning.of(theta, speed, alpha, jerk)
 
 
+
+
+def over_phases(table: LinkageTable, samples: int) -> tuple[Array, Solution]:
+    """Phases (m,) over a period, and the motion (n, m) with rates by the phase."""
+    phases = phases_of(table, samples)
+    ways = ways_of(table)
+    half, cos, sin = ways.travel / 2, np.cos(phases), np.sin(phases)
+    rates = [np.where(ways.rocks, lever, 0.0) for lever in (half * sin, half * cos, -half * sin)]
+    first = np.where(ways.rocks, rates[0], ways.travel / math.tau)
+    return phases, table.solved(Turning.of(inputs_at(table, phases), first, *rates[1:]))
