@@ -63,6 +63,12 @@ class Linkages(Family[LinkageParams]):
 
         return mounting_of(params)
 
+    def draft(self, source: str, text: str) -> LinkageParams:
+        """A linkage of the catalogue, or one that a file or an address of another program draws."""
+        from mechwright_linkage.drafts import draft_of
+
+        return draft_of(source, text)
+
     def transmission(self, params: LinkageParams) -> "Transmission":
         """Driver in, output out."""
         from mechwright_linkage.kinematics.transmission import OutputStage

@@ -124,6 +124,10 @@ def table_lines(
             short = first and key not in stated
             tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=short, open_=open_)]
             continue
+        if isinstance(value, dict) and any(isinstance(one, BaseModel) for one in value.values()):
+            tables += ["", f"[{where}.{key}]  # {field.description}"]
+            tables += [f"{_bare(name)} = {_inline(one)}" for name, one in value.items()]
+            continue
         text = f"{field.description or ''}{_limits(schema[key])}"
         if value is None:
             lines.append(f"# {key} = ...  # {text}")
@@ -136,6 +140,17 @@ def table_lines(
             )
             lines.append(f"{'# ' if left_out else ''}{key} = {toml(value)}  # {text}")
     return lines + tables
+
+
+def _inline(table: BaseModel) -> str:
+    """A table of a table by name, in one line."""
+    given = table.model_dump(exclude_none=True)
+    return "{ " + ", ".join(f"{_bare(key)} = {toml(value)}" for key, value in given.items()) + " }"
+
+
+def _bare(key: str) -> str:
+    """A key without quotes, where TOML takes it so."""
+    return key if key.isascii() and key.replace("-", "_").isidentifier() else json.dumps(key)
 
 
 def _limits(schema: dict[str, Any]) -> str:

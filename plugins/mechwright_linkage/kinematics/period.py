@@ -50,8 +50,9 @@ def range_of(table: LinkageTable) -> InputRange:
 
 
 def turns_fully(table: LinkageTable) -> bool:
-    """Whether the driver of one linkage turns all the way round."""
-    return not table.driver_slides and range_of(table).turns_fully
+    """Whether the driver of one linkage turns all the way round, and without a change point."""
+    found = range_of(table)
+    return not table.driver_slides and found.turns_fully and not found.change_points
 
 
 def is_lever(table: LinkageTable) -> bool:
@@ -92,7 +93,7 @@ def ends_of(table: LinkageTable) -> tuple[float, float] | None:
     if table.driver_slides:
         low, high = min(asked), max(asked)
         return asked if any(a - SLACK <= low and high <= b + SLACK for a, b in ways) else None
-    return within([(-math.pi, math.pi)] if turns_fully(table) else ways, *asked)
+    return within([(-math.pi, math.pi)] if range_of(table).turns_fully else ways, *asked)
 
 
 def course_of(table: LinkageTable) -> Course:

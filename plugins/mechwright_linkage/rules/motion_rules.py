@@ -11,6 +11,7 @@ from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
+from mechwright.tolerances import falls_short
 from mechwright_linkage.kinematics.linkage_table import LinkageTable
 from mechwright_linkage.kinematics.figures import least_transmission, worst_joint
 from mechwright_linkage.kinematics.period import (
@@ -152,7 +153,7 @@ TRANSMISSION = Rule(
 LOW_TRANSMISSION = TRANSMISSION.but(
     severity=Severity.WARNING,
     limit=GOOD_TRANSMISSION,
-    when=lambda m: np.asarray(_degrees(m)) >= LEAST_TRANSMISSION,
+    when=lambda m: ~np.asarray(falls_short(_degrees(m), LEAST_TRANSMISSION)),
 )
 
 MOTION = in_turn(
