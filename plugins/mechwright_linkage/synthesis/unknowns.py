@@ -30,8 +30,8 @@ class Unknowns:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """The dimensions."""
-        return tuple(type(self.entry).model_fields)
+        """The dimensions; signs and counts stay as they are."""
+        return tuple(name for name in type(self.entry).model_fields if isinstance(getattr(self.entry, name), float))
 
     @cached_property
     def order(self) -> tuple[Group, ...]:
@@ -80,7 +80,7 @@ class Unknowns:
             name: float(np.ravel(getattr(found, name))[0]) * (scale if self._unit(name) == "mm" else 1.0)
             for name in self.names
         }
-        return type(self.entry).model_validate(values)
+        return type(self.entry).model_validate(self.entry.model_dump() | values)
 
     def moved(self, x: Array, inputs: Array) -> tuple[Linkage, Solution]:
         """The linkages of rows, and their motion at inputs (n, k) or (k,)."""
