@@ -47,7 +47,11 @@ class Case:
 
 def case(name: str) -> Case:
     """A linkage of the reference by its name."""
-    table = LINKAGES[name]
+    return case_of(LINKAGES[name])
+
+
+def case_of(table: dict[str, Any]) -> Case:
+    """A linkage of the reference."""
     links = {
         link: {at: complex(*place) for at, place in places.items()} for link, places in table["links"].items()
     }

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from reference_linkages import FIGURES, case
 from test_linkage_catalogue import WIPER
 
+from mechwright.mechanics.planar.input_range import ranges
 from mechwright.mechanics.planar.rigid import PointMotion
 from mechwright_linkage.catalogue.entries import ENTRIES
 from mechwright_linkage.kinematics.curves import Curve
-from mechwright_linkage.kinematics.driver_limits import driver_limits
 from mechwright_linkage.kinematics.path_figures import (
     Path,
     extremes,
@@ -133,7 +133,8 @@ def test_least_band_is_no_wider_and_turns_with_the_path():
 def test_peaucellier_line_and_limits():
     figures = FIGURES["peaucellier"]
     machine = ENTRIES["peaucellier"]().linkage().machine
-    limits = driver_limits(machine, 0.0)
+    (way,) = ranges(machine).intervals
+    limits = way.low, way.high
     assert near(limits, figures["driver_limits"])
     assert near(limits[1], 2 * acos(55 / 80))
     one = path("peaucellier", at=np.linspace(*limits, 361) * (1 - 1e-13))
@@ -141,28 +142,6 @@ def test_peaucellier_line_and_limits():
     assert near(one.across.value[[0, -1]], [-figures["y_at_limit"], figures["y_at_limit"]])
     inner = path("peaucellier", at=np.linspace(*limits, 361) * 0.999)
     assert extremes(inner.along).extent < EXACT
-
-
-@pytest.mark.parametrize(
-    ("name", "dimensions"), [("chebyshev", {"base": 40}), ("chebyshev", {}), ("roberts", {})]
-)
-def test_driver_limits(name, dimensions):
-    entry = ENTRIES[name](**dimensions)
-    low, high = driver_limits(entry.linkage().machine, np.radians(entry.start))
-    figures = FIGURES[name]
-    if name == "roberts":
-        assert near((low, high), (-figures["driver_limit"], figures["driver_limit"]))
-    else:
-        assert near((low, high), figures["driver_limits"])
-
-
-def test_driver_limits_of_columns_and_of_full_turns():
-    entry = ENTRIES["chebyshev"]().model_copy(update={"base": np.array([[40.0], [80.0]])})
-    low, high = driver_limits(entry.linkage().machine, 1.0)
-    assert near(low, acos(0.8) * np.ones(2))
-    assert near(high, acos(-0.2) * np.ones(2))
-    for name in ("hoecken", "stephenson-2"):
-        assert driver_limits(ENTRIES[name]().linkage().machine, 0.0) == (-np.inf, np.inf)
 
 
 STROKES = {"whitworth": {}, "crank_shaper": SHAPER, "toggle_press": {}, "scotch_yoke": YOKE}

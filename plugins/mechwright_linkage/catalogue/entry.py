@@ -47,6 +47,8 @@ class Entry(Parameters):
     """Name of a path to the link and the point that draws it."""
     start: ClassVar[float] = 0.0
     """Angle of the driven link from X, degrees, at which the linkage is drawn; within its range."""
+    swing: ClassVar[tuple[float, float] | None] = None
+    """Angles of the driven link, degrees, between which it swings in a design that begins with it."""
     pin_links: ClassVar[Mapping[str, Sequence[str]]]
     """Pin to the links on it; the first is joined to each of the others."""
     signs: ClassVar[Mapping[str, int]] = {}

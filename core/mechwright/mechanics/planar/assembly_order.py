@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.errors import KinematicsError
-from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Drive, GearPair, Joint, Machine, Prismatic, Revolute
 
 
@@ -166,8 +166,8 @@ def _outer(machine: Machine, standing: set[str], link: str) -> list[Revolute | P
 def _tied(machine: Machine, standing: set[str], links: Sequence[str], known: Sequence[Joint]) -> bool:
     """Whether more than a dyad's three joints ties two links: a gear, a second joint, a drive."""
     joints, drives = _ties(machine, standing, links)
-    # By name: places may be columns, which have no hash.
-    return len(joints) != 3 or bool(drives) or not {one.name for one in known} <= {one.name for one in joints}
+    names = {joint.name for joint in joints}
+    return len(joints) != 3 or bool(drives) or not {joint.name for joint in known} <= names
 
 
 def _ties(

@@ -28,7 +28,7 @@ SHORTEST = 2.0**-20
 
 
 @dataclass
-class _Sought:
+class ClusterEquations:
     """The links of a cluster, whose coordinates (d, 3 k) are origins and angles, among those that stand.
 
     Numbers are of d designs at one sample.
@@ -37,13 +37,13 @@ class _Sought:
     machine: Machine
     cluster: Cluster
 
-    def row(self, place: int) -> "_Sought":
+    def row(self, place: int) -> "ClusterEquations":
         """The same of one design, with numbers (1,)."""
         own = [_each_place(joint, lambda one: one[place : place + 1]) for joint in self.machine.joints]
         return self.of(replace(self.machine, joints=own), self.cluster)
 
     @classmethod
-    def of(cls, machine: Machine, cluster: Cluster) -> "_Sought":
+    def of(cls, machine: Machine, cluster: Cluster) -> "ClusterEquations":
         """Of a machine whose joints have the numbers of all designs, each (d,)."""
         own = {joint.name for joint in cluster.joints}
         return cls(machine, replace(cluster, joints=tuple(one for one in machine.joints if one.name in own)))
@@ -160,7 +160,7 @@ def followed(
     )
     samples, designs = shape[-1], int(np.prod(shape[:-1], dtype=int))
     own = [_each_place(joint, lambda one: _column(one, designs)) for joint in machine.joints]
-    sought = _Sought.of(replace(machine, joints=own), cluster)
+    sought = ClusterEquations.of(replace(machine, joints=own), cluster)
     flat = {name: _flat(body, shape, designs) for name, body in standing.items()}
     drives = [_flat_turning(one, shape, designs) for one in inputs]
     begin = int(np.argmin(np.abs(drives[0].theta[0] - np.ravel(machine.drawn_at[0])[0])))
@@ -214,7 +214,7 @@ def _column(value: Any, designs: int) -> Array:
     return np.broadcast_to(np.ravel(value), (designs,))
 
 
-def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> Array:
+def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _Here) -> Array:
     """The pose at the next sample: in one step where that is sure, else in as many as it needs."""
     moved = here[1][0].theta - last[1][0].theta
     speed = last[1][0].omega
@@ -229,7 +229,7 @@ def _step(sought: _Sought, x: Array, rates: Array, last: _Here, here: _Here) -> 
     return found
 
 
-def _careful(sought: _Sought, x: Array, last: _Here, here: _Here, place: int) -> Array:
+def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place: int) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
     one, two = _one(last, place), _one(here, place)
     done, step, scale = 0.0, 0.5, _scale(x)
@@ -249,7 +249,7 @@ def _careful(sought: _Sought, x: Array, last: _Here, here: _Here, place: int) ->
 
 
 def _newton(
-    sought: _Sought, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
+    sought: ClusterEquations, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
 ) -> Array:
     size = _scale(x)[2]
     for _ in range(ITERATIONS):

@@ -25,7 +25,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mechwright.errors import KinematicsError
-from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.free_bodies import GROUND
 
 Place = Any
 """A complex number, or a column (n, 1) of them."""

@@ -23,8 +23,15 @@ from mechwright.mechanics.planar.dyads import (
     slide_between,
     turned,
 )
-from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Machine, Prismatic, Revolute
+from mechwright.mechanics.planar.outer_joints import (
+    guide_line,
+    neighbour,
+    offset_across,
+    offset_from_line,
+    outer_pin,
+)
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
 
@@ -53,7 +60,8 @@ class Solution:
     def closes(self) -> Array:
         """Whether every link stands (..., n)."""
         stands = [np.isfinite(body.turning.theta) for body in self.bodies.values()]
-        return np.logical_and.reduce(np.broadcast_arrays(*stands))
+        closed: Array = np.logical_and.reduce(np.broadcast_arrays(*stands))
+        return closed
 
 
 def solve(machine: Machine, inputs: Sequence[Turning], order: Sequence[Group] | None = None) -> Solution:
@@ -119,7 +127,7 @@ def _driven(machine: Machine, group: Driven, bodies: Mapping[str, BodyMotion], d
         return body_at(on.point(joint.place(group.on)), joint.place(group.link), turning)
     # The slide counts along the line of the guide, whichever of the two is found.
     sense = 1.0 if group.on == joint.guide else -1.0
-    slide = _line(joint, on, group.on)
+    slide = guide_line(joint, on, group.on)
     way = Way(sense * drive.theta, sense * drive.omega, sense * drive.alpha, sense * drive.jerk)
     own = turned(slide.turning, -joint.direction(group.link))
     return body_at(slide.at(way), joint.place(group.link), own)
@@ -145,43 +153,43 @@ def _dyad(machine: Machine, group: Dyad, bodies: Mapping[str, BodyMotion]) -> So
     inner, (first, last), (one, two) = group.inner, group.outer, group.links
     branch = _branch(machine, group)
     if isinstance(first, Revolute) and isinstance(last, Revolute):
-        ends = [_standing(joint, link, bodies) for joint, link in ((first, one), (last, two))]
+        ends = [outer_pin(joint, link, bodies) for joint, link in ((first, one), (last, two))]
         if isinstance(inner, Revolute):
             places = [(joint.place(link), inner.place(link)) for joint, link in ((first, one), (last, two))]
             return pins(ends[0], ends[1], (places[0], places[1]), branch)
-        offset = _across(inner, first.place(one), last.place(two), one)
+        offset = offset_across(inner, first.place(one), last.place(two), one)
         own = [(joint.place(link), inner.direction(link)) for joint, link in ((first, one), (last, two))]
         return slide_between(ends[0], ends[1], offset, tuple(own), branch)
     assert isinstance(last, Prismatic)  # noqa: S101 - as groups are ordered
-    slide = _line(last, bodies[_stands(last, two)], _stands(last, two))
+    slide = guide_line(last, bodies[neighbour(last, two)], neighbour(last, two))
     if isinstance(inner, Revolute) and isinstance(first, Revolute):
-        moved = Slide(slide.point, slide.turning, _offset(last, two, inner.place(two)))
+        moved = Slide(slide.point, slide.turning, offset_from_line(last, two, inner.place(two)))
         second = inner.place(two), last.direction(two)
         places_ = first.place(one), inner.place(one)
-        return pin_and_slide(_standing(first, one, bodies), places_, moved, second, branch)
+        return pin_and_slide(outer_pin(first, one, bodies), places_, moved, second, branch)
     if isinstance(inner, Revolute):  # PRP: the pin slides along two lines
         assert isinstance(first, Prismatic)  # noqa: S101 - as groups are ordered
-        other = _line(first, bodies[_stands(first, one)], _stands(first, one))
+        other = guide_line(first, bodies[neighbour(first, one)], neighbour(first, one))
         lines = [
-            Slide(line.point, line.turning, _offset(joint, link, inner.place(link)))
+            Slide(line.point, line.turning, offset_from_line(joint, link, inner.place(link)))
             for line, joint, link in ((other, first, one), (slide, last, two))
         ]
         pin, sine = crossing(lines[0], lines[1])
         turnings = [
-            turned(line.turning, -j.direction(k))
-            for line, j, k in zip(lines, (first, last), (one, two), strict=True)
+            turned(line.turning, -joint.direction(link))
+            for line, joint, link in zip(lines, (first, last), (one, two), strict=True)
         ]
-        places = [body_at(pin, inner.place(k), t) for k, t in zip((one, two), turnings, strict=True)]
-        return places[0], places[1], sine
+        found = [body_at(pin, inner.place(k), t) for k, t in zip((one, two), turnings, strict=True)]
+        return found[0], found[1], sine
     # RPP: the second link slides on what stands, and the first, pinned to what stands, slides on it.
     assert isinstance(first, Revolute)  # noqa: S101 - a group of three slides does not close
     second_turning = turned(slide.turning, -last.direction(two))
     direction = turned(second_turning, inner.direction(two))
     first_turning = turned(direction, -inner.direction(one))
-    own = body_at(_standing(first, one, bodies), first.place(one), first_turning)
-    sought = Slide(slide.point, slide.turning, _offset(last, two, inner.place(two)))
-    point, sine = crossing(sought, Slide(own.point(inner.place(one)), direction))
-    return own, body_at(point, inner.place(two), second_turning), sine
+    bar = body_at(outer_pin(first, one, bodies), first.place(one), first_turning)
+    sought = Slide(slide.point, slide.turning, offset_from_line(last, two, inner.place(two)))
+    point, sine = crossing(sought, Slide(bar.point(inner.place(one)), direction))
+    return bar, body_at(point, inner.place(two), second_turning), sine
 
 
 def _branch(machine: Machine, group: Dyad) -> Any:
@@ -189,31 +197,3 @@ def _branch(machine: Machine, group: Dyad) -> Any:
     branch = machine.branches.get(group.inner.name, 1)
     swapped = group.links != group.inner.links
     return -np.asarray(branch) if swapped and group.kind in {"RRR", "RPR"} else branch
-
-
-def _standing(joint: Revolute, link: str, bodies: Mapping[str, BodyMotion]) -> PointMotion:
-    """How an outer pin of a link moves."""
-    stands = _stands(joint, link)
-    return bodies[stands].point(joint.place(stands))
-
-
-def _stands(joint: Revolute | Prismatic, link: str) -> str:
-    one, two = joint.links
-    return one if two == link else two
-
-
-def _line(joint: Prismatic, body: BodyMotion, link: str) -> Slide:
-    """The line of a slide as the link that stands has it: through its own point of the joint."""
-    return Slide(body.point(joint.place(link)), turned(body.turning, joint.direction(link)))
-
-
-def _offset(joint: Prismatic, link: str, place: Any) -> Any:
-    """How far a place of the link that slides is to the left of the line."""
-    lever = np.asarray(place, complex) - joint.place(link)
-    return (lever * np.exp(-1j * np.asarray(joint.direction(link)))).imag
-
-
-def _across(joint: Prismatic, one: Any, two: Any, first: str) -> Any:
-    """How far the second outer pin is to the left of the first along the slide between two bars."""
-    second = joint.block if first == joint.guide else joint.guide
-    return _offset(joint, second, two) - _offset(joint, first, one)
