@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mechwright import Array, kept
-from mechwright.contracts.design_table import DesignTable
+from mechwright.contracts.design_table import DesignTable, Rows, rows_of
 from mechwright.mechanics.planar.assembly_order import Group, assembly_order
 from mechwright.mechanics.planar.machine import Drive, Machine, Prismatic
 from mechwright.mechanics.planar.positions import Solution, solve
@@ -21,6 +21,10 @@ APART = 0.01
 
 class LinkageTable(DesignTable[LinkageParams]):
     """One linkage, or linkages that differ in their dimensions; numbers of one, columns (n, 1) of many."""
+
+    def rows(self, places: Rows) -> "LinkageTable":
+        """Some of the linkages; what was computed of all is computed anew."""
+        return self if self.single else LinkageTable(rows_of(self.given, places, self.size), places.size)
 
     @cached_property
     def linkage(self) -> Linkage:

@@ -10,7 +10,6 @@ from functools import cached_property
 import numpy as np
 
 from mechwright import Array
-from mechwright.mechanics.planar.assembly_order import Group, assembly_order
 from mechwright.mechanics.planar.machine import Revolute
 from mechwright.mechanics.planar.positions import Solution, solve
 from mechwright.mechanics.planar.rigid import Turning
@@ -32,11 +31,6 @@ class Unknowns:
     def names(self) -> tuple[str, ...]:
         """The dimensions; signs and counts stay as they are."""
         return tuple(name for name in type(self.entry).model_fields if isinstance(getattr(self.entry, name), float))
-
-    @cached_property
-    def order(self) -> tuple[Group, ...]:
-        """The groups of the linkage, which have no dimensions."""
-        return assembly_order(self.entry.linkage().machine)
 
     @cached_property
     def size(self) -> float:
@@ -85,7 +79,7 @@ class Unknowns:
     def moved(self, x: Array, inputs: Array) -> tuple[Linkage, Solution]:
         """The linkages of rows, and their motion at inputs (n, k) or (k,)."""
         linkage = self.entry_of(x).linkage()
-        return linkage, solve(linkage.machine, [Turning.of(inputs, 1.0)], self.order)
+        return linkage, solve(linkage.machine, [Turning.of(inputs, 1.0)])
 
 
 def joint_distances(linkage: Linkage) -> Array:
