@@ -108,11 +108,12 @@ def solve(machine: Machine, inputs: Sequence[Turning], order: Sequence[Group] | 
         else:
             found, sine = followed(machine, group, bodies, inputs)
             bodies |= found
-            sines[_name(group)] = sine
+            sines[cluster_name(group)] = sine
     return Solution(bodies, sines)
 
 
-def _name(group: Cluster) -> str:
+def cluster_name(group: Cluster) -> str:
+    """What a cluster is named by: the first of its inner joints."""
     return next(joint.name for joint in group.joints if set(joint.links) <= set(group.links))
 
 
