@@ -217,7 +217,9 @@ class _Curve:
         sought = ClusterEquations(self.machine, self.cluster)
         coordinates = y / self.scale
         inputs = [Turning.of(coordinates[-1:], 1.0)]
-        bodies = {name: _flat(body) for name, body in solve(self.machine, inputs, self.before).bodies.items()}
+        bodies = {
+            name: _flat(body) for name, body in solve(self.machine, inputs, self.before, 1).bodies.items()
+        }
         x = coordinates[None, :-1]
         zero = np.zeros_like(x)
         rows = sought.equations(sought.bodies((x, zero, zero, zero), bodies), inputs)

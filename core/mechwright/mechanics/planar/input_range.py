@@ -265,10 +265,10 @@ def _bodies(machine: Machine, before: Sequence[Group], piece: _Piece, q: Array) 
     steps, in order.
     """
     if all(isinstance(group, Driven | Dyad) for group in before):
-        return solve(machine, [Turning.of(q, 1.0)], before).bodies
+        return solve(machine, [Turning.of(q, 1.0)], before, 1).bodies
     steps = piece.at(piece.nodes())[0]
     every, places = np.unique(np.concatenate([q, steps]), return_inverse=True)
-    bodies = solve(machine, [Turning.of(every, 1.0)], before).bodies
+    bodies = solve(machine, [Turning.of(every, 1.0)], before, 1).bodies
     back = places[: q.size].astype(np.intp)
     return {name: _samples(body, back) for name, body in bodies.items()}
 
