@@ -120,7 +120,7 @@ def _settled(cells: _Cells) -> tuple[Mask, Mask, Mask]:
     second = np.diff(first, axis=0)
     low, high = cubic.min(axis=0), cubic.max(axis=0)
     margin = CLEAR * (high - low)
-    number = np.isfinite(cubic).all(axis=0)
+    number: Mask = np.asarray(np.isfinite(cubic).all(axis=0))
     crosses = cells.va * cells.vb < 0
     bent = _one_sign(second)
     free = (low > margin) | (high < -margin) | ~number
