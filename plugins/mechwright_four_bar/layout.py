@@ -21,7 +21,7 @@ from mechwright.mechanics.linkage import (
     hull_link,
     rectangle,
     stack,
-    web_link,
+    straight_link,
 )
 from mechwright.mechanics.linkage.outlines import FILLET
 from mechwright.mechanics.linkage.turned import HEAD
@@ -176,7 +176,8 @@ def link_outline(params: FourBarParams, name: str, bosses: tuple[Boss, ...]) -> 
     """Crank and follower straight, the coupler straight, bent or about its point."""
     tags = [boss.tag for boss in bosses]
     if name != "coupler" or (params.coupler_bend == 0 and tags == ["A", "B"]):
-        return _straight(bosses, params.web_width)
+        one, two = bosses
+        return straight_link(one, two, params.web_width)
     if params.coupler_bend != 0:
         one, two = bosses
         elbow = complex(params.coupler / 2, params.coupler_bend)
@@ -184,17 +185,6 @@ def link_outline(params: FourBarParams, name: str, bosses: tuple[Boss, ...]) -> 
     hull = hull_link(bosses)
     slots = (one.slot.loop(f"{key}-slot") for key, one in set_joints(params).items() if one.slot is not None)
     return Outline(hull.outer, (*hull.inner, *slots))
-
-
-def _straight(bosses: tuple[Boss, ...], width: float) -> Outline:
-    """A web between two bosses, or the hull where there is no room for its fillets."""
-    one, two = bosses
-    half, least = width / 2, min(one.radius, two.radius)
-    if half < least:
-        taken = sum(math.sqrt((boss.radius + FILLET) ** 2 - (half + FILLET) ** 2) for boss in (one, two))
-        if taken < abs(two.centre - one.centre):
-            return web_link(one, two, width, FILLET)
-    return hull_link((one, two))
 
 
 def _corners(

@@ -8,6 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from mechwright.mechanics.planar import Turning, acceleration_pole
+from mechwright.pipeline.poles import NAME
 from mechwright.pipeline.poles.page import page as page_of
 from mechwright.pipeline.poles.planes import MARKED
 from mechwright.testing.commands import run
@@ -122,7 +123,7 @@ PAGES = (
 @pytest.mark.parametrize(("page", "family", "table"), PAGES)
 def test_loci_and_circles_of_the_page_are_those_of_the_motion(page, family, table):
     params = family.Params(**table)
-    shown = page.coupler(params)
+    shown = page.couplers(params)[NAME]
     motion = family.solve(params, shown.way().size)
     if not shown.course.rocks:  # a lever has a law of its own
         for number, names in enumerate((("xG", "yG"), ("xG_coupler", "yG_coupler"))):

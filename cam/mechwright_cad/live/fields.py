@@ -67,6 +67,10 @@ def _of_model(
         if isinstance(own, BaseModel):
             yield from _of_model(type(own), own, key, content, first=first and name in chosen)
             continue
+        if isinstance(own, dict) and any(isinstance(one, BaseModel) for one in own.values()):
+            for inner, one in own.items():
+                yield from _of_model(type(one), one, f"{key}.{inner}", content, first=first)
+            continue
         facts = _facts(schema["properties"][name], shared)
         default = None if field.is_required() else field.get_default(call_default_factory=True)
         yield {

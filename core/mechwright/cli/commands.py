@@ -87,6 +87,14 @@ class New(Command):
                 autocompletion=completing.requirement_kinds,
             ),
         ] = "",
+        source: Annotated[
+            str,
+            typer.Option(
+                "--from",
+                metavar="SOURCE",
+                help="What it begins with: an entry of the family's catalogue, or a file that it reads.",
+            ),
+        ] = "",
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
         ] = False,
@@ -95,7 +103,7 @@ class New(Command):
         """Write a commented design file that builds as it is."""
         from mechwright.cli import listing
 
-        listing.new(family, requirement, output, force, everything)
+        listing.new(family, requirement, source, output, force, everything)
 
 
 class Schema(Command):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
+from mechwright.errors import DesignError
 
 if TYPE_CHECKING:
     import shapely
@@ -178,6 +179,30 @@ class Family(Plugin, Generic[P]):
             This design is no stage: the key, what is wrong, and what to do.
         """
         return None
+
+    def draft(self, source: str, text: str) -> P:  # noqa: ARG002 - used by families that have some
+        """The design that ``new`` writes.
+
+        Parameters
+        ----------
+        source
+            What ``new --from`` names: something that the family knows, or a file; empty without it.
+        text
+            What that file says; empty where no file is named.
+
+        Returns
+        -------
+        params
+            What it sets is written, with the keys that one sets first. The default sets nothing.
+
+        Raises
+        ------
+        DesignError
+            The family begins with no such thing: what is wrong, and what it can begin with.
+        """
+        if source:
+            raise DesignError(f"--from: family {self.name} begins with its defaults alone; leave --from out")
+        return self.Params()
 
     def settings(
         self,

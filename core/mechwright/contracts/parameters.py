@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
 from pydantic.config import JsonDict
@@ -38,6 +38,28 @@ KEPT = 32
 def kept(function: Callable[..., T]) -> "_lru_cache_wrapper[T]":
     """Compute what a function says of a design once."""
     return lru_cache(KEPT)(function)
+
+
+def value_at(params: Any, name: str) -> Any:
+    """The value of a dotted parameter, through tables and through tables by name.
+
+    >>> value_at({"points": {"A": {"x": 30.0}}}, "points.A.x")
+    30.0
+
+    Raises AttributeError or KeyError where there is none.
+    """
+    for step in name.split("."):
+        params = params[step] if isinstance(params, Mapping) else getattr(params, step)
+    return params
+
+
+def named_table(annotation: object) -> type[BaseModel] | None:
+    """The model of the tables that a field has by their names, ``dict[str, Model]``; None for other fields."""
+    kinds = get_args(annotation)
+    if get_origin(annotation) is dict and _is_table(kinds[1]):
+        model: type[BaseModel] = kinds[1]
+        return model
+    return None
 
 
 SHORT = 10

@@ -20,6 +20,7 @@ from mechwright.contracts.figure import Figure, PartMass
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.contracts.motion import Channel
+from mechwright.contracts.parameters import value_at
 from mechwright.contracts.rule_list import Rules
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.singly import Asked, singly
@@ -100,7 +101,7 @@ def tables(
     names = [
         name
         for name in designs.varied
-        if name in structure or not (name in counts or isinstance(_of(designs.common, name), float))
+        if name in structure or not (name in counts or isinstance(value_at(designs.common, name), float))
     ]
     kind = np.zeros(len(designs), np.int64)
     for name in names:
@@ -117,13 +118,7 @@ def tables(
 def _same(designs: Designs, name: str, place: int) -> Any:
     """What designs are alike in; a count may come as a float."""
     value = designs.varied[name][place].item()
-    return round(value) if isinstance(value, float) and isinstance(_of(designs.common, name), int) else value
-
-
-def _of(params: Any, name: str) -> Any:
-    for step in name.split("."):
-        params = getattr(params, step)
-    return params
+    return round(value) if isinstance(value, float) and isinstance(value_at(designs.common, name), int) else value
 
 
 class _Judge:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
 from mechwright.arrays import Array
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import Parameters, named_table
 from mechwright.designs.tables import unknown
 from mechwright.errors import DesignError
 from mechwright.units import Unit, convert
@@ -145,9 +145,15 @@ def _reader(field: FieldInfo, kind: Any) -> TypeAdapter[Any]:
 
 def _field(model: type[BaseModel], name: str, where: str) -> FieldInfo:
     *tables, key = name.split(".")
+    named: type[BaseModel] | None = None
     for step in tables:
-        model = _inner(model, step, where)
-    if key not in model.model_fields:
+        if named is not None:  # the name of a table, such as of a point
+            model, named = named, None
+            continue
+        field = model.model_fields.get(step)
+        named = None if field is None else named_table(field.annotation)
+        model = model if named is not None else _inner(model, step, where)
+    if named is not None or key not in model.model_fields:
         raise DesignError(f"{where}: {unknown(key, tuple(model.model_fields), 'parameter')}")
     return model.model_fields[key]
 

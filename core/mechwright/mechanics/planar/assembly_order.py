@@ -163,9 +163,7 @@ def _outer(machine: Machine, standing: set[str], link: str) -> list[Revolute | P
     ]
 
 
-def _tied(
-    machine: Machine, standing: set[str], links: Sequence[str], known: Sequence[Joint]
-) -> bool:
+def _tied(machine: Machine, standing: set[str], links: Sequence[str], known: Sequence[Joint]) -> bool:
     """Whether more than a dyad's three joints ties two links: a gear, a second joint, a drive."""
     joints, drives = _ties(machine, standing, links)
     names = {joint.name for joint in joints}

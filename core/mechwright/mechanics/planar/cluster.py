@@ -6,14 +6,15 @@ halved then. With J the Jacobian of the joint equations, all rates follow from o
 J x⁽ᵏ⁾ = -cₖ, where cₖ is the k-th rate of the equations if the sought links had no k-th rate.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar.assembly_order import Cluster
-from mechwright.mechanics.planar.machine import GearPair, Machine, Revolute
+from mechwright.mechanics.planar.machine import GearPair, Joint, Machine, Revolute
 from mechwright.mechanics.planar.relative_motion import relative
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
@@ -36,11 +37,22 @@ class ClusterEquations:
     machine: Machine
     cluster: Cluster
 
+    def row(self, place: int) -> "ClusterEquations":
+        """The same of one design, with numbers (1,)."""
+        own = [_each_place(joint, lambda one: one[place : place + 1]) for joint in self.machine.joints]
+        return self.of(replace(self.machine, joints=own), self.cluster)
+
+    @classmethod
+    def of(cls, machine: Machine, cluster: Cluster) -> "ClusterEquations":
+        """Of a machine whose joints have the numbers of all designs, each (d,)."""
+        own = {joint.name for joint in cluster.joints}
+        return cls(machine, replace(cluster, joints=tuple(one for one in machine.joints if one.name in own)))
+
     def bodies(self, orders: Sequence[Array], standing: Mapping[str, BodyMotion]) -> dict[str, BodyMotion]:
-        """All bodies with coordinates and their three rates, each (d, 3 k)."""
+        """All bodies with coordinates and their three rates, each (..., d, 3 k)."""
         found = dict(standing)
         for number, link in enumerate(self.cluster.links):
-            x, y, angle = ([one[:, 3 * number + part] for one in orders] for part in range(3))
+            x, y, angle = ([one[..., 3 * number + part] for one in orders] for part in range(3))
             origin = PointMotion(*(a + 1j * b for a, b in zip(x, y, strict=True)))
             found[link] = BodyMotion(origin, Turning(*angle))
         return found
@@ -88,7 +100,10 @@ class ClusterEquations:
             return tuple(a - b - c for a, b, c in zip(one, two, asked, strict=True))  # type: ignore[return-value]
         seen = relative(bodies[joint.block], bodies[joint.guide]).point(joint.point)
         turn = np.exp(-1j * np.asarray(joint.line_angle))
-        along = [(one * turn).real for one in (seen.position - joint.line, seen.velocity, seen.acceleration, seen.jerk)]
+        along = [
+            (one * turn).real
+            for one in (seen.position - joint.line, seen.velocity, seen.acceleration, seen.jerk)
+        ]
         return tuple(a - c for a, c in zip(along, asked, strict=True))  # type: ignore[return-value]
 
     def residual(self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
@@ -98,16 +113,14 @@ class ClusterEquations:
         return np.stack([np.broadcast_to(one[0], x.shape[:1]) for one in rows], axis=-1)
 
     def jacobian(self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
-        """Their derivatives (d, m, 3 k) by the coordinates: each is the rate if that one alone has the rate 1."""
+        """Derivatives (d, m, 3 k) by the coordinates: each is the rate if that one alone has the rate 1."""
         still = _rest(standing)
         rest = [Turning.of(one.theta) for one in inputs]
-        columns = []
-        for number in range(x.shape[1]):
-            unit = np.zeros_like(x)
-            unit[:, number] = 1.0
-            rows = self.equations(self.bodies((x, unit, np.zeros_like(x), np.zeros_like(x)), still), rest)
-            columns.append(np.stack([np.broadcast_to(one[1], x.shape[:1]) for one in rows], axis=-1))
-        return np.stack(columns, axis=-1)
+        unit = np.broadcast_to(np.eye(x.shape[1])[:, None, :], (x.shape[1], *x.shape))
+        zero = np.zeros_like(unit)
+        rows = self.equations(self.bodies((np.broadcast_to(x, unit.shape), unit, zero, zero), still), rest)
+        found = np.stack([np.broadcast_to(one[1], unit.shape[:2]) for one in rows], axis=-1)
+        return np.asarray(np.moveaxis(found, 0, -1))
 
     def rates(
         self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
@@ -133,17 +146,21 @@ def _scale(x: Array) -> Array:
 def followed(
     machine: Machine, cluster: Cluster, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
 ) -> tuple[dict[str, BodyMotion], Array]:
-    """The motion of the links of a cluster from the drawn pose of the machine on, and how far from a dead point.
+    """The motion of the links of a cluster from the drawn pose on, and how far they are from a dead point.
 
     Samples are followed from the one that is nearest to the drawn input, to both ends; NaN beyond a dead
     point.
     """
-    sought = ClusterEquations(machine, cluster)
+    numbers = [np.shape(one) for joint in cluster.joints for one in _places(joint).values()]
     shape = np.broadcast_shapes(
-        *(one.theta.shape for one in inputs), *(body.turning.theta.shape for body in standing.values()),
+        *numbers,
+        *(one.theta.shape for one in inputs),
+        *(body.turning.theta.shape for body in standing.values()),
         *(np.shape(machine.drawn[link].origin) for link in cluster.links),
     )
     samples, designs = shape[-1], int(np.prod(shape[:-1], dtype=int))
+    own = [_each_place(joint, lambda one: _column(one, designs)) for joint in machine.joints]
+    sought = ClusterEquations.of(replace(machine, joints=own), cluster)
     flat = {name: _flat(body, shape, designs) for name, body in standing.items()}
     drives = [_flat_turning(one, shape, designs) for one in inputs]
     begin = int(np.argmin(np.abs(drives[0].theta[0] - np.ravel(machine.drawn_at[0])[0])))
@@ -173,8 +190,28 @@ def _drawn(machine: Machine, cluster: Cluster, designs: int) -> Array:
     for link in cluster.links:
         pose = machine.drawn[link]
         for value in (np.real(pose.origin), np.imag(pose.origin), pose.angle):
-            columns.append(np.broadcast_to(np.ravel(np.asarray(value, float)), (designs,)))
+            columns.append(_column(np.asarray(value, float), designs))
     return np.stack(columns, axis=-1).astype(float)
+
+
+def _places(joint: Joint) -> dict[str, Any]:
+    """The numbers of a joint that may be columns over designs, by field; the ratio of gears is one number."""
+    return {
+        field.name: value
+        for field in fields(joint)
+        if field.name != "ratio" and not isinstance(value := getattr(joint, field.name), str)
+    }
+
+
+def _each_place(joint: Joint, change: Callable[[Any], Array]) -> Joint:
+    """A joint with all its numbers changed."""
+    changes: Any = {name: change(value) for name, value in _places(joint).items()}
+    return replace(joint, **changes)
+
+
+def _column(value: Any, designs: int) -> Array:
+    """A number, or a column (d, 1), as (d,)."""
+    return np.broadcast_to(np.ravel(value), (designs,))
 
 
 def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _Here) -> Array:
@@ -184,23 +221,24 @@ def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = x + rates * np.where(speed != 0, moved / speed, 0.0)[:, None]
     found = _newton(sought, ahead, *here)
-    off, way = np.abs(found - ahead).max(axis=1), np.abs(ahead - x).max(axis=1)
+    scale = _scale(x)
+    off, way = (np.abs(one * scale).max(axis=1) for one in (found - ahead, ahead - x))
     sure = (off <= QUARTER * way + 1e-6) | ~np.isfinite(x).all(axis=1)
     for place in np.flatnonzero(~sure):
-        found[place] = _careful(sought, x[place : place + 1], last, here, place)
+        found[place] = _careful(sought.row(int(place)), x[place : place + 1], last, here, place)
     return found
 
 
 def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place: int) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
     one, two = _one(last, place), _one(here, place)
-    done, step = 0.0, 0.5
+    done, step, scale = 0.0, 0.5, _scale(x)
     while done < 1:
         step = min(step, 1 - done)
         target = _between(one, two, done + step)
         found = _newton(sought, x, *target)
         ahead = _newton(sought, x, *_between(one, two, done + step / 2))
-        off, way = np.abs(2 * ahead - x - found).max(), np.abs(found - x).max()
+        off, way = (np.abs(one * scale).max() for one in (2 * ahead - x - found, found - x))
         if np.isfinite(found).all() and off <= QUARTER * way + 1e-9:
             x, done, step = found, done + step, 2 * step
         else:
@@ -210,7 +248,9 @@ def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place
     return x[0]
 
 
-def _newton(sought: ClusterEquations, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
+def _newton(
+    sought: ClusterEquations, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
+) -> Array:
     size = _scale(x)[2]
     for _ in range(ITERATIONS):
         gap = sought.residual(x, standing, inputs)
@@ -255,9 +295,7 @@ def _flat(body: BodyMotion, shape: tuple[int, ...], designs: int) -> BodyMotion:
 
 
 def _flat_turning(turning: Turning, shape: tuple[int, ...], designs: int) -> Turning:
-    return Turning(
-        *(np.broadcast_to(one, shape).reshape(designs, shape[-1]) for one in _angles(turning))
-    )
+    return Turning(*(np.broadcast_to(one, shape).reshape(designs, shape[-1]) for one in _angles(turning)))
 
 
 def _at(bodies: Mapping[str, BodyMotion], drives: Sequence[Turning], sample: int) -> _Here:
@@ -298,7 +336,12 @@ def _between(one: _Here, two: _Here, share: float) -> _Here:
     bodies = {
         name: BodyMotion(
             PointMotion(*(mixed(getattr(body.origin, o), getattr(two[0][name].origin, o)) for o in _POINT)),
-            Turning(*(mixed(a, b) for a, b in zip(_angles(body.turning), _angles(two[0][name].turning), strict=True))),
+            Turning(
+                *(
+                    mixed(a, b)
+                    for a, b in zip(_angles(body.turning), _angles(two[0][name].turning), strict=True)
+                )
+            ),
         )
         for name, body in one[0].items()
     }

@@ -30,7 +30,7 @@ class Rates:
 
     def turning(self, drive: Turning) -> Turning:
         """The same over time, with the input's own rates; the angle runs on over a turn."""
-        angle = np.unwrap(np.angle(self.direction))
+        angle = continuous(np.angle(self.direction))
         return Turning(angle, *drive.carried(self.first, self.second, self.third))
 
 
@@ -112,3 +112,22 @@ def directions(d: Plane, first: ArrayLike, second: ArrayLike, branch: int) -> tu
         p = (c * s - d) / l
         p /= np.abs(p)  # what is left of the rounding where l is far smaller than c
     return s, p
+
+
+def continuous(angle: Array) -> Array:
+    """Angles (..., n), rad, without jumps by a turn along the samples; NaN stays NaN and parts nothing.
+
+    A turn between two samples that have a gap between them is not seen.
+
+    >>> continuous(np.array([3.0, np.nan, -3.0])).round(6).tolist()
+    [3.0, nan, 3.283185]
+    """
+    angle = np.asarray(angle)
+    finite = np.isfinite(angle)
+    if angle.ndim == 0:
+        return angle
+    if finite.all():
+        return np.unwrap(angle) if (np.abs(np.diff(angle)) > np.pi).any() else angle
+    last = np.maximum.accumulate(np.where(finite, np.arange(angle.shape[-1]), 0), axis=-1)
+    filled = np.nan_to_num(np.take_along_axis(angle, last, axis=-1))
+    return np.where(finite, np.unwrap(filled), np.nan)

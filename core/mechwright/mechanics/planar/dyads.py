@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.planar.dyad import dyad
+from mechwright.mechanics.planar.dyad import continuous, dyad
 from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning, carried
 
 Solved = tuple[BodyMotion, BodyMotion, Array]
@@ -92,7 +92,7 @@ def pins(
     found = []
     swings = dyad(d, lengths[0], lengths[1], branch, rates)
     for pin, (outer, _), swing, bar in zip((one, two), places, swings, bars, strict=True):
-        theta = _followed(np.angle(swing.direction)) - np.angle(bar)
+        theta = continuous(np.angle(swing.direction)) - np.angle(bar)
         turning = Turning(theta, swing.first, swing.second, swing.third)
         lever = -outer * np.exp(-1j * np.angle(bar)) * swing.direction
         found.append(BodyMotion(carried(pin, turning, lever, rates), turning))
@@ -144,7 +144,7 @@ def pin_and_slide(
         if rates > 2:
             right = (q.jerk - pin.jerk) / n + turning.jerk_factor * e + 3 * a2 * s1 + 3 * b1 * s2
             w3, _ = _bar_rates(right + (3 * w1 * w2 + 1j * w1**3) * z, z)
-    own = Turning.of(_followed(np.angle(z * n)) - np.angle(bar), w1, w2, w3)
+    own = Turning.of(continuous(np.angle(z * n)) - np.angle(bar), w1, w2, w3)
     first = body_at(pin, outer, own, rates)
     place, angle = second
     slid = body_at(first.point(inner, rates), place, turned(turning, -angle), rates)
@@ -188,7 +188,7 @@ def slide_between(
             x = (two.jerk - one.jerk) / n - 3j * b1 * s2 - 3 * (1j * b2 - b1**2) * s1
             x = x + (3 * b1 * b2 + 1j * b1**3) * e
             b3, _ = _swing_rates(x, sigma, offset)
-    turning = Turning.of(_followed(np.angle(n)), b1, b2, b3)
+    turning = Turning.of(continuous(np.angle(n)), b1, b2, b3)
     (a, first), (b, second) = links
     swung = body_at(one, a, turned(turning, -first), rates), body_at(two, b, turned(turning, -second), rates)
     return *swung, np.abs(sigma) / distance
@@ -224,17 +224,3 @@ _RATES = {"value": "position", "first": "velocity", "second": "acceleration", "t
 
 def _fields(way: Way) -> dict[str, Array]:
     return {"value": way.value, "first": way.first, "second": way.second, "third": way.third}
-
-
-def _followed(angle: Array) -> Array:
-    """Angles (..., n) without jumps by a turn along the samples; those that are no number stay."""
-    angle = np.asarray(angle)
-    if angle.ndim == 0:
-        return angle
-    steps = np.diff(angle)
-    jumps = np.abs(steps) > np.pi
-    if not jumps.any():
-        return angle
-    turns = np.where(jumps, np.round(steps / (2 * np.pi)), 0.0)
-    angle[..., 1:] -= 2 * np.pi * np.cumsum(turns, axis=-1)
-    return angle

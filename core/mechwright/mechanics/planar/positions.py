@@ -96,7 +96,7 @@ def solve(
     ... ]
     >>> found = solve(Machine(joints, [Drive("crank")]), [Turning.of([0.0, 1.0], 1.0)])
     >>> np.degrees(found.bodies["rocker"].turning.theta).round(3).tolist()
-    [101.787, 124.391]
+    [104.478, 95.929]
     """
     still = np.zeros(np.broadcast_shapes(*(one.theta.shape for one in inputs)))
     bodies = {GROUND: BodyMotion.about(0j, Turning.of(still))}
@@ -104,19 +104,20 @@ def solve(
     groups = assembly_order(machine) if order is None else order
     if any(isinstance(group, Cluster) for group in groups):
         rates = 3
-    for group in groups:
-        if isinstance(group, Driven):
-            bodies[group.link] = _driven(machine, group, bodies, inputs[group.drive], rates)
-        elif isinstance(group, Geared):
-            bodies[group.link] = _geared(group, bodies, rates)
-        elif isinstance(group, Dyad):
-            one, two, sine = _dyad(machine, group, bodies, rates)
-            bodies |= dict(zip(group.links, (one, two), strict=True))
-            sines[group.inner.name] = sine
-        else:
-            found, sine = followed(machine, group, bodies, inputs)
-            bodies |= found
-            sines[cluster_name(group)] = sine
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # infinite rates at a dead point
+        for group in groups:
+            if isinstance(group, Driven):
+                bodies[group.link] = _driven(machine, group, bodies, inputs[group.drive], rates)
+            elif isinstance(group, Geared):
+                bodies[group.link] = _geared(group, bodies, rates)
+            elif isinstance(group, Dyad):
+                one, two, sine = _dyad(machine, group, bodies, rates)
+                bodies |= dict(zip(group.links, (one, two), strict=True))
+                sines[group.inner.name] = sine
+            else:
+                found, sine = followed(machine, group, bodies, inputs)
+                bodies |= found
+                sines[cluster_name(group)] = sine
     return Solution(bodies, sines)
 
 

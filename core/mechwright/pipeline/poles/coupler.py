@@ -1,4 +1,4 @@
-"""What a family says of the coupler whose poles are drawn, and what follows from it."""
+"""What a family says of the link whose poles are drawn, and what follows from it."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ STEP = 0.5
 
 @dataclass(frozen=True)
 class Coupler:
-    """The coupler of a linkage.
+    """The coupler of a linkage, or any link as seen from another one.
 
     Parameters
     ----------
@@ -28,12 +28,22 @@ class Coupler:
         The linkage at a crank angle, rad: places of its joints from A0, mm, and lines of its links.
     length
         Of the coupler from A to B, mm.
+    link, seen_from
+        Names of the link, and of the one in whose frame its motion and the drawing are.
+    places
+        Where places are counted from, in words.
+    outline
+        The link in its own frame: places of its joints, and lines; None for A in the origin and B to the right.
     """
 
     course: Course
     moved: Callable[[Turning], Sequence[BodyMotion]]
     drawn: Callable[[float], tuple[dict[str, complex], Sequence[Sequence[complex]]]]
     length: float
+    link: str = "coupler"
+    seen_from: str = "ground"
+    places: str = "from A0"
+    outline: tuple[dict[str, complex], Sequence[Sequence[complex]]] | None = None
 
     def way(self) -> Array:
         """Crank angles (n,), rad, of a locus."""

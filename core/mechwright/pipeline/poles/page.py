@@ -2,7 +2,7 @@
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from mechwright.pipeline.build import Build, Wanted
@@ -34,23 +34,30 @@ class PolesPage(Page):
     """Name of the family whose designs have the page."""
 
     @abstractmethod
-    def coupler(self, params: Any) -> "Coupler":
-        """The coupler of a design that moves."""
+    def couplers(self, params: Any) -> "Mapping[str, Coupler]":
+        """The links of a design that moves whose poles are drawn, each by the name of its page."""
+
+    def file_names(self, params: Any) -> Sequence[str]:  # noqa: ARG002 - used by families with several
+        """The names of the pages."""
+        return (NAME,)
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
-        """The page."""
-        return [FileName(NAME, "the poles")] if build.design.family.name == self.family else []
+        """The pages."""
+        if build.design.family.name != self.family:
+            return []
+        return [FileName(name, "the poles") for name in self.file_names(build.design.params)]
 
     def files(self, build: Build) -> Mapping[str, str]:
-        """The page; none for other families, and where the coupler only shifts."""
+        """The pages; none for other families, and of links that only shift."""
+        found: dict[str, str] = {}
         if build.design.family.name != self.family:
-            return {}
-        coupler = self.coupler(build.design.params)
-        try:
-            html = page(build.design.name, build.design.family.title, coupler)
-        except NoPole:
-            return {}
-        return {NAME: html}
+            return found
+        for name, coupler in self.couplers(build.design.params).items():
+            try:
+                found[name] = page(build.design.name, build.design.family.title, coupler)
+            except NoPole:
+                continue
+        return found
 
 
 class NoPole(Exception):  # noqa: N818 - it is no fault
@@ -72,15 +79,16 @@ def page(name: str, title: str, coupler: "Coupler") -> str:
     said = ", ".join(f"{ratio:g}" for ratio in ratios)
     figures = [
         Figure(
-            "On the ground",
+            f"On the {coupler.seen_from}",
             planes.ground(coupler, ratios, angles[0]),
             f"Loci of the acceleration pole G over a period for the acceleration ratios k = α/ω² of the "
             f"crank, {said} per radian; the first is the design's own, dashed in the other assembly.",
         ),
         Figure(
-            "In the coupler",
+            f"In the {coupler.link}",
             planes.moving(coupler, ratios),
-            "The same loci as the coupler sees them, A in the origin, B to the right.",
+            f"The same loci as the {coupler.link} sees them"
+            + (", A in the origin, B to the right." if coupler.outline is None else "."),
         ),
     ]
     figures += [
@@ -93,8 +101,15 @@ def page(name: str, title: str, coupler: "Coupler") -> str:
         for phi in angles
     ]
     return figures_page(
-        name, f"{title}: acceleration poles", _notes(coupler), figures, [_table(coupler, angles)]
+        name, f"{title}: acceleration poles{_pair(coupler)}", _notes(coupler), figures, [_table(coupler, angles)]
     )
+
+
+def _pair(coupler: "Coupler") -> str:
+    """Which link is seen from which, where that is not the coupler from the ground."""
+    if (coupler.link, coupler.seen_from) == ("coupler", "ground"):
+        return ""
+    return f" of the {coupler.link}, seen from the {coupler.seen_from}"
 
 
 def _notes(coupler: "Coupler") -> list[str]:
@@ -107,7 +122,7 @@ def _notes(coupler: "Coupler") -> list[str]:
         else f"The crank's acceleration is {k:g} times the square of its speed, all along."
     )
     return [
-        f"{law} Places are from A0, in mm; k is counter-clockwise positive, per radian.",
+        f"{law} Places are {coupler.places}, in mm; k is counter-clockwise positive, per radian.",
         "Circles, blue: the inflection circle. Whatever the crank's acceleration, the pole lies on it; the "
         "dots are the poles of the ratios beside them. Green: the circle of zero tangential acceleration "
         "of the design's own ratio. Both meet in the instant centre P and in the pole G.",
@@ -131,7 +146,7 @@ def _table(coupler: "Coupler", angles: list[float]) -> Grid:
             ]
         )
     head = ["crank", "P", "inflection pole", "its k", *(f"G, k = {ratio:g}" for ratio in ratios)]
-    return Grid("Instant centre and poles, mm from A0", head, rows)
+    return Grid(f"Instant centre and poles, mm {coupler.places}", head, rows)
 
 
 def _place(point: complex) -> str:

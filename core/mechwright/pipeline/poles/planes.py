@@ -25,14 +25,15 @@ def ground(
 
     ``marks`` are places to show besides, by name, from A0, mm.
     """
-    label = "loci of the acceleration pole on the ground"
+    label = f"loci of the acceleration pole on the {coupler.seen_from}"
     return _loci(coupler, ratios, 0, coupler.drawn(phi), label, marks or {})
 
 
 def moving(coupler: Coupler, ratios: Sequence[float]) -> str:
-    """Loci in the coupler, A in the origin and B to the right."""
-    linked = {"A": 0j, "B": complex(coupler.length)}, [[0j, complex(coupler.length)]]
-    return _loci(coupler, ratios, 1, linked, "loci of the acceleration pole in the coupler", {})
+    """Loci in the link, as its outline shows it."""
+    plain = {"A": 0j, "B": complex(coupler.length)}, [[0j, complex(coupler.length)]]
+    label = f"loci of the acceleration pole in the {coupler.link}"
+    return _loci(coupler, ratios, 1, plain if coupler.outline is None else coupler.outline, label, {})
 
 
 def _loci(
@@ -84,5 +85,5 @@ def position(coupler: Coupler, ratio: float, phi: float) -> str:
         ("tangential circle", COLOURS[2]),
         (f"G, k = {ratio:g}", COLOURS[0]),
     ]
-    label = f"circles of the coupler at a crank angle of {np.degrees(phi):.4g} degrees"
+    label = f"circles of the {coupler.link} at a crank angle of {np.degrees(phi):.4g} degrees"
     return window.picture([*drawn, window.scale(), window.key(names)], label)

@@ -1,0 +1,88 @@
+"""The family ``linkage``."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar, cast
+
+from mechwright import Family, Stage, refuse
+from mechwright_linkage.parameters import LinkageParams
+
+if TYPE_CHECKING:
+    from mechwright import GroundPlate, Motion, Part, Transmission
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure
+    from mechwright.contracts.motion import Channel
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_linkage.kinematics.linkage_table import LinkageTable
+
+
+class Linkages(Family[LinkageParams]):
+    """Any links, pins and slides in a plane that one input moves."""
+
+    name = "linkage"
+    title = "Planar linkage"
+    summary = "Six-bars, quick returns, straight lines, walking legs, or any linkage as it is drawn."
+    Params = LinkageParams
+    batch: ClassVar[int] = 1 << 16
+
+    def rules(self) -> "Rules[LinkageTable]":
+        """Joints, range of the input, transmission angles, bores, layers, strength."""
+        from mechwright_linkage.rules.rule_table import RULES
+
+        return RULES
+
+    def table(self, params: LinkageParams, size: int | None = None) -> "LinkageTable":
+        """The linkage with its machine and its motion."""
+        from mechwright_linkage.kinematics.linkage_table import table_of
+
+        return table_of(params, size)
+
+    def solve(self, params: LinkageParams, samples: int) -> "Motion":
+        """One turn of the driver at constant speed, or its way there and back."""
+        from mechwright_linkage.kinematics.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def stretches(self, params: LinkageParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_linkage.kinematics.motion import motion_of
+
+        return in_stretches(partial(motion_of, params), samples)
+
+    def parts(self, params: LinkageParams) -> "Sequence[Part]":
+        """Links and ground as plates, their pins and bushings."""
+        from mechwright_linkage.parts.design import parts_of
+
+        refuse(self.check(params), Stage.PARTS)
+        return parts_of(params)
+
+    def mounting(self, params: LinkageParams) -> "GroundPlate":
+        """Its ground plate with the driver's shaft."""
+        from mechwright_linkage.parts.design import mounting_of
+
+        return mounting_of(params)
+
+    def draft(self, source: str, text: str) -> LinkageParams:
+        """A linkage of the catalogue, or one that a file or an address of another program draws."""
+        from mechwright_linkage.drafts import draft_of
+
+        return draft_of(source, text)
+
+    def transmission(self, params: LinkageParams) -> "Transmission":
+        """Driver in, output out."""
+        from mechwright_linkage.kinematics.transmission import OutputStage
+
+        return OutputStage(params)
+
+    def figures(self, table: "DesignTable[LinkageParams]") -> "Mapping[str, Figure]":
+        """Transmission angles, output and paths."""
+        from mechwright_linkage.kinematics.figures import figures_of
+
+        return figures_of(cast("LinkageTable", table))
+
+    def channels(self, table: "DesignTable[LinkageParams]", samples: int) -> "Mapping[str, Channel]":
+        """What input, links, slides and points do."""
+        from mechwright_linkage.kinematics.motion import channels_over
+
+        return channels_over(cast("LinkageTable", table), samples)

@@ -1,0 +1,94 @@
+"""Figures of a linkage, or of a table of linkages: transmission angles, output, paths."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from mechwright import Array
+from mechwright.contracts.figure import Figure
+from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.machine import Prismatic
+from mechwright.mechanics.planar.positions import Solution
+from mechwright_linkage.kinematics.channels import transmission_angle
+from mechwright_linkage.kinematics.curves import Curve
+from mechwright_linkage.kinematics.extremes import SAMPLES, Extreme, least
+from mechwright_linkage.kinematics.linkage_table import LinkageTable
+from mechwright_linkage.kinematics.path_figures import Path, Stroke, extremes, gait, output_curve, stroke
+from mechwright_linkage.kinematics.period import inputs_at, over_phases, ways_of
+
+
+def least_transmission(table: LinkageTable) -> Array:
+    """The least transmission angle over a period, rad; a number or a column."""
+    return _number(table, _least_angle(table).value)
+
+
+def worst_joint(table: LinkageTable) -> str:
+    """Of one linkage the inner joint of the group whose transmission angle is the least."""
+    sines = table.solved_at(inputs_at(table, _least_angle(table).phase), 0).sines
+    return min(sines, key=lambda joint: float(np.ravel(sines[joint])[0]), default="")
+
+
+def figures_of(table: LinkageTable) -> Mapping[str, Figure]:
+    """The figures by their names."""
+    slides = _slides(table)
+    found = {
+        "least_transmission_angle": Figure(lambda: least_transmission(table), "rad"),
+        "input_range": Figure(
+            lambda: _number(table, np.abs(ways_of(table).travel)), "mm" if table.driver_slides else "rad"
+        ),
+        "output_stroke" if slides else "output_swing": Figure(
+            lambda: _of_row(table, _stroke(table).extremes.extent), "mm" if slides else "rad"
+        ),
+        "time_ratio": Figure(lambda: _of_row(table, _time_ratio(table))),
+    }
+    for name in table.linkage.traces:
+        found[f"x{name}_range"] = Figure(lambda key=name: _of_row(table, extremes(_path(table, key).along).extent), "mm")
+        found[f"y{name}_range"] = Figure(lambda key=name: _of_row(table, gait(_path(table, key)).lift), "mm")
+    return found
+
+
+def _least_angle(table: LinkageTable) -> Extreme:
+    return table.once("least transmission angle", lambda: least(table, transmission_angle))
+
+
+def _slides(table: LinkageTable) -> bool:
+    """Whether the output slides on the ground."""
+    between = table.machine.between(table.given.output_link, GROUND)
+    return any(isinstance(joint, Prismatic) for joint in between)
+
+
+def _motion(table: LinkageTable) -> tuple[Array, Solution]:
+    """Phases (m,), and the motion with rates by the phase."""
+    return table.once("motion by phase", lambda: over_phases(table, SAMPLES))
+
+
+def _stroke(table: LinkageTable) -> Stroke:
+    def found() -> Stroke:
+        phases, motion = _motion(table)
+        return stroke(output_curve(table.machine, motion, phases, table.given.output_link))
+
+    return table.once("stroke", found)
+
+
+def _time_ratio(table: LinkageTable) -> Array:
+    """NaN of an input that goes there and back, which has no forward and return of its own."""
+    rocks = ways_of(table).rocks[:, 0]
+    return np.where(rocks, math.nan, _stroke(table).time_ratio)
+
+
+def _path(table: LinkageTable, name: str) -> Path:
+    phases, motion = _motion(table)
+    link, point = table.linkage.traces[name]
+    moved = motion.bodies[link].point(table.linkage.points[link][point])
+    return Path(Curve.of_point(phases, moved), Curve.of_point(phases, moved, math.pi / 2))
+
+
+def _of_row(table: LinkageTable, values: Array) -> Array:
+    """Values (n,), or one of all, as a number of one linkage or a column (n, 1)."""
+    return _number(table, np.broadcast_to(np.reshape(values, (-1, 1)), (table.size, 1)))
+
+
+def _number(table: LinkageTable, column: Array) -> Array:
+    """A number of one linkage, the column of a table."""
+    return np.asarray(column.item()) if table.single else column

@@ -1,0 +1,202 @@
+"""How far the input can go, and how it goes over one period.
+
+Glossary
+--------
+phase
+    0 to 2π over a period: of a driver that turns its angle over the number of turns, of a lever that of the
+    crank that would move it there and back.
+"""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from mechwright import Array
+from mechwright.contracts.design_table import column
+from mechwright.contracts.stretch import Samples, travelled
+from mechwright.mechanics.planar import Course
+from mechwright.mechanics.planar.input_range import InputRange, Interval, ranges, usable
+from mechwright.mechanics.planar.machine import GearPair
+from mechwright.mechanics.planar.positions import Solution
+from mechwright.mechanics.planar.rigid import Turning
+from mechwright.mechanics.planar.swing import SLACK, within
+from mechwright_linkage.kinematics.linkage_table import LinkageTable
+
+MOST_TURNS = 400
+"""Turns of the driver after which gears stand as at the start, at most."""
+
+SURE = 0.2
+"""Sine of the least transmission angle at samples of a turn with which a driver turns fully: between two of
+them it falls by far less."""
+
+TURN_SAMPLES = 181
+"""Samples of a turn at which that is looked at."""
+
+
+@dataclass(frozen=True)
+class Period:
+    """Times (..., n), s, the input, and the motion of all links."""
+
+    time: Array
+    drive: Turning
+    solution: Solution
+
+
+def range_of(table: LinkageTable) -> InputRange:
+    """Where the input of one linkage can be."""
+    return table.once("range", lambda: ranges(table.machine))
+
+
+def turns_fully(table: LinkageTable) -> bool:
+    """Whether the driver of one linkage turns all the way round, and without a change point."""
+    found = range_of(table)
+    return not table.driver_slides and found.turns_fully and not found.change_points
+
+
+def is_lever(table: LinkageTable) -> bool:
+    """Whether the input of one linkage goes there and back."""
+    return table.driver_slides or table.given.swing_from is not None or not turns_fully(table)
+
+
+def requested(table: LinkageTable) -> tuple[float, float] | None:
+    """The ends that a design states for its input: rad, or mm of a driver that slides; None for none."""
+    given = table.given
+    if table.driver_slides:
+        ends = (given.stroke_from, given.stroke_to)
+        return None if ends[0] is None or ends[1] is None else (ends[0], ends[1])
+    if given.swing_from is None or given.swing_to is None:
+        return None
+    return math.radians(given.swing_from), math.radians(given.swing_to)
+
+
+def interval_of(table: LinkageTable) -> Interval | None:
+    """Where the input goes that is left to itself: around the drawn position, up to a degree of transmission
+    angle."""
+    ways = usable(table.machine).intervals
+    turn, drawn = 0.0 if table.driver_slides else math.tau, table.drawn_at
+    for way in ways:
+        shift = turn * round((drawn - (way.low + way.high) / 2) / turn) if turn else 0.0
+        if way.low + shift - SLACK <= drawn <= way.high + shift + SLACK:
+            return Interval(way.low + shift, way.high + shift, way.low_limit, way.high_limit)
+    return ways[0] if ways else None
+
+
+def ends_of(table: LinkageTable) -> tuple[float, float] | None:
+    """The ends between which the input goes to and fro; None where it cannot reach what is requested."""
+    asked = requested(table)
+    if asked is None:
+        way = interval_of(table)
+        return None if way is None else (way.low, way.high)
+    ways = [(one.low, one.high) for one in range_of(table).intervals]
+    if table.driver_slides:
+        low, high = min(asked), max(asked)
+        return asked if any(a - SLACK <= low and high <= b + SLACK for a, b in ways) else None
+    return within([(-math.pi, math.pi)] if range_of(table).turns_fully else ways, *asked)
+
+
+def course_of(table: LinkageTable) -> Course:
+    """One period of the input of one linkage that closes and reaches what is requested."""
+    return table.once("course", lambda: _course(table))
+
+
+def _course(table: LinkageTable) -> Course:
+    sense = 1.0 if table.given.direction == "ccw" else -1.0
+    if is_lever(table):
+        ends = ends_of(table)
+        assert ends is not None  # noqa: S101 - the rules come first
+        return Course.between(*(ends if requested(table) is not None or sense > 0 else ends[::-1]))
+    return Course(table.drawn_at, sense * turns_of(table) * math.tau)
+
+
+def turns_of(table: LinkageTable) -> int:
+    """Turns of the driver that bring all gears back to where they were."""
+    found = 1
+    for joint in table.machine.joints:
+        if isinstance(joint, GearPair):
+            found *= Fraction(joint.ratio).limit_denominator(MOST_TURNS).denominator
+    return min(found, MOST_TURNS)
+
+
+def period_of(table: LinkageTable, samples: Samples) -> Period:
+    """The motion of one linkage over one period, both ends included."""
+    time, drive = course_of(table).period(samples, float(np.ravel(table.omega)[0]))
+    return Period(time, drive, table.solved(drive))
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Start and travel of the inputs of a table, columns (n, 1), rad or mm, and which go there and back."""
+
+    start: Array
+    travel: Array
+    rocks: Array
+
+
+def ways_of(table: LinkageTable) -> Ways:
+    """The way of every input of a table; of those that turn without a doubt it is found at once."""
+    return table.once("ways", lambda: _ways(table))
+
+
+def _ways(table: LinkageTable) -> Ways:
+    sense = 1.0 if table.given.direction == "ccw" else -1.0
+    size = table.size
+    start, travel = column(table.drawn_at, size).copy(), column(sense * turns_of(table) * math.tau, size).copy()
+    rocks = np.zeros((size, 1), bool)
+    doubtful = np.flatnonzero(~sure_to_turn(table)) if table.may_turn else np.arange(size)
+    for place in doubtful.tolist():
+        course = course_of(table.row(place))
+        start[place], travel[place], rocks[place] = course.start, course.travel, course.rocks
+    return Ways(start, travel, rocks)
+
+
+def sure_to_turn(table: LinkageTable) -> Array:
+    """Which drivers (n,) of a table turn all the way without a doubt."""
+
+    def found() -> Array:
+        at = table.drawn_at + travelled(turns_of(table) * math.tau, TURN_SAMPLES * turns_of(table))
+        solution = table.solved_at(np.atleast_2d(at), 0)
+        sines = [np.broadcast_to(one, (table.size, one.shape[-1])) for one in solution.sines.values()]
+        closes = np.broadcast_to(solution.closes, (table.size, at.shape[-1])).all(axis=-1)
+        steep = np.logical_and.reduce([(one > SURE).all(axis=-1) for one in sines]) if sines else closes
+        return np.asarray(closes & steep)
+
+    return table.once("sure to turn", found)
+
+
+def phases_of(table: LinkageTable, samples: int) -> Array:
+    """Phases (samples,) over the period; of levers the way there is the way back."""
+    return np.linspace(0.0, math.tau, samples)
+
+
+def inputs_at(table: LinkageTable, phases: Array) -> Array:
+    """Inputs (n, m) at phases (m,) or (n, m)."""
+    ways = ways_of(table)
+    there = ways.start + ways.travel / 2 * (1 - np.cos(phases))
+    return np.where(ways.rocks, there, ways.start + ways.travel * phases / math.tau)
+
+
+def drives_at(table: LinkageTable, phases: Array) -> tuple[Array, Turning]:
+    """Times (n, m), s, and inputs over time at phases (m,), as :meth:`Course.period` has them for one."""
+    ways, omega = ways_of(table), column(table.omega, table.size)
+    half, cos, sin = ways.travel / 2, np.cos(phases), np.sin(phases)
+    theta = inputs_at(table, phases)
+    turning = np.sign(ways.travel) * omega
+    speed = np.where(ways.rocks, half * omega * sin, turning)
+    alpha = np.where(ways.rocks, half * omega**2 * cos, 0.0)
+    jerk = np.where(ways.rocks, -half * omega**3 * sin, 0.0)
+    time = np.where(ways.rocks, phases, np.abs(ways.travel) * phases / math.tau) / omega
+    return time, Turning.of(theta, speed, alpha, jerk)
+
+
+
+
+def over_phases(table: LinkageTable, samples: int) -> tuple[Array, Solution]:
+    """Phases (m,) over a period, and the motion (n, m) with rates by the phase."""
+    phases = phases_of(table, samples)
+    ways = ways_of(table)
+    half, cos, sin = ways.travel / 2, np.cos(phases), np.sin(phases)
+    rates = [np.where(ways.rocks, lever, 0.0) for lever in (half * sin, half * cos, -half * sin)]
+    first = np.where(ways.rocks, rates[0], ways.travel / math.tau)
+    return phases, table.solved(Turning.of(inputs_at(table, phases), first, *rates[1:]))

@@ -1,0 +1,291 @@
+"""The design table of a planar linkage."""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright import FIRST, MaterialName, Parameters
+from mechwright.mechanics.linkage import fields
+from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.units import Millimetres, Unit
+from mechwright_linkage.catalogue.entry import Entry
+from mechwright_linkage.catalogue.legs import Jansen, Klann
+from mechwright_linkage.catalogue.parallels import Pantograph, ParallelGuide
+from mechwright_linkage.catalogue.quick_return import CrankShaper, Whitworth
+from mechwright_linkage.catalogue.six_bars import StephensonOne, StephensonThree, WattOne, WattTwo
+from mechwright_linkage.catalogue.slides import ScissorLift, ScotchYoke, TogglePress
+from mechwright_linkage.catalogue.stephenson_two import StephensonTwo
+from mechwright_linkage.catalogue.straight_lines import Chebyshev, Hoecken, Peaucellier, Roberts, WattLine
+from mechwright_linkage.catalogue.wipers import Wiper
+from mechwright_linkage.sketch import refuse_strangers
+from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, Word
+
+MOST_LINKS, MOST_POINTS = 16, 60
+"""Of a drawn linkage: layers are sought for all of them."""
+
+LinkageName = Literal[
+    "drawn",
+    "watt-1",
+    "watt-2",
+    "stephenson-1",
+    "stephenson-2",
+    "stephenson-3",
+    "whitworth",
+    "crank-shaper",
+    "scotch-yoke",
+    "pantograph",
+    "parallel-guide",
+    "peaucellier",
+    "hoecken",
+    "chebyshev",
+    "roberts",
+    "watt-line",
+    "jansen",
+    "klann",
+    "toggle-press",
+    "wiper",
+    "scissor-lift",
+]
+
+
+class LoadTable(Parameters):
+    """What pushes and turns a link from outside, all along."""
+
+    link: Word = Field("", description="The link that it acts on.")
+    point: Word = Field("", description="The point of the link at which the force acts; left out, its first.")
+    force_x: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N")] = Field(0.0, description="Force along X.")
+    force_y: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N")] = Field(0.0, description="Force along Y.")
+    torque: Annotated[float, Field(ge=-1e4, le=1e4), Unit("N*m")] = Field(
+        0.0, description="Torque, counter-clockwise."
+    )
+
+
+class SpringTable(Parameters):
+    """A tension or compression spring between points of two links."""
+
+    link: Word = Field("", description="One link.")
+    point: Word = Field("", description="The point of it.")
+    on: Word = Field(GROUND, description="The other link, or the ground.")
+    on_point: Word = Field("", description="The point of that.")
+    rate: Annotated[float, Field(ge=0, le=1e5), Unit("N/mm")] = Field(0.0, description="Spring rate.")
+    free_length: Millimetres = Field(0.0, ge=0, le=5000, description="Length at which it bears nothing.")
+
+    @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Link and point of both ends."""
+        return (self.link, self.point), (self.on, self.on_point)
+
+
+class LinkageParams(Parameters):
+    """Links, pins and slides in a plane, made of plates; from the catalogue, or as they are drawn.
+
+    Examples
+    --------
+    >>> LinkageParams(linkage="jansen").entry.m
+    15.0
+    """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "joints": "a point that several links name is their pin; slides has the slides",
+        "bars": "they are called links",
+        "input": "the link that moves the others is called driver",
+        "crank": "in a catalogue linkage it stands in the table of that linkage; drawn, links has it",
+    }
+
+    linkage: LinkageName = Field(
+        "jansen",
+        description="A linkage of the catalogue, whose dimensions stand in the table of its name; or drawn, "
+        "by points and links.",
+        json_schema_extra=FIRST,
+    )
+    watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
+    watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
+    stephenson_1: StephensonOne = Field(StephensonOne(), description='Dimensions for linkage = "stephenson-1".')
+    stephenson_2: StephensonTwo = Field(StephensonTwo(), description='Dimensions for linkage = "stephenson-2".')
+    stephenson_3: StephensonThree = Field(StephensonThree(), description='Dimensions for linkage = "stephenson-3".')
+    whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
+    crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
+    scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
+    pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
+    parallel_guide: ParallelGuide = Field(ParallelGuide(), description='Dimensions for linkage = "parallel-guide".')
+    peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
+    hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
+    chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
+    roberts: Roberts = Field(Roberts(), description='Dimensions for linkage = "roberts".')
+    watt_line: WattLine = Field(WattLine(), description='Dimensions for linkage = "watt-line".')
+    jansen: Jansen = Field(Jansen(), description='Dimensions for linkage = "jansen".')
+    klann: Klann = Field(Klann(), description='Dimensions for linkage = "klann".')
+    toggle_press: TogglePress = Field(TogglePress(), description='Dimensions for linkage = "toggle-press".')
+    wiper: Wiper = Field(Wiper(), description='Dimensions for linkage = "wiper".')
+    scissor_lift: ScissorLift = Field(ScissorLift(), description='Dimensions for linkage = "scissor-lift".')
+    points: dict[Word, PointTable] = Field(
+        default_factory=dict,
+        max_length=MOST_POINTS,
+        description="Points of a drawn linkage in one position, as A = { x = 30, y = 0 }.",
+    )
+    scale: Annotated[float, Field(ge=0.001, le=1000), Unit("")] = Field(
+        1.0, description="Size of a drawn linkage over that of the drawing."
+    )
+    links: dict[Word, tuple[Word, ...]] = Field(
+        default_factory=dict,
+        max_length=MOST_LINKS,
+        description='Links of a drawn linkage by their points, as { ground = ["A0", "B0"], crank = ["A0", '
+        '"A"] }; a point of two links is their pin.',
+    )
+    slides: tuple[SlideTable, ...] = Field((), max_length=8, description="Slides of a drawn linkage.")
+    gears: tuple[GearTable, ...] = Field((), max_length=8, description="Gear pairs of a drawn linkage.")
+    driver: Word = Field(
+        "", description="The link of a drawn linkage that the input moves; left out, the one called crank."
+    )
+    driver_on: Word = Field(GROUND, description="The link against which the driver moves.")
+    output: Word = Field(
+        "", description="The link that the linkage is for; left out, that of the catalogue, or the last one."
+    )
+    pairs: Annotated[tuple[tuple[Word, Word], ...], Field(max_length=8)] = Field(
+        (),
+        description='Pairs of links whose acceleration poles are wanted, as [["coupler", "ground"]]: of the '
+        "first as seen from the second; left out, of the output seen from the ground.",
+    )
+    speed: fields.Speed = 60.0
+    direction: fields.Direction = "ccw"
+    swing_from: fields.SwingFrom = None
+    swing_to: fields.SwingTo = None
+    stroke_from: Annotated[float, Field(ge=-5000, le=5000), Unit("mm")] | None = Field(
+        None,
+        description="One end of the stroke of a driver that slides, from where it is drawn; left out, it "
+        "goes as far as it can.",
+    )
+    stroke_to: Annotated[float, Field(ge=-5000, le=5000), Unit("mm")] | None = Field(
+        None, description="The other end of that stroke."
+    )
+    loads: tuple[LoadTable, ...] = Field((), max_length=16, description="Forces and torques on links.")
+    springs: tuple[SpringTable, ...] = Field((), max_length=16, description="Springs between links.")
+    gravity_x: Annotated[float, Field(ge=-100, le=100), Unit("m/s^2")] = Field(
+        0.0, description="Acceleration of free fall along X; 0 for a machine that lies flat."
+    )
+    gravity_y: Annotated[float, Field(ge=-100, le=100), Unit("m/s^2")] = Field(
+        0.0, description="The same along Y: -9.81 for a machine that stands upright."
+    )
+    thickness: Millimetres = Field(
+        6.0, ge=1, le=100, description="Of the moving links.", json_schema_extra=FIRST
+    )
+    ground_thickness: fields.GroundThickness = 8.0
+    pin_diameter: Millimetres = Field(
+        6.0, ge=1, le=200, description="Of the pins of all joints.", json_schema_extra=FIRST
+    )
+    bushing_wall: Millimetres = Field(
+        1.0, ge=0, le=50, description="Wall of the plain bushings in the turning joints, 0 for none."
+    )
+    running_fit: fields.RunningFit = 0.03
+    rim: Millimetres = Field(
+        4.0, ge=0.5, le=100, description="Material of the plates around bores and slots."
+    )
+    web_width: Millimetres = Field(
+        10.0, ge=1, le=500, description="Width of straight links between their bosses."
+    )
+    guide_length: Millimetres = Field(
+        30.0, ge=2, le=1000, description="Distance of the two pins by which a plate slides in its slot."
+    )
+    clearance: fields.Clearance = 1.0
+    washer: fields.Washer = 0.5
+    frame: Literal["auto", "one", "two"] = Field(
+        "auto",
+        description="Ground plates: one below the links, two with the links between, or one where that goes.",
+    )
+    screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None, description="Diameter of the holes in the corners of the ground plates; left out, of the pins."
+    )
+    screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
+        None,
+        description="Least distance of these holes from the outermost ground pivot across the plate; left "
+        "out, as near as the bores leave room.",
+    )
+    material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
+
+    def __hash__(self) -> int:
+        return hash(self.model_dump_json())
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        drawn = [name for name in ("points", "links", "slides", "gears") if getattr(self, name)]
+        if self.linkage != "drawn" and drawn:
+            raise ValueError(
+                f'{drawn[0]}: it is of a drawn linkage; set linkage = "drawn", or leave {drawn[0]} out'
+            )
+        if self.linkage == "drawn":
+            refuse_strangers(self.points, self.links, self.slides, self.gears)
+        self._refuse_names()
+        fields.swing_together(self.swing_from, self.swing_to, self.direction)
+        if (self.stroke_from is None) != (self.stroke_to is None):
+            raise ValueError("give both stroke_from and stroke_to, or neither")
+        if self.stroke_from is not None and self.stroke_from == self.stroke_to:
+            raise ValueError("stroke_from and stroke_to are the same, so nothing moves; give two")
+        return self
+
+    def _refuse_names(self) -> None:
+        """Refuse links and points that other keys name and that are not there."""
+        points = self.link_points
+        moving = [link for link in points if link != GROUND]
+        asked: list[tuple[str, str, Sequence[str]]] = [("output", self.output, moving)]
+        if self.linkage == "drawn":
+            asked += [("driver", self.driver or "crank", moving), ("driver_on", self.driver_on, list(points))]
+        elif self.driver or self.driver_on != GROUND:
+            raise ValueError("driver: a linkage of the catalogue has its own; leave driver and driver_on out")
+        asked += [("pairs", link, list(points)) for pair in self.pairs for link in pair]
+        asked += [("loads", load.link or "?", moving) for load in self.loads]
+        asked += [("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends]
+        for key, link, known in asked:
+            if link and link not in known:
+                raise ValueError(f"{key}: no link is called {link!r}; there are {', '.join(known)}")
+        for one, two in self.pairs:
+            if one == two:
+                raise ValueError(f"pairs: {one} does not move relative to itself; name two links")
+        stated = [("loads", load.link, load.point) for load in self.loads if load.point]
+        stated += [("springs", *one) for spring in self.springs for one in spring.ends]
+        for key, link, point in stated:
+            if point not in points[link]:
+                raise ValueError(f"{key}: {link} has no point {point!r}; it has {', '.join(points[link])}")
+
+    @property
+    def entry(self) -> Entry:
+        """The linkage of the catalogue with its dimensions; raises AttributeError of one that is drawn."""
+        found: Entry = getattr(self, self.table_name)
+        return found
+
+    @property
+    def table_name(self) -> str:
+        """The key of the table that has the dimensions: of a linkage of the catalogue its own, else points."""
+        return "points" if self.linkage == "drawn" else self.linkage.replace("-", "_")
+
+    @property
+    def link_points(self) -> Mapping[str, Sequence[str]]:
+        """Link to the names of its points."""
+        if self.linkage == "drawn":
+            return self.links
+        return {link: tuple(own) for link, own in self.entry.points().items()}
+
+    @property
+    def driver_links(self) -> tuple[str, str]:
+        """The driver, and the link against which it moves."""
+        if self.linkage == "drawn":
+            return self.driver or "crank", self.driver_on
+        drive = self.entry.drive()
+        return drive.link, drive.on
+
+    @property
+    def output_link(self) -> str:
+        """The link that the linkage is for."""
+        if self.output or self.linkage != "drawn":
+            return self.output or self.entry.output
+        return [link for link in self.links if link != GROUND][-1]
+
+    @property
+    def pole_pairs(self) -> tuple[tuple[str, str], ...]:
+        """The pairs of links whose poles are wanted."""
+        return self.pairs or ((self.output_link, GROUND),)
+
+
+def replaced(params: LinkageParams, **changes: Any) -> LinkageParams:
+    """The same design with other values, which are not validated."""
+    return params.model_copy(update=changes)

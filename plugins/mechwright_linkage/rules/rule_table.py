@@ -1,0 +1,8 @@
+"""The rules of a linkage, in the order in which they are asked."""
+
+from mechwright.contracts.rule_list import in_turn
+from mechwright_linkage.rules.motion_rules import MOTION, TRANSMISSIONS
+from mechwright_linkage.rules.part_rules import PARTS
+from mechwright_linkage.rules.notes import NOTES
+
+RULES = in_turn(MOTION, TRANSMISSIONS, PARTS, NOTES)
