@@ -338,3 +338,5 @@ def test_what_closes_nowhere_has_no_interval_and_two_drives_have_no_limits():
     assert ranges(four_bar(10.0, 20.0, 30.0, 90.0)).intervals == ()
     with pytest.raises(KinematicsError, match="has 2"):
         ranges(machine_of(LINKAGES["fivebar_two_drivers"]))
+    with pytest.raises(KinematicsError, match="columns of designs"):
+        ranges(four_bar(np.array([[30.0], [40.0]]), 80.0, 70.0, 90.0))

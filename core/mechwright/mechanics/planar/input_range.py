@@ -152,7 +152,8 @@ def ranges(
     Raises
     ------
     KinematicsError
-        The machine has not one drive, cannot be put together, or stays at a dead point.
+        The machine has not one drive, is of several designs, cannot be put together, or stays at a
+        dead point.
 
     Examples
     --------
@@ -171,6 +172,16 @@ def ranges(
     """
     if len(machine.drives) != 1:
         raise KinematicsError(f"limits of the input need one drive; the machine has {len(machine.drives)}")
+    places = (
+        joint.place(link)
+        for joint in machine.joints
+        if not isinstance(joint, GearPair)
+        for link in joint.links
+    )
+    if any(np.size(place) > 1 for place in places):
+        raise KinematicsError(
+            "limits of the input are those of one design; the machine has columns of designs"
+        )
     order = assembly_order(machine)
     turns = isinstance(machine.driven_joint(machine.drives[0]), Revolute)
     period = _period(machine) if turns and bounds is None else None

@@ -79,8 +79,10 @@ def solve(
     order
         That of :func:`assembly_order`, where it is known.
     rates
-        The highest rate that is needed, 0 to 3; those above are NaN, or are not to be used. Without the jerk
-        a linkage of dyads takes half of the time.
+        The highest rate that is needed, 0 to 3; those above are NaN, or not to be used where links are
+        followed. Without the jerk dyads take a third of the time.
+
+    Many designs are fastest in blocks of some 10,000 samples, which stay in the cache of a core.
 
     Raises
     ------

@@ -133,8 +133,7 @@ def _settled(cells: _Cells) -> tuple[Mask, Mask, Mask]:
 
 
 def _one_sign(values: Array) -> Mask:
-    found: Mask = (values > 0).all(axis=0) | (values < 0).all(axis=0)
-    return found
+    return np.asarray((values > 0).all(axis=0) | (values < 0).all(axis=0), dtype=np.bool_)
 
 
 def _extreme(function: Function, cells: _Cells) -> tuple[Array, Array, Array]:
