@@ -4,11 +4,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import Family, Stage, refuse
+from mechwright import Family, Parameters, Stage, refuse
 from mechwright_linkage.parameters import LinkageParams
+from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, PathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import GroundPlate, Motion, Part, Transmission
+    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis, Transmission
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
@@ -24,6 +25,11 @@ class Linkages(Family[LinkageParams]):
     summary = "Six-bars, quick returns, straight lines, walking legs, or any linkage as it is drawn."
     Params = LinkageParams
     batch: ClassVar[int] = 1 << 16
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {
+        "function": FunctionRequirement,
+        "dwell": DwellRequirement,
+        "path": PathRequirement,
+    }
 
     def rules(self) -> "Rules[LinkageTable]":
         """Joints, range of the input, transmission angles, bores, layers, strength."""
@@ -74,6 +80,20 @@ class Linkages(Family[LinkageParams]):
         from mechwright_linkage.kinematics.transmission import OutputStage
 
         return OutputStage(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[LinkageParams]":
+        """Linkages of the catalogue that answer angles, dwell, or lead a point along a path."""
+        from mechwright_linkage.synthesis.designs import answering, dwelling, leading
+
+        if isinstance(requirement, FunctionRequirement):
+            return answering(requirement, progress)
+        if isinstance(requirement, DwellRequirement):
+            return dwelling(requirement, progress)
+        if isinstance(requirement, PathRequirement):
+            return leading(requirement, progress)
+        return super().synthesise(kind, requirement, progress)
 
     def figures(self, table: "DesignTable[LinkageParams]") -> "Mapping[str, Figure]":
         """Transmission angles, output and paths."""

@@ -11,7 +11,8 @@ from reference_linkages import LINKAGES, case
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Group, assembly_order
 from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Pose, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import Solution, solve
-from mechwright.mechanics.planar.rigid import Turning
+from mechwright.mechanics.planar.relative_motion import instant_centre, relative_pole
+from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
 EXACT = 1e-7
 """Of the largest rate of its order: Newton stops at 1e-12 of the positions, and dead points may be near."""
@@ -159,3 +160,32 @@ def test_coarse_samples_do_not_jump_to_another_assembly():
     for link in one.machine.links:
         off = coarse.bodies[link].origin.position - fine.bodies[link].origin.position[::60]
         assert np.abs(off).max() < 1e-9, link
+
+
+def test_a_drive_between_two_links_that_move():
+    """A four-bar driven at the angle of coupler and crank moves as the one that its crank drives."""
+    one = case("fourbar")
+    found = solve(one.machine, one.inputs)
+    crank, coupler = (found.bodies[link].turning for link in ("crank", "coupler"))
+    law = Turning(
+        *(getattr(coupler, part) - getattr(crank, part) for part in ("theta", "omega", "alpha", "jerk"))
+    )
+    drawn = in_one_cluster(one.machine, found)[0].drawn
+    agree(
+        found,
+        solve(
+            replace(one.machine, drives=[Drive("coupler", "crank")], drawn=drawn, drawn_at=[law.theta[0]]),
+            [law],
+        ),
+    )
+
+
+def test_links_that_turn_alike_but_for_rounding_have_no_pole():
+    """Opposite sides of a rhombus translate to each other, however small it is."""
+    centre = np.array([1e-6 + 0j])
+    for alpha in (0.0, 0.7):
+        side = BodyMotion(PointMotion.of(centre, 1e-6, 1e-6), Turning.of([0.1], 0.1 + 0.2, alpha))
+        other = BodyMotion(PointMotion.of(0 * centre), Turning.of([2.0], 0.3, alpha))
+        assert side.turning.omega != other.turning.omega
+        pole, ground = relative_pole(side, other)
+        assert np.isnan([pole.fixed, pole.moving, ground, instant_centre(side, other)]).all()

@@ -25,14 +25,17 @@ from mechwright.mechanics.planar.rigid import Plane
 DEGREE = 3
 """Of the trigonometric polynomial."""
 
-ON_CIRCLE = 1e-4
+ON_CIRCLE = 1e-2
 """A root e^{iφ} this near to the unit circle may be an angle: rounding moves double roots off it."""
 
 CLOSED = 1e-9
 """Largest error of a bar's length, over the size of the linkage, of a plate that is put together."""
 
-STEPS = 4
-"""Newton steps from an eigenvalue to the root."""
+STEPS = 8
+"""Newton steps on the three bars from an eigenvalue to the pose."""
+
+SAME = 1e-7
+"""rad. Two poses this near are one."""
 
 
 def assemblies(pins: tuple[Any, Any, Any], plate: tuple[Any, Any], lengths: tuple[Any, Any, Any]) -> Array:
@@ -67,10 +70,11 @@ def assemblies(pins: tuple[Any, Any, Any], plate: tuple[Any, Any], lengths: tupl
     values = _closing(angles, columns)
     coefficients = np.fft.fft(values, axis=-1)[:, [3, 2, 1, 0, -1, -2, -3]] / count
     roots = _roots(coefficients)
-    found = np.where(np.abs(np.abs(roots) - 1) < ON_CIRCLE, np.angle(roots), np.nan)
-    for _ in range(STEPS):
-        found = _improved(found, coefficients)
-    return np.where(_error(found, columns) < CLOSED, found, np.nan)
+    start = np.where(np.abs(np.abs(roots) - 1) < ON_CIRCLE, np.angle(roots), np.nan)
+    found, error = _closed(start, columns)
+    found = np.sort(np.where(error < CLOSED, found, np.nan), axis=-1)
+    again = np.diff(found, axis=-1, prepend=-np.inf) < SAME
+    return np.sort(np.where(again, np.nan, found), axis=-1)
 
 
 def place(
@@ -110,24 +114,28 @@ def _roots(coefficients: Plane) -> Plane:
     return found
 
 
-def _improved(angle: Array, coefficients: Plane) -> Array:
-    """Angles after a step of Newton's method."""
-    orders = np.arange(DEGREE, -DEGREE - 1, -1)
-    terms = coefficients[:, None, :] * np.exp(1j * orders * angle[:, :, None])
-    value, slope = terms.sum(axis=-1).real, (1j * orders * terms).sum(axis=-1).real
-    with np.errstate(invalid="ignore", divide="ignore"):
-        step = value / slope
-    return np.asarray(np.angle(np.exp(1j * (angle - np.where(np.isfinite(step), step, 0.0)))))
-
-
-def _error(angle: Array, columns: Any) -> Array:
-    """Largest error of the bars' lengths (n, 6), over the size; infinite where there is no angle."""
-    p1, p2, p3, c2, c3, *lengths = columns
-    with np.errstate(invalid="ignore", divide="ignore"):
+def _closed(angle: Array, columns: Any) -> tuple[Array, Array]:
+    """Angles (n, 6) after Newton's method on place and angle, and the largest error of a bar."""
+    p1, p2, p3, c2, c3, l1, l2, l3 = columns
+    pins, lengths = np.stack([p1, p2, p3]), np.stack([l1, l2, l3]).real
+    levers = np.stack([0 * c2, c2, c3])
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         along, sine = _over_sine(angle, columns)
-        x, e = p1 + along / sine, np.exp(1j * angle)
-        bars = (x - p1, x + c2 * e - p2, x + c3 * e - p3)
-        error = np.max(
-            [np.abs(np.abs(bar) - one.real) for bar, one in zip(bars, lengths, strict=True)], axis=0
-        )
-    return np.where(np.isfinite(error), error, np.inf)
+        x = p1 + l1 * np.sign(sine) * along / np.abs(along)
+        for _ in range(STEPS):
+            turned = levers * np.exp(1j * angle)
+            bars = x + turned - pins
+            gap = (np.abs(bars) ** 2 - lengths**2) / 2
+            rows = np.stack([bars.real, bars.imag, (np.conj(bars) * 1j * turned).real], axis=-1)
+            step = _cramer(np.moveaxis(rows, 0, -2), np.moveaxis(gap, 0, -1))
+            x, angle = x - step[..., 0] - 1j * step[..., 1], angle - step[..., 2]
+        error = np.max(np.abs(np.abs(x + levers * np.exp(1j * angle) - pins) - lengths), axis=0)
+    return np.angle(np.exp(1j * angle)), np.where(np.isfinite(error), error, np.inf)
+
+
+def _cramer(matrix: Array, right: Array) -> Array:
+    """Solutions (..., 3) of systems (..., 3, 3) by cross products; infinite or NaN where one is singular."""
+    a, b, c = matrix[..., 0], matrix[..., 1], matrix[..., 2]
+    crossed = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=-2)
+    determinant = (a * crossed[..., 0, :]).sum(axis=-1)
+    return np.asarray((crossed * right[..., None, :]).sum(axis=-1) / determinant[..., None])

@@ -15,6 +15,7 @@ from mechwright.mechanics.planar.rigid import BodyMotion
 from mechwright_linkage.parts.axes import joints_to_ground, number
 from mechwright_linkage.parts.layout import Layout
 from mechwright_linkage.parts.pins import Pin
+from mechwright_linkage.parts.slides import position
 
 
 def frame_of(pin: Pin, link: str, place: complex) -> str:
@@ -62,7 +63,7 @@ def frames_of(layout: Layout, bodies: Mapping[str, BodyMotion]) -> dict[str, Pos
     """Poses of all links and frames over a motion of the links (n,)."""
     found = {}
     for name, (link, place) in placed_frames(layout).items():
-        at = bodies[link].point(place).position
+        at = position(bodies[link], place)
         found[name] = Poses.planar(at.real, at.imag, bodies[link].turning.theta)
     return found
 

@@ -12,11 +12,12 @@ import numpy as np
 
 from mechwright import GeometryError, Outline, Poses
 from mechwright.mechanics.linkage import Boss, Closeness, Plate, Spindle, Stack, rectangle, stack
+from mechwright.mechanics.linkage.slots import SAME_PLACE
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.rigid import BodyMotion
 from mechwright_linkage.linkage import Linkage
-from mechwright_linkage.parts.axes import Axis, axes_of
+from mechwright_linkage.parts.axes import Axis, axes_of, number
 from mechwright_linkage.parts.outlines import (
     Eyes,
     check_room,
@@ -95,7 +96,13 @@ class _Given:
         found = [axis.point for axis in self.axes if link in axis.places]
         found += [one.slide.name for one in self.guided if one.slide.block == link]
         found += [slot.slide for slot in self.slots if slot.link == link]
-        return found + [path_eye(name) for name, (own, _) in self.linkage.traces.items() if own == link]
+        pins = [axis.places[link] for axis in self.axes if link in axis.places]
+        for name, (own, point) in self.linkage.traces.items():
+            if own == link and all(
+                abs(number(self.linkage.points[link][point]) - at) > SAME_PLACE for at in pins
+            ):
+                found.append(path_eye(name))
+        return found
 
 
 def layout_of(linkage: Linkage, sizes: Sizes, bodies: Mapping[str, BodyMotion]) -> Layout:
@@ -213,7 +220,12 @@ def _stacked(
 
     def dealt(some: Sequence[Pin]) -> Stack:
         own = [*(pin.spindle(sizes) for pin in some), *posts]
-        return stack(plates, own, given.poses, sizes.clearance, sizes.washer, measured=[close])
+        try:
+            return stack(plates, own, given.poses, sizes.clearance, sizes.washer, measured=[close])
+        except GeometryError as error:
+            raise GeometryError(
+                f"{error}; give the input less range, or make pin_diameter, rim or clearance smaller"
+            ) from error
 
     found = None
     if scheme.sides == 1:

@@ -15,7 +15,6 @@ import numpy as np
 from mechwright import Array, GeometryError
 from mechwright.geometry import Arc, Line, Loop
 from mechwright.mechanics.planar.machine import Prismatic
-from mechwright.mechanics.planar.relative_motion import relative
 from mechwright.mechanics.planar.rigid import BodyMotion
 from mechwright_linkage.linkage import Linkage
 from mechwright_linkage.parts.axes import Axis, number
@@ -121,9 +120,15 @@ def slots_of(
     return tuple(found)
 
 
+def position(body: BodyMotion, place: complex) -> Array:
+    """Where a point of a link is (n,), mm; at a dead point, where it has no rates, too."""
+    return np.asarray(body.origin.position + place * body.turning.direction)
+
+
 def _seen(bodies: Mapping[str, BodyMotion], link: str, place: complex, frame: str) -> Array:
     """A point of a link as another one sees it (n,), mm."""
-    return np.asarray(relative(bodies[link], bodies[frame]).point(place).position)
+    own = bodies[frame]
+    return np.asarray((position(bodies[link], place) - own.origin.position) / own.turning.direction)
 
 
 OFF_LINE = 1e-3

@@ -12,7 +12,7 @@ span
     Layers from the lowest plate of a spindle to its highest one.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -81,7 +81,8 @@ class Problem:
         )
 
 
-Domains = tuple[frozenset[int], ...]
+Domains = tuple[int, ...]
+"""The domain of each plate; its bit k stands for layer k."""
 
 
 def flattest(problem: Problem) -> tuple[int, ...] | None:
@@ -96,11 +97,29 @@ def flattest(problem: Problem) -> tuple[int, ...] | None:
     (0, 2, 1)
     """
     highest = max((max(choice, default=0) for choice in problem.choices), default=-1)
+    every = tuple(sum(1 << layer for layer in choice) for choice in problem.choices)
     for height in range(max(map(len, problem.cliques), default=1) - 1, highest + 1):
-        domains = tuple(frozenset(layer for layer in choice if layer <= height) for choice in problem.choices)
+        domains = tuple(domain & _up_to(height) for domain in every)
         if (found := _shortest(problem, domains, height)) is not None:
             return found
     return None
+
+
+def _up_to(layer: int) -> int:
+    """The domain of all layers up to this one; of none below 0."""
+    return (1 << layer + 1) - 1
+
+
+def _least(domain: int) -> int:
+    return (domain & -domain).bit_length() - 1
+
+
+def _greatest(domain: int) -> int:
+    return domain.bit_length() - 1
+
+
+def _layers(domain: int) -> list[int]:
+    return [layer for layer in range(domain.bit_length()) if domain >> layer & 1]
 
 
 def _shortest(problem: Problem, domains: Domains, height: int) -> tuple[int, ...] | None:
@@ -108,15 +127,15 @@ def _shortest(problem: Problem, domains: Domains, height: int) -> tuple[int, ...
     longest = height * len(problem.spindles)
     if (found := _first(problem, domains, height, longest + 1)) is None:
         return None
-    most = _length(problem, tuple(frozenset({layer}) for layer in found))
+    most = _length(problem, tuple(1 << layer for layer in found))
     for length in range(_length(problem, domains), most):
         if (shorter := _first(problem, domains, height, length + 1)) is not None:
             found, most = shorter, length
             break
     # All with these spans are as good: plate after plate takes the lowest layer that still allows one.
-    for plate, choice in enumerate(domains):
-        for layer in sorted(one for one in choice if one < found[plate]):
-            fixed = (*(frozenset({one}) for one in found[:plate]), frozenset({layer}), *domains[plate + 1 :])
+    for plate, domain in enumerate(domains):
+        for layer in _layers(domain & _up_to(found[plate] - 1)):
+            fixed = (*(1 << one for one in found[:plate]), 1 << layer, *domains[plate + 1 :])
             if (lower := _first(problem, fixed, height, most + 1)) is not None:
                 found = lower
                 break
@@ -128,12 +147,12 @@ def _first(problem: Problem, domains: Domains, height: int, bound: int) -> tuple
     reduced = _reduced(problem, domains, height)
     if reduced is None or _length(problem, reduced) >= bound:
         return None
-    free = [plate for plate, domain in enumerate(reduced) if len(domain) > 1]
+    free = [plate for plate, domain in enumerate(reduced) if domain & (domain - 1)]
     if not free:
-        return tuple(next(iter(domain)) for domain in reduced)
-    plate = min(free, key=lambda one: (len(reduced[one]), -len(problem.foes[one])))
-    for layer in sorted(reduced[plate]):
-        tried = (*reduced[:plate], frozenset({layer}), *reduced[plate + 1 :])
+        return tuple(map(_least, reduced))
+    plate = min(free, key=lambda one: (reduced[one].bit_count(), -len(problem.foes[one])))
+    for layer in _layers(reduced[plate]):
+        tried = (*reduced[:plate], 1 << layer, *reduced[plate + 1 :])
         if (found := _first(problem, tried, height, bound)) is not None:
             return found
     return None
@@ -143,63 +162,75 @@ def _length(problem: Problem, domains: Domains) -> int:
     """The least sum of spans within domains; of single layers the sum itself."""
     total = 0
     for plates, least in zip(problem.spindles, problem.least_spans, strict=True):
-        lowest = min(max(domains[plate]) for plate in plates)
-        highest = max(min(domains[plate]) for plate in plates)
+        lowest = min(_greatest(domains[plate]) for plate in plates)
+        highest = max(_least(domains[plate]) for plate in plates)
         total += max(least, highest - lowest)
     return total
 
 
 def _reduced(problem: Problem, domains: Domains, height: int) -> Domains | None:
-    """Domains without the layers that no dealing has; None where that leaves a plate without one."""
-    current = list(domains)
-    changed = True
-    while changed:
-        if not all(current) or not set(range(height + 1)) <= set().union(*current):
+    """Domains without the layers that no dealing has; None where that leaves a plate or a layer empty."""
+    current, last = list(domains), list[int]()
+    while current != last:
+        last = current.copy()
+        if not all(current) or _union(current, range(len(current))) != _up_to(height):
             return None
-        if any(
-            len(frozenset().union(*(current[one] for one in some))) < len(some) for some in problem.cliques
-        ):
+        if any(_union(current, some).bit_count() < len(some) for some in problem.cliques):
             return None
-        changed = any(step(problem, current) for step in _STEPS)
+        _keep_apart(problem, current)
+        if not all(current):
+            return None
+        _keep_off_spindles(problem, current)
     return tuple(current)
 
 
-def _kept(domains: list[frozenset[int]], plate: int, allowed: Callable[[int], bool]) -> bool:
-    """Whether a domain loses a layer that is not allowed."""
-    smaller = frozenset(layer for layer in domains[plate] if allowed(layer))
-    lost = len(smaller) < len(domains[plate])
-    domains[plate] = smaller
-    return lost
+def _union(domains: Sequence[int], plates: Iterable[int]) -> int:
+    found = 0
+    for plate in plates:
+        found |= domains[plate]
+    return found
 
 
-def _apart(problem: Problem, domains: list[frozenset[int]]) -> bool:
+def _keep_apart(problem: Problem, domains: list[int]) -> None:
     """Clashing plates leave each other's layer; those of a group have the same ones."""
-    changed = False
     for plate, foes in enumerate(problem.foes):
-        if len(domains[plate]) == 1:
-            own = domains[plate]
+        own = domains[plate]
+        if not own & (own - 1):
             for foe in foes:
-                changed |= _kept(domains, foe, lambda layer, own=own: layer not in own)  # type: ignore[misc]
+                domains[foe] &= ~own
         for friend in problem.friends[plate]:
-            other = domains[friend]
-            changed |= _kept(domains, plate, lambda layer, other=other: layer in other)  # type: ignore[misc]
-    return changed
+            domains[plate] &= domains[friend]
 
 
-def _past(problem: Problem, domains: list[frozenset[int]]) -> bool:
-    """Plates that a spindle may not meet stand neither where it passes for certain nor above all it can."""
-    changed = False
+def _keep_off_spindles(problem: Problem, domains: list[int]) -> None:
+    """Plates that a spindle may not meet stand above or below all of its plates, or not over its top."""
     for plates, blocked, covered in zip(problem.spindles, problem.blocked, problem.covered, strict=True):
-        if not (blocked or covered) or not all(domains[plate] for plate in plates):
-            continue
-        low = min(max(domains[plate]) for plate in plates)
-        high = max(min(domains[plate]) for plate in plates)
-        top = max(max(domains[plate]) for plate in plates)
+        if not all(domains[plate] for plate in plates):
+            return
+        if covered:
+            over = ~_up_to(max(_greatest(domains[plate]) for plate in plates))
+            for plate in covered:
+                domains[plate] &= ~over
         for plate in blocked:
-            changed |= _kept(domains, plate, lambda layer, a=low, b=high: not a <= layer <= b)  # type: ignore[misc]
-        for plate in covered:
-            changed |= _kept(domains, plate, lambda layer, top=top: layer <= top)  # type: ignore[misc]
-    return changed
+            if not domains[plate] or not _keep_off(domains, plate, plates):
+                return
 
 
-_STEPS: Sequence[Callable[[Problem, list[frozenset[int]]], bool]] = (_apart, _past)
+def _keep_off(domains: list[int], plate: int, plates: frozenset[int]) -> bool:
+    """A plate is above or below all plates of a spindle; False where a domain becomes empty."""
+    low = min(_greatest(domains[one]) for one in plates)
+    high = max(_least(domains[one]) for one in plates)
+    # The spindle is there in any case.
+    domains[plate] &= ~(_up_to(high) & ~_up_to(low - 1))
+    own = domains[plate]
+    if not own:
+        return False
+    if low < _least(own):  # above one of them, so above all
+        domains[plate] &= ~_up_to(high)
+        for one in plates:
+            domains[one] &= _up_to(_greatest(own) - 1)
+    elif high > _greatest(own):
+        domains[plate] &= _up_to(low - 1)
+        for one in plates:
+            domains[one] &= ~_up_to(_least(own))
+    return all(domains[one] for one in (plate, *plates))

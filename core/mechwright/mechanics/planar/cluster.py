@@ -16,7 +16,7 @@ from mechwright.arrays import Array
 from mechwright.mechanics.planar.assembly_order import Cluster
 from mechwright.mechanics.planar.machine import GearPair, Joint, Machine, Revolute
 from mechwright.mechanics.planar.relative_motion import relative
-from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
+from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning
 
 CLOSED = 1e-12
 """Largest error of the joint equations over the size of the machine, in which a pose is exact."""
@@ -74,7 +74,7 @@ class ClusterEquations:
                     tuple(
                         b - c - joint.ratio * (a - c) - p
                         for a, b, c, p in zip(one, two, carrier, first, strict=True)
-                    )  # type: ignore[arg-type]
+                    )
                 )
             else:
                 seen = relative(bodies[joint.block], bodies[joint.guide])
@@ -82,10 +82,10 @@ class ClusterEquations:
                 point = seen.point(joint.point)
                 lever = (point.position - joint.line) * turn
                 rates = [one * turn for one in (point.velocity, point.acceleration, point.jerk)]
-                rows.append((lever.imag, *(one.imag for one in rates)))  # type: ignore[arg-type]
+                rows.append((lever.imag, *(one.imag for one in rates)))
                 angle = _angles(seen.turning)
                 straight = angle[0] + joint.block_angle - joint.line_angle
-                rows.append((np.sin(straight), *angle[1:]))  # type: ignore[arg-type]
+                rows.append((np.sin(straight), *angle[1:]))
         for number in self.cluster.drives:
             rows.append(self._drive(number, bodies, inputs[number]))
         return rows
@@ -224,8 +224,8 @@ def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _
     scale = _scale(x)
     off, way = (np.abs(one * scale).max(axis=1) for one in (found - ahead, ahead - x))
     sure = (off <= QUARTER * way + 1e-6) | ~np.isfinite(x).all(axis=1)
-    for place in np.flatnonzero(~sure):
-        found[place] = _careful(sought.row(int(place)), x[place : place + 1], last, here, place)
+    for place in np.flatnonzero(~sure).tolist():
+        found[place] = _careful(sought.row(place), x[place : place + 1], last, here, place)
     return found
 
 
@@ -245,7 +245,7 @@ def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place
             step /= 2
         if step < SHORTEST:
             return np.full(x.shape[1], np.nan)
-    return x[0]
+    return np.asarray(x[0])
 
 
 def _newton(
@@ -330,7 +330,7 @@ _POINT = ("position", "velocity", "acceleration", "jerk")
 def _between(one: _Here, two: _Here, share: float) -> _Here:
     """Between two samples, in proportion: what stands there is near enough to lead on to the next sample."""
 
-    def mixed(a: Array, b: Array) -> Array:
+    def mixed(a: Any, b: Any) -> Any:
         return a + share * (b - a) if share < 1 else b
 
     bodies = {
@@ -363,7 +363,7 @@ def _angles(turning: Turning) -> tuple[Array, Array, Array, Array]:
     return turning.theta, turning.omega, turning.alpha, turning.jerk
 
 
-def _orders(one: PointMotion, two: PointMotion) -> tuple[Array, Array, Array, Array]:
+def _orders(one: PointMotion, two: PointMotion) -> tuple[Plane, Plane, Plane, Plane]:
     return (
         one.position - two.position,
         one.velocity - two.velocity,
