@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from reference_machines import LINKAGES, inputs_of, machine_of, points_of
 
@@ -219,6 +219,7 @@ def test_power_of_the_drive_is_virtual_power(data, build, sides, d, e, columns):
     assert worst_share(solution, found, [drive.omega], expected) < 1e-10
 
 
+@settings(max_examples=6)
 @given(data=st.data(), reach=st.floats(70, 90))
 def test_power_of_a_cylinder_between_moving_links(data, reach):
     machine = boom(reach)

@@ -71,7 +71,7 @@ def closing_quantities(
     inner, (first, last), (one, two) = group.inner, group.outer, group.links
     short = 2 * math.sin(transmission / 2) ** 2
     if isinstance(first, Revolute) and isinstance(last, Revolute):
-        ends = [outer_pin(joint, link, bodies) for joint, link in ((first, one), (last, two))]
+        ends = [outer_pin(joint, link, bodies, 1) for joint, link in ((first, one), (last, two))]
         d, rate = ends[1].position - ends[0].position, ends[1].velocity - ends[0].velocity
         distance, slope = np.abs(d), 2 * (np.conj(d) * rate).real
         if isinstance(inner, Revolute):
@@ -87,9 +87,9 @@ def closing_quantities(
         return (ClosingQuantity("square to the slide", value, share**2 * slope / size_of(machine) ** 2),)
     assert isinstance(last, Prismatic)  # noqa: S101 - as groups are ordered
     stands = neighbour(last, two)
-    line = guide_line(last, bodies[stands], stands)
+    line = guide_line(last, bodies[stands], stands, 1)
     if isinstance(inner, Revolute) and isinstance(first, Revolute):
-        pin, length = outer_pin(first, one, bodies), abs(inner.place(one) - first.place(one))
+        pin, length = outer_pin(first, one, bodies, 1), abs(inner.place(one) - first.place(one))
         d = (pin.position - line.point.position) / line.turning.direction
         rate = (pin.velocity - line.point.velocity) / line.turning.direction
         share = (offset_from_line(last, two, inner.place(two)) - d.imag) / length
@@ -100,7 +100,7 @@ def closing_quantities(
         )
     if isinstance(first, Prismatic):
         stands = neighbour(first, one)
-        mate = guide_line(first, bodies[stands], stands).turning
+        mate = guide_line(first, bodies[stands], stands, 1).turning
         between, speed = mate.theta - line.turning.theta, mate.omega - line.turning.omega
     else:  # the angle between both slides is that between both lines of the second link
         between = _angle_in(inner, two) - _angle_in(last, two) + 0 * line.turning.theta

@@ -9,6 +9,7 @@ With d from the free end of the first link to that of the second, D = |d| and th
 At a toggle, sin(σ - ψ) = 0, the derivatives are infinite.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,7 +35,7 @@ class Rates:
 
 
 def dyad(
-    d: tuple[Plane, Plane, Plane, Plane], first: ArrayLike, second: ArrayLike, branch: int
+    d: Sequence[Plane], first: ArrayLike, second: ArrayLike, branch: int, rates: int = 3
 ) -> tuple[Rates, Rates]:
     """Both links over the vector d (...) and its three derivatives by the input's angle.
 
@@ -46,21 +47,27 @@ def dyad(
         Lengths c and l, mm.
     branch
         +1 where C is to the left of d, -1 where it is to the right.
+    rates
+        The highest derivative that is needed, 0 to 3; d needs no higher ones. Those above are NaN.
 
     NaN where the two do not reach.
     """
     c, l = np.asarray(first), np.asarray(second)
-    place, d1, d2, d3 = d
     with np.errstate(invalid="ignore", divide="ignore"):
-        s, p = directions(place, c, l, branch)
+        s, p = directions(d[0], c, l, branch)
         sine = (s * np.conj(p)).imag
         one, two = -1 / (c * sine), -1 / (l * sine)
-        r = d1
-        w1, v1 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
-        r = d2 + c * w1**2 * s - l * v1**2 * p
-        w2, v2 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
-        r = d3 + c * (3 * w1 * w2 + 1j * w1**3) * s - l * (3 * v1 * v2 + 1j * v1**3) * p
-        w3, v3 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        none: Array = np.broadcast_to(np.float64(np.nan), sine.shape)
+        w1 = w2 = w3 = v1 = v2 = v3 = none
+        if rates > 0:
+            r = d[1]
+            w1, v1 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        if rates > 1:
+            r = d[2] + c * w1**2 * s - l * v1**2 * p
+            w2, v2 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        if rates > 2:
+            r = d[3] + c * (3 * w1 * w2 + 1j * w1**3) * s - l * (3 * v1 * v2 + 1j * v1**3) * p
+            w3, v3 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
     return Rates(s, w1, w2, w3), Rates(p, v1, v2, v3)
 
 
@@ -117,8 +124,10 @@ def continuous(angle: Array) -> Array:
     """
     angle = np.asarray(angle)
     finite = np.isfinite(angle)
-    if angle.ndim == 0 or finite.all():
-        return np.unwrap(angle) if angle.ndim else angle
+    if angle.ndim == 0:
+        return angle
+    if finite.all():
+        return np.unwrap(angle) if (np.abs(np.diff(angle)) > np.pi).any() else angle
     last = np.maximum.accumulate(np.where(finite, np.arange(angle.shape[-1]), 0), axis=-1)
     filled = np.nan_to_num(np.take_along_axis(angle, last, axis=-1))
     return np.where(finite, np.unwrap(filled), np.nan)

@@ -62,7 +62,7 @@ def efforts(
     Parameters
     ----------
     machine, solution
-        The machine, and its motion over time (..., n).
+        The machine, and its motion over time (..., n), with two rates or more.
     masses
         Link to its mass, kg, centre, mm, and inertia, kg mm²; a link that is not named has none. Numbers may
         be columns (n_designs, 1).
@@ -100,7 +100,7 @@ def efforts(
     bodies, given = solution.bodies, masses or {}
     links = [_link(name, solution, given.get(name, Mass(0.0))) for name in machine.links]
     acting = [
-        Load(load.link, load.force, bodies[load.link].point(load.place).position, load.moment)
+        Load(load.link, load.force, bodies[load.link].point(load.place, 0).position, load.moment)
         if load.link in bodies
         else Load(load.link, load.force, np.zeros(1, complex), load.moment)
         for load in loads
@@ -117,7 +117,7 @@ def _link(name: str, solution: Solution, mass: Mass) -> Link:
 def _joints(machine: Machine, solution: Solution) -> Iterator[Pin | Slide | Gears]:
     for joint in machine.joints:
         if isinstance(joint, Revolute):
-            yield Pin(joint.name, joint.one, joint.two, solution.place(joint).position)
+            yield Pin(joint.name, joint.one, joint.two, solution.place(joint, 0).position)
         elif isinstance(joint, Prismatic):
             yield Slide(joint.name, joint.guide, joint.block, *_line(joint, solution))
         else:

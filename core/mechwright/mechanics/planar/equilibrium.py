@@ -167,8 +167,7 @@ def _solved(matrix: Array, right: Array, *, single: bool) -> Array:
             found[finite] = _solved(matrix[finite], right[finite], single=single)
         return found
     try:
-        solution: Array = np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
-        return solution
+        return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], dtype=np.float64)
     except np.linalg.LinAlgError as error:
         if single:
             raise KinematicsError(

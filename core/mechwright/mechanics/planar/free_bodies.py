@@ -55,8 +55,8 @@ class Link:
 
     @property
     def centre_motion(self) -> PointMotion:
-        """Motion of the centre of mass."""
-        return self.motion.point(self.centre)
+        """Motion of the centre of mass, without its jerk."""
+        return self.motion.point(self.centre, 2)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import KinematicsError
@@ -28,7 +29,7 @@ from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Gr
 from mechwright.mechanics.planar.closing import ClosingQuantity, closing_quantities, size_of
 from mechwright.mechanics.planar.dead_point import cluster_limits
 from mechwright.mechanics.planar.machine import GearPair, Machine, Revolute
-from mechwright.mechanics.planar.positions import solve
+from mechwright.mechanics.planar.positions import cluster_name, solve
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.mechanics.planar.zeros import zeros
@@ -43,10 +44,7 @@ EDGE = 1e-5
 """Distance of the outermost samples in t, 5e-11 of a piece's half in the input."""
 
 PER_TURN = 192
-"""Nodes per turn, at which closing quantities are first looked at."""
-
-WAYS = slice(None, None, -1), slice(None)
-"""Downwards below the drawn pose, upwards above it."""
+"""Nodes per turn, or over the bounds of a slide, at which closing quantities are first looked at."""
 
 LARGEST_TEETH = 400
 """Largest denominator of a ratio of gears."""
@@ -113,6 +111,7 @@ class _Piece:
     high: float
     low_limit: Limit | None = None
     high_limit: Limit | None = None
+    turn: float = math.tau
 
     def at(self, t: Array) -> tuple[Array, Array]:
         """The input at t in 0 to π, and its derivative."""
@@ -121,9 +120,11 @@ class _Piece:
         lever = 2 * half * np.sin(np.where(near, t, math.pi - t) / 2) ** 2
         return np.where(near, self.low + lever, self.high - lever), half * np.sin(t) + 0 * middle
 
-    def nodes(self, turn: float) -> Array:
+    def nodes(
+        self,
+    ) -> Array:
         """Values of t, more for a longer piece; none is in the middle or at another place of symmetry."""
-        count = max(24, math.ceil(PER_TURN * (self.high - self.low) / turn))
+        count = max(24, math.ceil(PER_TURN * (self.high - self.low) / self.turn))
         even = np.linspace(0.0, 1.0, count + 1)
         return EDGE + (math.pi - 2 * EDGE) * (even + 0.013 * even * (1 - even))
 
@@ -151,7 +152,8 @@ def ranges(
     Raises
     ------
     KinematicsError
-        The machine has not one drive, cannot be put together, or stays at a dead point.
+        The machine has not one drive, is of several designs, cannot be put together, or stays at a
+        dead point.
 
     Examples
     --------
@@ -170,10 +172,21 @@ def ranges(
     """
     if len(machine.drives) != 1:
         raise KinematicsError(f"limits of the input need one drive; the machine has {len(machine.drives)}")
+    places = (
+        joint.place(link)
+        for joint in machine.joints
+        if not isinstance(joint, GearPair)
+        for link in joint.links
+    )
+    if any(np.size(place) > 1 for place in places):
+        raise KinematicsError(
+            "limits of the input are those of one design; the machine has columns of designs"
+        )
     order = assembly_order(machine)
     turns = isinstance(machine.driven_joint(machine.drives[0]), Revolute)
     period = _period(machine) if turns and bounds is None else None
-    pieces = [_Piece(*_window(machine, order, period, bounds))]
+    low, high = _window(machine, order, period, bounds)
+    pieces = [_Piece(low, high, turn=math.tau if turns else high - low)]
     for number, group in enumerate(order):
         if isinstance(group, Dyad):
             pieces = [
@@ -223,7 +236,7 @@ def _divided(
     machine: Machine, before: Sequence[Group], group: Dyad, piece: _Piece, transmission: float
 ) -> Iterator[_Piece]:
     """The pieces of a piece in which one more dyad closes."""
-    nodes = piece.nodes(math.tau)
+    nodes = piece.nodes()
 
     def quantities(t: Array) -> tuple[ClosingQuantity, ...]:
         q, rate = piece.at(t)
@@ -252,6 +265,7 @@ def _divided(
                 high.value if high is not None and b < math.pi else piece.high,
                 low,
                 high,
+                piece.turn,
             )
 
 
@@ -262,15 +276,15 @@ def _bodies(machine: Machine, before: Sequence[Group], piece: _Piece, q: Array) 
     steps, in order.
     """
     if all(isinstance(group, Driven | Dyad) for group in before):
-        return solve(machine, [Turning.of(q, 1.0)], before).bodies
-    steps = piece.at(piece.nodes(math.tau))[0]
+        return solve(machine, [Turning.of(q, 1.0)], before, 1).bodies
+    steps = piece.at(piece.nodes())[0]
     every, places = np.unique(np.concatenate([q, steps]), return_inverse=True)
-    bodies = solve(machine, [Turning.of(every, 1.0)], before).bodies
-    back = places[: q.size]
+    bodies = solve(machine, [Turning.of(every, 1.0)], before, 1).bodies
+    back = places[: q.size].astype(np.intp)
     return {name: _samples(body, back) for name, body in bodies.items()}
 
 
-def _samples(body: BodyMotion, places: Array) -> BodyMotion:
+def _samples(body: BodyMotion, places: NDArray[np.intp]) -> BodyMotion:
     """A motion at some of its samples; jerks are not needed."""
     origin, turning = body.origin, body.turning
     return BodyMotion(
@@ -289,19 +303,14 @@ def _around_drawn(
     period: float | None,
 ) -> Iterator[_Piece]:
     """The piece around the drawn pose, as far as a cluster closes."""
-    drawn = float(np.ravel(machine.drawn_at[0])[0])
+    drawn, cluster = float(np.ravel(machine.drawn_at[0])[0]), order[-1]
+    assert isinstance(cluster, Cluster)  # noqa: S101 - as the caller knows
+    name = cluster_name(cluster)
     for piece in pieces:
         if not piece.low < drawn < piece.high:
             continue
-        sides = [_Piece(piece.low, drawn), _Piece(drawn, piece.high)]
-        values = [
-            np.append(drawn, one.at(one.nodes(math.tau))[0][way])
-            for one, way in zip(sides, WAYS, strict=True)
-        ]
         turns = period is not None and piece.high - drawn >= period
-        name, ends = cluster_limits(
-            machine, order, (values[0], values[1]), math.sin(transmission), turns=turns
-        )
+        ends = cluster_limits(machine, order, (piece.low, piece.high), math.sin(transmission), turns=turns)
         if turns and ends == (None, None):
             yield replace(piece, low=drawn)
             continue
@@ -311,6 +320,7 @@ def _around_drawn(
             piece.high if high is None else high.value,
             low or piece.low_limit,
             high or piece.high_limit,
+            piece.turn,
         )
 
 

@@ -10,10 +10,10 @@ from mechwright.mechanics.planar.machine import Prismatic, Revolute
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion
 
 
-def outer_pin(joint: Revolute, link: str, bodies: Mapping[str, BodyMotion]) -> PointMotion:
+def outer_pin(joint: Revolute, link: str, bodies: Mapping[str, BodyMotion], rates: int = 3) -> PointMotion:
     """How an outer pin of a link moves."""
     stands = neighbour(joint, link)
-    return bodies[stands].point(joint.place(stands))
+    return bodies[stands].point(joint.place(stands), rates)
 
 
 def neighbour(joint: Revolute | Prismatic, link: str) -> str:
@@ -22,9 +22,9 @@ def neighbour(joint: Revolute | Prismatic, link: str) -> str:
     return one if two == link else two
 
 
-def guide_line(joint: Prismatic, body: BodyMotion, link: str) -> Slide:
+def guide_line(joint: Prismatic, body: BodyMotion, link: str, rates: int = 3) -> Slide:
     """The line of a slide as the link that stands has it: through its own point of the joint."""
-    return Slide(body.point(joint.place(link)), turned(body.turning, joint.direction(link)))
+    return Slide(body.point(joint.place(link), rates), turned(body.turning, joint.direction(link)))
 
 
 def offset_from_line(joint: Prismatic, link: str, place: Any) -> Any:

@@ -9,9 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import KinematicsError
+
+Mask = NDArray[np.bool_]
 
 Function = Callable[[Array], tuple[Array, Array]]
 """Values and slopes (m,) at places (m,)."""
@@ -45,7 +48,7 @@ class _Cells:
     sa: Array
     sb: Array
 
-    def __getitem__(self, some: Array) -> "_Cells":
+    def __getitem__(self, some: Mask) -> "_Cells":
         return _Cells(*(one[some] for one in self._all()))
 
     def _all(self) -> tuple[Array, ...]:
@@ -109,7 +112,7 @@ def zeros(function: Function, nodes: Array, touch: float) -> Zeros:
     return Zeros(np.sort(np.concatenate([empty, *roots])), np.sort(np.concatenate([empty, *touches])))
 
 
-def _settled(cells: _Cells) -> tuple[Array, Array, Array]:
+def _settled(cells: _Cells) -> tuple[Mask, Mask, Mask]:
     """Which cells have one crossing, which an extreme towards 0, and which are to be halved."""
     h = cells.b - cells.a
     cubic = np.stack([cells.va, cells.va + h * cells.sa / 3, cells.vb - h * cells.sb / 3, cells.vb])
@@ -117,7 +120,7 @@ def _settled(cells: _Cells) -> tuple[Array, Array, Array]:
     second = np.diff(first, axis=0)
     low, high = cubic.min(axis=0), cubic.max(axis=0)
     margin = CLEAR * (high - low)
-    number = np.isfinite(cubic).all(axis=0)
+    number: Mask = np.asarray(np.isfinite(cubic).all(axis=0))
     crosses = cells.va * cells.vb < 0
     bent = _one_sign(second)
     free = (low > margin) | (high < -margin) | ~number
@@ -129,9 +132,8 @@ def _settled(cells: _Cells) -> tuple[Array, Array, Array]:
     return one, extreme, ~one & ~none & ~extreme
 
 
-def _one_sign(values: Array) -> Array:
-    found: Array = (values > 0).all(axis=0) | (values < 0).all(axis=0)
-    return found
+def _one_sign(values: Array) -> Mask:
+    return np.asarray((values > 0).all(axis=0) | (values < 0).all(axis=0), dtype=np.bool_)
 
 
 def _extreme(function: Function, cells: _Cells) -> tuple[Array, Array, Array]:
