@@ -101,14 +101,22 @@ class LinkageParams(Parameters):
     )
     watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
     watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
-    stephenson_1: StephensonOne = Field(StephensonOne(), description='Dimensions for linkage = "stephenson-1".')
-    stephenson_2: StephensonTwo = Field(StephensonTwo(), description='Dimensions for linkage = "stephenson-2".')
-    stephenson_3: StephensonThree = Field(StephensonThree(), description='Dimensions for linkage = "stephenson-3".')
+    stephenson_1: StephensonOne = Field(
+        StephensonOne(), description='Dimensions for linkage = "stephenson-1".'
+    )
+    stephenson_2: StephensonTwo = Field(
+        StephensonTwo(), description='Dimensions for linkage = "stephenson-2".'
+    )
+    stephenson_3: StephensonThree = Field(
+        StephensonThree(), description='Dimensions for linkage = "stephenson-3".'
+    )
     whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
     crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
     scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
     pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
-    parallel_guide: ParallelGuide = Field(ParallelGuide(), description='Dimensions for linkage = "parallel-guide".')
+    parallel_guide: ParallelGuide = Field(
+        ParallelGuide(), description='Dimensions for linkage = "parallel-guide".'
+    )
     peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
     hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
     chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
@@ -234,7 +242,9 @@ class LinkageParams(Parameters):
             raise ValueError("driver: a linkage of the catalogue has its own; leave driver and driver_on out")
         asked += [("pairs", link, list(points)) for pair in self.pairs for link in pair]
         asked += [("loads", load.link or "?", moving) for load in self.loads]
-        asked += [("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends]
+        asked += [
+            ("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends
+        ]
         for key, link, known in asked:
             if link and link not in known:
                 raise ValueError(f"{key}: no link is called {link!r}; there are {', '.join(known)}")

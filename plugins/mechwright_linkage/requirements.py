@@ -31,7 +31,11 @@ class LinkageSearch(Parameters):
         json_schema_extra=FIRST,
     )
     least_transmission_angle: Degrees = Field(
-        25.0, ge=1, le=80, description="Least transmission angle over the whole turn.", json_schema_extra=FIRST
+        25.0,
+        ge=1,
+        le=80,
+        description="Least transmission angle over the whole turn.",
+        json_schema_extra=FIRST,
     )
     shortest_link: Millimetres = Field(15.0, ge=0.5, le=1000, description="Shortest distance of two joints.")
     longest_link: Millimetres = Field(300.0, ge=1, le=5000, description="Longest distance of two joints.")
@@ -78,7 +82,9 @@ class FunctionRequirement(LinkageSearch):
     @model_validator(mode="after")
     def _pairs(self) -> Self:
         if len(self.outputs) != len(self.input_angles):
-            raise ValueError(f"outputs has {len(self.outputs)} entries for {len(self.input_angles)} input_angles")
+            raise ValueError(
+                f"outputs has {len(self.outputs)} entries for {len(self.input_angles)} input_angles"
+            )
         if self.input_angles[0] != 0 or self.outputs[0] != 0:
             raise ValueError("input_angles and outputs begin with 0; count them from the first position")
         if any(b <= a for a, b in zip(self.input_angles[:-1], self.input_angles[1:], strict=True)):

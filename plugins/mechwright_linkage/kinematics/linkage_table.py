@@ -35,9 +35,7 @@ class LinkageTable(DesignTable[LinkageParams]):
         points = {name: params.scale * one.place for name, one in params.points.items()}
         refuse_coincident(points, params.links, APART)
         drive = Drive(*params.driver_links)
-        return drawn_linkage(
-            points, params.links, params.slides, params.gears, drive, params.output_link
-        )
+        return drawn_linkage(points, params.links, params.slides, params.gears, drive, params.output_link)
 
     @property
     def machine(self) -> Machine:
@@ -75,7 +73,7 @@ class LinkageTable(DesignTable[LinkageParams]):
 
     def solved_at(self, at: Array, order: int = 3) -> Solution:
         """The motion per unit of the input, with rates up to an order."""
-        return solve(self.machine, [Turning.of(at, 1.0)], self.order)
+        return solve(self.machine, [Turning.of(at, 1.0)], self.order, rates=order)
 
     @property
     def may_turn(self) -> bool:

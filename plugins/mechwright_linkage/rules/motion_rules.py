@@ -146,9 +146,11 @@ TRANSMISSION = Rule(
     value=_degrees,
     limit=LEAST_TRANSMISSION,
     unit="deg",
-    remedy=lambda f: "give a shorter swing with swing_from and swing_to"
-    if is_lever(f.m) and not f.m.driver_slides
-    else "make the links behind the driver longer",
+    remedy=lambda f: (
+        "give a shorter swing with swing_from and swing_to"
+        if is_lever(f.m) and not f.m.driver_slides
+        else "make the links behind the driver longer"
+    ),
 )
 LOW_TRANSMISSION = TRANSMISSION.but(
     severity=Severity.WARNING,

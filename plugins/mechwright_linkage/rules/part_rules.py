@@ -20,7 +20,9 @@ def _layers(table: LinkageTable) -> Iterator[Finding]:
             "linkage.layers",
             "frame" if two else table.given.table_name,
             str(error),
-            remedy='set frame = "two"' if two else "make pin_diameter, bushing_wall, rim or clearance smaller",
+            remedy='set frame = "two"'
+            if two
+            else "make pin_diameter, bushing_wall, rim or clearance smaller",
             proposed=({"parameters.frame": "two"},) if two else (),
         )
 
