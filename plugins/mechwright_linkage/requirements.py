@@ -16,7 +16,7 @@ TurningName = Literal[
 MOST_STARTS = 200_000
 
 Input = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
-Output = Annotated[float, Field(ge=-1000, le=1000)]
+Output = Annotated[float, Field(ge=-1000, le=1000), Unit("")]
 Coordinate = Annotated[float, Field(ge=-5000, le=5000), Unit("mm")]
 
 
@@ -75,7 +75,7 @@ class FunctionRequirement(LinkageSearch):
         description="The output at each of them from its first place, degrees, or mm of one that slides.",
         json_schema_extra=FIRST,
     )
-    tolerance: Annotated[float, Field(ge=0, le=100)] = Field(
+    tolerance: Annotated[float, Field(ge=0, le=100), Unit("")] = Field(
         0.5, description="Greatest error of the output that counts as met, degrees or mm."
     )
 

@@ -146,6 +146,17 @@ def refuse_strangers(
             raise ValueError(f"slides: {slide.block} cannot slide on itself; name another guide")
 
 
+def refuse_loose_driver(
+    driver: str, on: str, links: Mapping[str, Sequence[str]], slides: Sequence[SlideTable]
+) -> None:
+    """Refuse a driver that no pin and no slide joins to the link on which it moves; raises ValueError."""
+    if driver not in links or on not in links:
+        return  # refused elsewhere
+    joined = set(links[driver]) & set(links[on]) or any({driver, on} == set(one.links) for one in slides)
+    if driver == on or not joined:
+        raise ValueError(f"driver: no pin or slide joins {driver} to {on}; name a link that moves on it")
+
+
 def refuse_coincident(
     points: Mapping[str, complex], links: Mapping[str, Sequence[str]], apart: float
 ) -> None:

@@ -81,7 +81,11 @@ class LinkageTable(DesignTable[LinkageParams]):
         return not self.driver_slides and self.given.swing_from is None
 
 
-@kept
 def table_of(params: LinkageParams, size: int | None = None) -> LinkageTable:
-    """The linkage of a design; kept, with all that is computed of it."""
-    return LinkageTable(params, size)
+    """The linkage of a design, which is kept with all that is computed of it; or a table of ``size`` designs."""
+    return _of_one(params) if size is None else LinkageTable(params, size)
+
+
+@kept
+def _of_one(params: LinkageParams) -> LinkageTable:
+    return LinkageTable(params)
