@@ -243,7 +243,7 @@ class LinkageParams(Parameters):
             if getattr(self, name) != field.default:
                 chosen = name.replace("_", "-")
                 raise ValueError(
-                    f'{name}: it is of linkage = "{chosen}", and linkage is "{self.linkage}"; leave {name} out'
+                    f'{name}: it is of linkage = "{chosen}", not of "{self.linkage}"; leave {name} out'
                 )
 
     def _refuse_names(self) -> None:
@@ -281,7 +281,7 @@ class LinkageParams(Parameters):
 
     @property
     def table_name(self) -> str:
-        """The key of the table that has the dimensions: of a linkage of the catalogue its own, else points."""
+        """The key of the table with the dimensions: that of the linkage of the catalogue, else points."""
         return "points" if self.linkage == "drawn" else self.linkage.replace("-", "_")
 
     @property

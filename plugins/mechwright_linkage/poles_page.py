@@ -27,7 +27,7 @@ class LinkagePoles(PolesPage):
         """One for each pair; none where the input slides, whose accelerations have another unit."""
         if table_of(params).driver_slides:
             return ()
-        first, *others = params.pole_pairs
+        others = params.pole_pairs[1:]
         return (NAME, *(f"poles-{one}-{two}.html".lower() for one, two in others))
 
     def couplers(self, params: LinkageParams) -> Mapping[str, Coupler]:

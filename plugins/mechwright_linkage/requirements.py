@@ -8,8 +8,8 @@ from mechwright import FIRST, Parameters
 from mechwright.units import Degrees, Millimetres, Unit
 
 TurningName = Literal[
-    "watt-1", "watt-2", "stephenson-1", "stephenson-3", "whitworth", "crank-shaper", "toggle-press", "hoecken",
-    "klann",
+    "watt-1", "watt-2", "stephenson-1", "stephenson-3", "whitworth", "crank-shaper", "toggle-press",
+    "hoecken", "klann",
 ]  # fmt: skip
 """Linkages of the catalogue whose driver turns and whose dimensions are free."""
 

@@ -135,7 +135,8 @@ def refuse_strangers(
     used = {name for own in links.values() for name in own}
     if loose := [name for name in points if name not in used]:
         raise ValueError(f"points: {loose[0]} is on no link; name it in one of links, or leave it out")
-    for table in (*slides, *gears):
+    tables: list[SlideTable | GearTable] = [*slides, *gears]
+    for table in tables:
         for link in table.links:
             if link not in links:
                 raise ValueError(f"{table.what}: {link!r} is none of links: {', '.join(links)}")

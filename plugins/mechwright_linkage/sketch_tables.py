@@ -22,7 +22,7 @@ class PointTable(Parameters):
 
     @property
     def place(self) -> Any:
-        """x + i y, mm, or a column of them."""
+        """X + i y, mm, or a column of them."""
         return self.x + 1j * self.y
 
 

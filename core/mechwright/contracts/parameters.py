@@ -54,7 +54,7 @@ def value_at(params: Any, name: str) -> Any:
 
 
 def named_table(annotation: object) -> type[BaseModel] | None:
-    """The model of the tables that a field has by their names, ``dict[str, Model]``; None for other fields."""
+    """The model of the tables that a field has by names, ``dict[str, Model]``; None for other fields."""
     kinds = get_args(annotation)
     if get_origin(annotation) is dict and _is_table(kinds[1]):
         model: type[BaseModel] = kinds[1]

@@ -104,10 +104,10 @@ def read_address(text: str, source: str) -> Drawing:
         found.add(point, GROUND)
     for one in links:
         _address_link(found, one, names, source)
-    for point, angle in sliding.items():
+    for point, along in sliding.items():
         block = name_of(f"slider_{point}", found.links, "slider")
         found.add(point, block)
-        found.slide(point, block, GROUND, angle)
+        found.slide(point, block, GROUND, along)
     found.driver = next((link for link, own in found.links.items() if link != GROUND and driven in own), "")
     return found
 

@@ -31,7 +31,7 @@ class Extreme:
 
 def least(table: LinkageTable, value: Value, order: int = 0) -> Extreme:
     """The least value over a period; ``order`` is the highest rate of the motion that the value needs."""
-    phases = np.broadcast_to(phases_of(table, SAMPLES), (table.size, SAMPLES))
+    phases = np.broadcast_to(phases_of(SAMPLES), (table.size, SAMPLES))
     step = (phases[:, -1:] - phases[:, :1]) / (SAMPLES - 1)
 
     def at(places: Array) -> Array:

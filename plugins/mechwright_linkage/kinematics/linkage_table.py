@@ -82,7 +82,7 @@ class LinkageTable(DesignTable[LinkageParams]):
 
 
 def table_of(params: LinkageParams, size: int | None = None) -> LinkageTable:
-    """The linkage of a design, which is kept with all that is computed of it; or a table of ``size`` designs."""
+    """The linkage of a design, kept with all that is computed of it; or a table of ``size`` designs."""
     return _of_one(params) if size is None else LinkageTable(params, size)
 
 

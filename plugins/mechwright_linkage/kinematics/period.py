@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright import Array
 from mechwright.contracts.design_table import column
@@ -72,8 +73,7 @@ def requested(table: LinkageTable) -> tuple[float, float] | None:
 
 
 def interval_of(table: LinkageTable) -> Interval | None:
-    """Where the input goes that is left to itself: around the drawn position, up to a degree of transmission
-    angle."""
+    """Where the input goes by itself: around the drawn position, up to a degree of transmission angle."""
     ways = usable(table.machine).intervals
     turn, drawn = 0.0 if table.driver_slides else math.tau, table.drawn_at
     for way in ways:
@@ -154,10 +154,10 @@ def _ways(table: LinkageTable) -> Ways:
     return Ways(start, travel, rocks)
 
 
-def sure_to_turn(table: LinkageTable) -> Array:
+def sure_to_turn(table: LinkageTable) -> NDArray[np.bool_]:
     """Which drivers (n,) of a table turn all the way without a doubt."""
 
-    def found() -> Array:
+    def found() -> NDArray[np.bool_]:
         at = table.drawn_at + travelled(turns_of(table) * math.tau, TURN_SAMPLES * turns_of(table))
         solution = table.solved_at(np.atleast_2d(at), 0)
         sines = [np.broadcast_to(one, (table.size, one.shape[-1])) for one in solution.sines.values()]
@@ -168,7 +168,7 @@ def sure_to_turn(table: LinkageTable) -> Array:
     return table.once("sure to turn", found)
 
 
-def phases_of(table: LinkageTable, samples: int) -> Array:
+def phases_of(samples: int) -> Array:
     """Phases (samples,) over the period; of levers the way there is the way back."""
     return np.linspace(0.0, math.tau, samples)
 
@@ -195,7 +195,7 @@ def drives_at(table: LinkageTable, phases: Array) -> tuple[Array, Turning]:
 
 def over_phases(table: LinkageTable, samples: int) -> tuple[Array, Solution]:
     """Phases (m,) over a period, and the motion (n, m) with rates by the phase."""
-    phases = phases_of(table, samples)
+    phases = phases_of(samples)
     ways = ways_of(table)
     half, cos, sin = ways.travel / 2, np.cos(phases), np.sin(phases)
     rates = [np.where(ways.rocks, lever, 0.0) for lever in (half * sin, half * cos, -half * sin)]

@@ -32,7 +32,7 @@ class OutputStage(CrankStage):
         if is_lever(self.table) or on != GROUND or pivot is None:
             raise DesignError(
                 f"driver: {driver} does not turn all the way about a pivot of the ground, and a stage of a "
-                "chain follows a shaft that does; change the dimensions, and leave swing_from and swing_to out"
+                "chain follows a shaft that does; change a length, and leave swing_from and swing_to out"
             )
         self.input = Port(driver, (pivot.real, pivot.imag))
         self.period = Fraction(turns_of(self.table))

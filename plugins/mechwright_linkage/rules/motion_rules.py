@@ -12,8 +12,8 @@ from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright.tolerances import falls_short
-from mechwright_linkage.kinematics.linkage_table import LinkageTable
 from mechwright_linkage.kinematics.figures import least_transmission, worst_joint
+from mechwright_linkage.kinematics.linkage_table import LinkageTable
 from mechwright_linkage.kinematics.period import (
     course_of,
     ends_of,

@@ -139,7 +139,8 @@ def _synthesis(
     progress: Progress,
 ) -> Synthesis[LinkageParams]:
     """Designs of what was found, each looked at by the family's rules."""
-    rejected, candidates = Rejected(), []
+    rejected = Rejected()
+    candidates: list[Candidate[LinkageParams]] = []
     for number, one in enumerate(found):
         if len(candidates) == wanted.designs:
             rejected.beyond(wanted.designs, len(found) - number)
@@ -172,7 +173,7 @@ def _said(
                 f"{kind}.none",
                 "linkages",
                 f"no linkage was found among {wanted.starts} random ones of each kind that keeps all limits",
-                remedy="allow a smaller least_transmission_angle, other lengths, more starts or more linkages",
+                remedy="allow a smaller least_transmission_angle, other lengths, more starts or linkages",
             ),
         )
     best = candidates[0].shown["residual"]

@@ -47,9 +47,11 @@ class Function(Task):
         linkage, found = self.unknowns.moved(dimensions, others[:, :1] + self.turns)
         output, _ = output_of(linkage, found)
         off = output - output[:, :1] - self.outputs
-        return off - (off.max(axis=1, keepdims=True) + off.min(axis=1, keepdims=True)) / 2
+        middle = (off.max(axis=1, keepdims=True) + off.min(axis=1, keepdims=True)) / 2
+        return np.asarray(off - middle)
 
     def miss(self, x: Array) -> Array:
+        """Errors over the range of the outputs."""
         return np.asarray(self.errors(x) / self.size)
 
 
@@ -73,6 +75,7 @@ class Dwell(Task):
         return output - middle, np.ptp(whole, axis=1)[:, None]
 
     def miss(self, x: Array) -> Array:
+        """What moves in the dwell, and the error of the stroke."""
         output, stroke = self.dwelling(x)
         return np.hstack([SHARP * output / self.stroke, np.log(stroke / self.stroke)])
 
@@ -89,6 +92,7 @@ class Leading(Task):
         self.extra = 1 if given is not None else len(self.points)
 
     def start(self, count: int, rng: np.random.Generator) -> Array:
+        """Random unknowns; inputs that are free go evenly round."""
         found = super().start(count, rng)
         if self.turns is None:
             even = np.linspace(0.0, math.tau, len(self.points) + 1)[1:-1] * rng.choice((-1, 1), (count, 1))
@@ -115,6 +119,7 @@ class Leading(Task):
         return shift[:, None], turn[:, None], shift[:, None] + turn[:, None] * path - self.points
 
     def miss(self, x: Array) -> Array:
+        """Distances from the points over the size of the path."""
         _, turn, off = self.fitted(x)
         self.scale = np.abs(turn)
         return np.hstack([off.real, off.imag]) / self.size

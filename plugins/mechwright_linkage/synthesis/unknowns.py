@@ -70,7 +70,7 @@ class Unknowns:
         return self.entry.model_copy(update=columns)
 
     def plain(self, x: Array, scale: float = 1.0) -> Entry:
-        """The entry of one row (m,) with plain numbers, validated; raises ValidationError beyond its bounds."""
+        """The entry of one row (m,) with plain numbers; raises ValidationError beyond its bounds."""
         found = self.entry_of(x[None])
         values = {
             name: float(np.ravel(getattr(found, name))[0]) * (scale if self._unit(name) == "mm" else 1.0)

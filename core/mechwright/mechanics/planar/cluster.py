@@ -175,6 +175,7 @@ def _rest(bodies: Mapping[str, BodyMotion]) -> dict[str, BodyMotion]:
 
 
 def angles_of(turning: Turning) -> tuple[Array, Array, Array, Array]:
+    """The angle and its three rates."""
     return turning.theta, turning.omega, turning.alpha, turning.jerk
 
 

@@ -307,7 +307,7 @@ def _of_rows(machine: Machine, cluster: Cluster, designs: int, samples: int) -> 
 def _everywhere(bodies: Mapping[str, BodyMotion], drives: Sequence[Turning]) -> _Here:
     """What stands, and the inputs, at all samples: rows (samples, designs) in one axis."""
 
-    def row(values: Array) -> Array:
+    def row(values: Any) -> Any:
         return np.ascontiguousarray(values.T).ravel()
 
     def turning(one: Turning) -> Turning:

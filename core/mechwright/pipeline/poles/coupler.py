@@ -33,7 +33,7 @@ class Coupler:
     places
         Where places are counted from, in words.
     outline
-        The link in its own frame: places of its joints, and lines; None for A in the origin and B to the right.
+        The link in its own frame: its joints, and lines; None for A in the origin and B to the right.
     """
 
     course: Course
