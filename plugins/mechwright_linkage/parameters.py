@@ -1,7 +1,7 @@
 """The design table of a planar linkage."""
 
-from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, Self
+from collections.abc import Collection, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -23,6 +23,9 @@ from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, 
 
 MOST_LINKS, MOST_POINTS = 16, 60
 """Of a drawn linkage: layers are sought for all of them."""
+
+DRAWING = frozenset({"points", "scale", "links", "slides", "gears", "driver", "driver_on"})
+"""Fields of a drawn linkage."""
 
 LinkageName = Literal[
     "drawn",
@@ -246,6 +249,11 @@ class LinkageParams(Parameters):
         for key, link, point in stated:
             if point not in points[link]:
                 raise ValueError(f"{key}: {link} has no point {point!r}; it has {', '.join(points[link])}")
+
+    def unused_fields(self) -> Collection[str]:
+        """The tables of the other linkages; and drawings of one of the catalogue."""
+        others = {name.replace("-", "_") for name in get_args(LinkageName)} - {self.table_name, "drawn"}
+        return others if self.linkage == "drawn" else others | DRAWING
 
     @property
     def entry(self) -> Entry:

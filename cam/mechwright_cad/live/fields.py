@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
-from mechwright.contracts.parameters import first_fields
+from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.change import found_at
 from mechwright.designs.design import Design
@@ -61,7 +61,10 @@ def _of_model(
     schema = model_schema(model)
     shared = schema.get("$defs", {})
     chosen = first_fields(model) if first else ()
+    unused = value.unused_fields() if isinstance(value, Parameters) else ()
     for name, field in model.model_fields.items():
+        if name in unused:
+            continue
         own = getattr(value, name) if value is not None else field.get_default(call_default_factory=True)
         key = f"{where}.{name}"
         if isinstance(own, BaseModel):
