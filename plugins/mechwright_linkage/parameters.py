@@ -104,14 +104,22 @@ class LinkageParams(Parameters):
     )
     watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
     watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
-    stephenson_1: StephensonOne = Field(StephensonOne(), description='Dimensions for linkage = "stephenson-1".')
-    stephenson_2: StephensonTwo = Field(StephensonTwo(), description='Dimensions for linkage = "stephenson-2".')
-    stephenson_3: StephensonThree = Field(StephensonThree(), description='Dimensions for linkage = "stephenson-3".')
+    stephenson_1: StephensonOne = Field(
+        StephensonOne(), description='Dimensions for linkage = "stephenson-1".'
+    )
+    stephenson_2: StephensonTwo = Field(
+        StephensonTwo(), description='Dimensions for linkage = "stephenson-2".'
+    )
+    stephenson_3: StephensonThree = Field(
+        StephensonThree(), description='Dimensions for linkage = "stephenson-3".'
+    )
     whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
     crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
     scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
     pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
-    parallel_guide: ParallelGuide = Field(ParallelGuide(), description='Dimensions for linkage = "parallel-guide".')
+    parallel_guide: ParallelGuide = Field(
+        ParallelGuide(), description='Dimensions for linkage = "parallel-guide".'
+    )
     peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
     hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
     chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
@@ -148,7 +156,8 @@ class LinkageParams(Parameters):
     pairs: Annotated[tuple[tuple[Word, Word], ...], Field(max_length=8)] = Field(
         (),
         description='Pairs of links whose acceleration poles are wanted, as [["coupler", "ground"]]: of the '
-        "first as seen from the second; left out, of the output seen from the ground.",
+        "first as seen from the second; left out, of the output seen from the ground, or of another link if "
+        "the output is joined to the ground.",
     )
     speed: fields.Speed = 60.0
     direction: fields.Direction = "ccw"
@@ -237,7 +246,9 @@ class LinkageParams(Parameters):
             raise ValueError("driver: a linkage of the catalogue has its own; leave driver and driver_on out")
         asked += [("pairs", link, list(points)) for pair in self.pairs for link in pair]
         asked += [("loads", load.link or "?", moving) for load in self.loads]
-        asked += [("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends]
+        asked += [
+            ("springs", link or "?", list(points)) for spring in self.springs for link, _ in spring.ends
+        ]
         for key, link, known in asked:
             if link and link not in known:
                 raise ValueError(f"{key}: no link is called {link!r}; there are {', '.join(known)}")
@@ -263,7 +274,7 @@ class LinkageParams(Parameters):
 
     @property
     def table_name(self) -> str:
-        """The key of the table that has the dimensions: of a linkage of the catalogue its own, else points."""
+        """The key of the table that has the dimensions: that of a linkage of the catalogue, else points."""
         return "points" if self.linkage == "drawn" else self.linkage.replace("-", "_")
 
     @property
@@ -291,7 +302,23 @@ class LinkageParams(Parameters):
     @property
     def pole_pairs(self) -> tuple[tuple[str, str], ...]:
         """The pairs of links whose poles are wanted."""
-        return self.pairs or ((self.output_link, GROUND),)
+        return self.pairs or ((self.free_link, GROUND),)
+
+    @property
+    def free_link(self) -> str:
+        """The output; of an output that is joined to the ground the last link of two points that is not."""
+        points = self.link_points
+        free = [link for link in points if len(points[link]) > 1 and not self._on_ground(link)]
+        return self.output_link if self.output_link in free or not free else free[-1]
+
+    def _on_ground(self, link: str) -> bool:
+        """Whether a pin or a slide joins a link to the ground."""
+        points = self.link_points
+        if link == GROUND:
+            return True
+        slides = self.slides if self.linkage == "drawn" else self.entry.slides()
+        sliding = any({link, GROUND} == {one.block, one.guide} for one in slides)
+        return sliding or bool(set(points[link]) & set(points[GROUND]))
 
 
 def replaced(params: LinkageParams, **changes: Any) -> LinkageParams:

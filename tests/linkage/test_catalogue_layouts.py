@@ -56,3 +56,12 @@ def test_an_inversor_that_folds_is_refused_within_seconds():
     with pytest.raises(GeometryError, match=r"meet in plan.*; give the input less range"):
         layout_of(linkage, Sizes(), bodies)
     assert time.perf_counter() - start < 5.0
+
+
+def test_poles_are_those_of_a_link_that_no_pin_joins_to_the_ground():
+    pairs = {name: LinkageParams(linkage=name).pole_pairs for name in ENTRIES}
+    assert pairs["watt-2"] == (("link5", "ground"),)
+    assert pairs["jansen"] == (("foot", "ground"),)
+    assert pairs["whitworth"] == (("rod", "ground"),)
+    assert pairs["scotch-yoke"] == (("yoke", "ground"),)
+    assert LinkageParams(linkage="watt-2", pairs=(("link6", "crank"),)).pole_pairs == (("link6", "crank"),)
