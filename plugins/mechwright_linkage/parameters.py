@@ -9,6 +9,7 @@ from mechwright import FIRST, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.units import Millimetres, Unit
+from mechwright_linkage.catalogue.entries import ENTRIES
 from mechwright_linkage.catalogue.entry import Entry
 from mechwright_linkage.catalogue.legs import Jansen, Klann
 from mechwright_linkage.catalogue.parallels import Pantograph, ParallelGuide
@@ -50,6 +51,12 @@ LinkageName = Literal[
     "wiper",
     "scissor-lift",
 ]
+
+
+def dimensions(entry: Entry) -> Any:
+    """The field of a table with the dimensions of an entry."""
+    name = next(name for name, kind in ENTRIES.items() if kind is type(entry))
+    return Field(entry, description=f'Dimensions for linkage = "{name}".', json_schema_extra=FIRST)
 
 
 class LoadTable(Parameters):
@@ -102,34 +109,26 @@ class LinkageParams(Parameters):
         "by points and links.",
         json_schema_extra=FIRST,
     )
-    watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
-    watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
-    stephenson_1: StephensonOne = Field(
-        StephensonOne(), description='Dimensions for linkage = "stephenson-1".'
-    )
-    stephenson_2: StephensonTwo = Field(
-        StephensonTwo(), description='Dimensions for linkage = "stephenson-2".'
-    )
-    stephenson_3: StephensonThree = Field(
-        StephensonThree(), description='Dimensions for linkage = "stephenson-3".'
-    )
-    whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
-    crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
-    scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
-    pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
-    parallel_guide: ParallelGuide = Field(
-        ParallelGuide(), description='Dimensions for linkage = "parallel-guide".'
-    )
-    peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
-    hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
-    chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
-    roberts: Roberts = Field(Roberts(), description='Dimensions for linkage = "roberts".')
-    watt_line: WattLine = Field(WattLine(), description='Dimensions for linkage = "watt-line".')
-    jansen: Jansen = Field(Jansen(), description='Dimensions for linkage = "jansen".')
-    klann: Klann = Field(Klann(), description='Dimensions for linkage = "klann".')
-    toggle_press: TogglePress = Field(TogglePress(), description='Dimensions for linkage = "toggle-press".')
-    wiper: Wiper = Field(Wiper(), description='Dimensions for linkage = "wiper".')
-    scissor_lift: ScissorLift = Field(ScissorLift(), description='Dimensions for linkage = "scissor-lift".')
+    watt_1: WattOne = dimensions(WattOne())
+    watt_2: WattTwo = dimensions(WattTwo())
+    stephenson_1: StephensonOne = dimensions(StephensonOne())
+    stephenson_2: StephensonTwo = dimensions(StephensonTwo())
+    stephenson_3: StephensonThree = dimensions(StephensonThree())
+    whitworth: Whitworth = dimensions(Whitworth())
+    crank_shaper: CrankShaper = dimensions(CrankShaper())
+    scotch_yoke: ScotchYoke = dimensions(ScotchYoke())
+    pantograph: Pantograph = dimensions(Pantograph())
+    parallel_guide: ParallelGuide = dimensions(ParallelGuide())
+    peaucellier: Peaucellier = dimensions(Peaucellier())
+    hoecken: Hoecken = dimensions(Hoecken())
+    chebyshev: Chebyshev = dimensions(Chebyshev())
+    roberts: Roberts = dimensions(Roberts())
+    watt_line: WattLine = dimensions(WattLine())
+    jansen: Jansen = dimensions(Jansen())
+    klann: Klann = dimensions(Klann())
+    toggle_press: TogglePress = dimensions(TogglePress())
+    wiper: Wiper = dimensions(Wiper())
+    scissor_lift: ScissorLift = dimensions(ScissorLift())
     points: dict[Word, PointTable] = Field(
         default_factory=dict,
         max_length=MOST_POINTS,

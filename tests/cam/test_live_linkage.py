@@ -34,6 +34,7 @@ def test_fields_are_those_of_the_linkage_that_is_chosen(session):
     klann = Session(LINKAGES / "klann.toml", host())
     fields = klann.described({})["fields"]
     assert tables(fields) == {"klann"}
+    assert all(one["first"] for one in fields if one["key"].startswith("parameters.klann."))
     assert not {"parameters.points", "parameters.driver"} & {one["key"] for one in fields}
     assert tables(klann.described({"parameters.linkage": "jansen"})["fields"]) == {"jansen"}
     drawn = session.described({})["fields"]
