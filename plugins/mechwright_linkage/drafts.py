@@ -24,9 +24,7 @@ def draft_of(source: str, text: str) -> LinkageParams:
             raise DesignError(f"--from: {source}: {said}") from error
     name = source or FIRST
     if name not in ENTRIES:
-        raise DesignError(
-            f"--from: {unknown(name, tuple(ENTRIES), 'linkage')} (a file can be {KNOWN})"
-        )
+        raise DesignError(f"--from: {unknown(name, tuple(ENTRIES), 'linkage')} (a file can be {KNOWN})")
     entry = ENTRIES[name]
     content: dict[str, Any] = {"linkage": name, name.replace("-", "_"): entry()}
     if entry.swing is not None:

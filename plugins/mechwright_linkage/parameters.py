@@ -19,7 +19,7 @@ from mechwright_linkage.catalogue.slides import ScissorLift, ScotchYoke, ToggleP
 from mechwright_linkage.catalogue.stephenson_two import StephensonTwo
 from mechwright_linkage.catalogue.straight_lines import Chebyshev, Hoecken, Peaucellier, Roberts, WattLine
 from mechwright_linkage.catalogue.wipers import Wiper
-from mechwright_linkage.sketch import refuse_strangers
+from mechwright_linkage.sketch import refuse_loose_driver, refuse_strangers
 from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, Word
 
 MOST_LINKS, MOST_POINTS = 16, 60
@@ -215,7 +215,8 @@ class LinkageParams(Parameters):
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     def __hash__(self) -> int:
-        return hash(self.model_dump_json())
+        own = tuple(self.links) if self.linkage == "drawn" else tuple(self.entry.__dict__.values())
+        return hash((self.linkage, own, self.speed, self.pin_diameter, self.thickness, self.frame))
 
     @model_validator(mode="after")
     def _together(self) -> Self:
@@ -224,8 +225,11 @@ class LinkageParams(Parameters):
             raise ValueError(
                 f'{drawn[0]}: it is of a drawn linkage; set linkage = "drawn", or leave {drawn[0]} out'
             )
+        self._refuse_other_tables()
         if self.linkage == "drawn":
             refuse_strangers(self.points, self.links, self.slides, self.gears)
+        elif self.scale != 1:
+            raise ValueError("scale: it is of a drawn linkage; change the dimensions, or leave scale out")
         self._refuse_names()
         fields.swing_together(self.swing_from, self.swing_to, self.direction)
         if (self.stroke_from is None) != (self.stroke_to is None):
@@ -234,6 +238,17 @@ class LinkageParams(Parameters):
             raise ValueError("stroke_from and stroke_to are the same, so nothing moves; give two")
         return self
 
+    def _refuse_other_tables(self) -> None:
+        """Refuse dimensions of a linkage that is not chosen."""
+        for name, field in type(self).model_fields.items():
+            if name == self.table_name or not isinstance(field.default, Entry):
+                continue
+            if getattr(self, name) != field.default:
+                chosen = name.replace("_", "-")
+                raise ValueError(
+                    f'{name}: it is of linkage = "{chosen}", not of "{self.linkage}"; leave {name} out'
+                )
+
     def _refuse_names(self) -> None:
         """Refuse links and points that other keys name and that are not there."""
         points = self.link_points
@@ -241,6 +256,7 @@ class LinkageParams(Parameters):
         asked: list[tuple[str, str, Sequence[str]]] = [("output", self.output, moving)]
         if self.linkage == "drawn":
             asked += [("driver", self.driver or "crank", moving), ("driver_on", self.driver_on, list(points))]
+            refuse_loose_driver(*self.driver_links, self.links, self.slides)
         elif self.driver or self.driver_on != GROUND:
             raise ValueError("driver: a linkage of the catalogue has its own; leave driver and driver_on out")
         asked += [("pairs", link, list(points)) for pair in self.pairs for link in pair]
@@ -273,7 +289,7 @@ class LinkageParams(Parameters):
 
     @property
     def table_name(self) -> str:
-        """The key of the table that has the dimensions: that of a linkage of the catalogue, else points."""
+        """The key of the table with the dimensions: that of the linkage of the catalogue, else points."""
         return "points" if self.linkage == "drawn" else self.linkage.replace("-", "_")
 
     @property

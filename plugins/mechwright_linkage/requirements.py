@@ -16,7 +16,7 @@ TurningName = Literal[
 MOST_STARTS = 200_000
 
 Input = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
-Output = Annotated[float, Field(ge=-1000, le=1000)]
+Output = Annotated[float, Field(ge=-1000, le=1000), Unit("")]
 Coordinate = Annotated[float, Field(ge=-5000, le=5000), Unit("mm")]
 
 
@@ -31,7 +31,11 @@ class LinkageSearch(Parameters):
         json_schema_extra=FIRST,
     )
     least_transmission_angle: Degrees = Field(
-        25.0, ge=1, le=80, description="Least transmission angle over the whole turn.", json_schema_extra=FIRST
+        25.0,
+        ge=1,
+        le=80,
+        description="Least transmission angle over the whole turn.",
+        json_schema_extra=FIRST,
     )
     shortest_link: Millimetres = Field(15.0, ge=0.5, le=1000, description="Shortest distance of two joints.")
     longest_link: Millimetres = Field(300.0, ge=1, le=5000, description="Longest distance of two joints.")
@@ -71,14 +75,16 @@ class FunctionRequirement(LinkageSearch):
         description="The output at each of them from its first place, degrees, or mm of one that slides.",
         json_schema_extra=FIRST,
     )
-    tolerance: Annotated[float, Field(ge=0, le=100)] = Field(
+    tolerance: Annotated[float, Field(ge=0, le=100), Unit("")] = Field(
         0.5, description="Greatest error of the output that counts as met, degrees or mm."
     )
 
     @model_validator(mode="after")
     def _pairs(self) -> Self:
         if len(self.outputs) != len(self.input_angles):
-            raise ValueError(f"outputs has {len(self.outputs)} entries for {len(self.input_angles)} input_angles")
+            raise ValueError(
+                f"outputs has {len(self.outputs)} entries for {len(self.input_angles)} input_angles"
+            )
         if self.input_angles[0] != 0 or self.outputs[0] != 0:
             raise ValueError("input_angles and outputs begin with 0; count them from the first position")
         if any(b <= a for a, b in zip(self.input_angles[:-1], self.input_angles[1:], strict=True)):

@@ -122,7 +122,9 @@ def refuse_strangers(
 ) -> None:
     """Refuse names of points and links that are not there, and links that are no links; raises ValueError."""
     if GROUND not in links:
-        raise ValueError('links: none is called "ground"; name the points that stand still: ground = ["A0", "B0"]')
+        raise ValueError(
+            'links: none is called "ground"; name the points that stand still: ground = ["A0", "B0"]'
+        )
     for link, own in links.items():
         if not own:
             raise ValueError(f"links: {link} has no points; name those of its joints")
@@ -144,7 +146,20 @@ def refuse_strangers(
             raise ValueError(f"slides: {slide.block} cannot slide on itself; name another guide")
 
 
-def refuse_coincident(points: Mapping[str, complex], links: Mapping[str, Sequence[str]], apart: float) -> None:
+def refuse_loose_driver(
+    driver: str, on: str, links: Mapping[str, Sequence[str]], slides: Sequence[SlideTable]
+) -> None:
+    """Refuse a driver that no pin and no slide joins to the link on which it moves; raises ValueError."""
+    if driver not in links or on not in links:
+        return  # refused elsewhere
+    joined = set(links[driver]) & set(links[on]) or any({driver, on} == set(one.links) for one in slides)
+    if driver == on or not joined:
+        raise ValueError(f"driver: no pin or slide joins {driver} to {on}; name a link that moves on it")
+
+
+def refuse_coincident(
+    points: Mapping[str, complex], links: Mapping[str, Sequence[str]], apart: float
+) -> None:
     """Refuse a link whose first points coincide, which gives it no direction; raises KinematicsError."""
     for link, own in links.items():
         if link != GROUND and len(own) > 1 and abs(points[own[0]] - points[own[1]]) < apart:

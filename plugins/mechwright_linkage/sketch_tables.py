@@ -6,7 +6,7 @@ from pydantic import Field
 
 from mechwright import FIRST, Parameters
 from mechwright.mechanics.planar.dynamics import GROUND
-from mechwright.units import Degrees, Millimetres
+from mechwright.units import Degrees, Millimetres, Ratio
 
 Word = Annotated[str, Field(max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$|^$")]
 """The name of a link, a point or a joint."""
@@ -54,8 +54,11 @@ class GearTable(Parameters):
     one: Word = Field("", description="The first link.")
     two: Word = Field("", description="The second link, which turns ratio times as far.")
     carrier: Word = Field(GROUND, description="The link that holds both centres.")
-    ratio: Annotated[float, Field(ge=-50, le=50)] = Field(
-        -1.0, description="Turns of two for one turn of one, as seen from the carrier; below 0 if external."
+    ratio: Ratio = Field(
+        -1.0,
+        ge=-50,
+        le=50,
+        description="Turns of two for one turn of one, as seen from the carrier; below 0 if external.",
     )
 
     @property

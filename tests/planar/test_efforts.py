@@ -189,7 +189,7 @@ def power(solution, masses, loads, springs, gravity):
 def worst_share(solution, found, rates, expected, least=0.05):
     """The largest difference of two powers over the sum of what they are the sum of, near no dead point."""
     given_power = sum(effort * rate for effort, rate in zip(found.drives.values(), rates, strict=True))
-    sines = np.minimum.reduce(np.broadcast_arrays(*solution.sines.values()))
+    sines = np.minimum.reduce(np.broadcast_arrays(*solution.sines.values(), *solution.pivots.values()))
     good = np.nan_to_num(sines) > least
     assume(good.any())
     forces = sum(np.abs(force) for force in found.joints.values()) * 100 * sum(np.abs(rate) for rate in rates)

@@ -110,7 +110,10 @@ def pmks_address(flags: str) -> str:
         f"{flag}{key},{name},{number(x)},{number(y)},0"
         for flag, key, name, (x, y) in zip(flags, "abcd", "ABCD", places, strict=True)
     ]
-    links = [f"YR{name},{name},1,1,0,0,c,{ends[0]},{ends[1]},," for name, ends in (("1", "ab"), ("2", "bc"), ("3", "cd"))]
+    links = [
+        f"YR{name},{name},1,1,0,0,c,{ends[0]},{ends[1]},,"
+        for name, ends in (("1", "ab"), ("2", "bc"), ("3", "cd"))
+    ]
     return "https://example.org/?" + ".".join(["1", "1", "1", "1", *joints, "", *links, "", "", "x"])
 
 

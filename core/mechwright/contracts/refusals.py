@@ -20,7 +20,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from mechwright.contracts.evaluation import PARAMETERS, Batch
-from mechwright.contracts.parameters import Parameters, is_fitted
+from mechwright.contracts.parameters import Parameters, is_fitted, named_table, value_at
 from mechwright.contracts.stand_in import Asked, StandIn, Unlike, changed
 from mechwright.units import Unit
 
@@ -80,6 +80,8 @@ def _told(batch: Batch[Any]) -> Refusals:
         found += [_Refused(field.place, f"{PARAMETERS}.{name}{key}", some) for key, some in refused.items()]
     common = _allowed(batch, content, np.flatnonzero(~_any(found, size)))
     for table in sorted({step for name in values for step in _tables(name)}, key=len, reverse=True):
+        if not isinstance(_inner(common, table), BaseModel):
+            continue  # tables by their names, each of which has its own rules
         place = _field(batch.model, table).place
         beyond = _any([one for one in found if one.place[: len(place)] == place], size)
         refused_too = _ruled(_inner(common, table), _below(values, table), np.flatnonzero(~beyond), size)
@@ -156,8 +158,18 @@ def _as_said(table: BaseModel, content: Mapping[str, Any], varied: Mapping[str, 
         if isinstance(value, BaseModel):
             if not _as_said(value, content.get(name, {}), _below(varied, name)):
                 return False
+        elif isinstance(value, dict) and named_table(info.annotation) is not None:
+            own = content.get(name, {})
+            if not all(
+                _as_said(one, own.get(key, {}), _below(varied, f"{name}.{key}")) for key, one in value.items()
+            ):
+                return False
         elif name not in varied and (name in content or not is_fitted(info)):
-            said = _adapter(info).validate_python(content[name]) if name in content else info.get_default()
+            said = (
+                _adapter(info).validate_python(content[name])
+                if name in content
+                else info.get_default(call_default_factory=True)
+            )
             if value != said:
                 return False
     return True
@@ -191,10 +203,17 @@ class _Field:
 def _field(model: type[BaseModel], name: str) -> _Field:
     place: list[int] = []
     *tables, key = name.split(".")
+    named: type[BaseModel] | None = None
     for step in tables:
+        if named is not None:  # the name of a table, whose tables have one place
+            model, named = named, None
+            continue
         _plain(model, step)
         place.append(list(model.model_fields).index(step))
         inner = model.model_fields[step].annotation
+        named = named_table(inner)
+        if named is not None:
+            continue
         if not (isinstance(inner, type) and issubclass(inner, BaseModel)):
             raise _Unknown
         model = inner
@@ -300,9 +319,8 @@ def _choices(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[s
 
 
 def _inner(table: BaseModel, name: str) -> BaseModel:
-    for step in name.split(".") if name else ():
-        table = getattr(table, step)
-    return table
+    found: BaseModel = value_at(table, name) if name else table
+    return found
 
 
 def _rules(table: BaseModel) -> list[Callable[[Any], Any]]:

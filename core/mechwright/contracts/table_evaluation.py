@@ -118,7 +118,11 @@ def tables(
 def _same(designs: Designs, name: str, place: int) -> Any:
     """What designs are alike in; a count may come as a float."""
     value = designs.varied[name][place].item()
-    return round(value) if isinstance(value, float) and isinstance(value_at(designs.common, name), int) else value
+    return (
+        round(value)
+        if isinstance(value, float) and isinstance(value_at(designs.common, name), int)
+        else value
+    )
 
 
 class _Judge:

@@ -47,7 +47,11 @@ class Drawing:
         if GROUND not in self.links:
             raise DesignError(f'{source}: no point stands on a link called "ground"; name one there')
         driver = self.driver or next(
-            (link for link, own in self.links.items() if link != GROUND and set(own) & set(self.links[GROUND])),
+            (
+                link
+                for link, own in self.links.items()
+                if link != GROUND and set(own) & set(self.links[GROUND])
+            ),
             "",
         )
         if not driver:

@@ -48,7 +48,9 @@ def _line(cells: Sequence[str], where: str) -> tuple[list[str], str, list[float]
     except ValueError as error:
         raise DesignError(f"{where}: {error}; a line is: links, R, P or RP, x, y, and an angle") from error
     if place == 0 or len(numbers) < (2 if kind == "R" else 3):
-        raise DesignError(f"{where}: it is {' '.join(cells)}; a line is: links, R, P or RP, x, y, and an angle")
+        raise DesignError(
+            f"{where}: it is {' '.join(cells)}; a line is: links, R, P or RP, x, y, and an angle"
+        )
     links = [GROUND if link.lower() == GROUND else name_of(link, {}, "link") for link in cells[:place]]
     return links, kind, numbers, letters.endswith("t")
 

@@ -82,7 +82,9 @@ def _trackers(
         one, two = (names[str(joint[f"ref_joint{number}_id"])] for number in (1, 2))
         link = next((name for name, own in found.links.items() if {one, two} <= set(own)), None)
         if link is None:
-            raise DesignError(f"{source}: the tracker {key} refers to {one} and {two}, which are on no one link")
+            raise DesignError(
+                f"{source}: the tracker {key} refers to {one} and {two}, which are on no one link"
+            )
         (x, y), (u, v) = found.points[one], found.points[two]
         angle = math.atan2(v - y, u - x) + float(joint["angle"])
         name = name_of(str(joint.get("name") or key), found.points, "T")

@@ -10,12 +10,12 @@ from mechwright.mechanics.planar.positions import Solution
 from mechwright_linkage.kinematics.linkage_table import LinkageTable
 from mechwright_linkage.kinematics.period import inputs_at, phases_of
 
-SAMPLES = 361
-"""Phases over a period among which an extreme is sought first: one a degree."""
+SAMPLES = 181
+"""Phases over a period among which an extreme is sought first: one every two degrees."""
 
 FINER, ROUNDS = 8, 5
 """Points on each side of the best phase, and how often the grid is made finer about it: the last step is
-3e-5 degrees, where a smooth extreme is flat to 1e-13 of the value."""
+6e-5 degrees, where a smooth extreme is flat to 1e-13 of the value."""
 
 Value = Callable[[Solution], Array]
 """A value (..., m) of the motion at m phases."""

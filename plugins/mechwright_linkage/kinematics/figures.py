@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.contracts.figure import Figure
+from mechwright.mechanics.planar.assembly_order import Dyad
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 from mechwright.mechanics.planar.positions import Solution
@@ -43,12 +44,16 @@ def figures_of(table: LinkageTable) -> Mapping[str, Figure]:
         "time_ratio": Figure(lambda: _of_row(table, _time_ratio(table))),
     }
     for name in table.linkage.traces:
-        found[f"x{name}_range"] = Figure(lambda key=name: _of_row(table, extremes(_path(table, key).along).extent), "mm")
+        found[f"x{name}_range"] = Figure(
+            lambda key=name: _of_row(table, extremes(_path(table, key).along).extent), "mm"
+        )
         found[f"y{name}_range"] = Figure(lambda key=name: _of_row(table, gait(_path(table, key)).lift), "mm")
     return found
 
 
 def _least_angle(table: LinkageTable) -> Extreme:
+    if not any(isinstance(group, Dyad) for group in table.order):
+        return Extreme(np.full((table.size, 1), math.pi / 2), np.zeros((table.size, 1)))
     return table.once("least transmission angle", lambda: least(table, transmission_angle))
 
 

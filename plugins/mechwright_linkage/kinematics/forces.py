@@ -31,9 +31,7 @@ def loads_of(table: LinkageTable) -> list[PointLoad]:
     for load in table.given.loads:
         points = table.linkage.points[load.link]
         place = points[load.point or next(iter(points))]
-        found.append(
-            PointLoad(load.link, place, load.force_x + 1j * load.force_y, load.torque / MILLI)
-        )
+        found.append(PointLoad(load.link, place, load.force_x + 1j * load.force_y, load.torque / MILLI))
     return found
 
 
@@ -41,7 +39,14 @@ def springs_of(table: LinkageTable) -> Sequence[AnySpring]:
     """The springs of a design."""
     points = table.linkage.points
     return [
-        Spring(one.link, one.on, points[one.link][one.point], points[one.on][one.on_point], one.rate, one.free_length)
+        Spring(
+            one.link,
+            one.on,
+            points[one.link][one.point],
+            points[one.on][one.on_point],
+            one.rate,
+            one.free_length,
+        )
         for one in table.given.springs
     ]
 
@@ -81,5 +86,3 @@ def period_forces(params: LinkageParams) -> tuple[Any, Forces]:
     table = table_of(params)
     found = period_of(table, PEAK_SAMPLES)
     return found, carried(table, found.solution, masses_of(params))
-
-

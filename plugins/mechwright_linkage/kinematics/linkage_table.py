@@ -35,9 +35,7 @@ class LinkageTable(DesignTable[LinkageParams]):
         points = {name: params.scale * one.place for name, one in params.points.items()}
         refuse_coincident(points, params.links, APART)
         drive = Drive(*params.driver_links)
-        return drawn_linkage(
-            points, params.links, params.slides, params.gears, drive, params.output_link
-        )
+        return drawn_linkage(points, params.links, params.slides, params.gears, drive, params.output_link)
 
     @property
     def machine(self) -> Machine:
@@ -75,7 +73,7 @@ class LinkageTable(DesignTable[LinkageParams]):
 
     def solved_at(self, at: Array, order: int = 3) -> Solution:
         """The motion per unit of the input, with rates up to an order."""
-        return solve(self.machine, [Turning.of(at, 1.0)], self.order)
+        return solve(self.machine, [Turning.of(at, 1.0)], self.order, rates=order)
 
     @property
     def may_turn(self) -> bool:
@@ -83,7 +81,11 @@ class LinkageTable(DesignTable[LinkageParams]):
         return not self.driver_slides and self.given.swing_from is None
 
 
-@kept
 def table_of(params: LinkageParams, size: int | None = None) -> LinkageTable:
-    """The linkage of a design; kept, with all that is computed of it."""
-    return LinkageTable(params, size)
+    """The linkage of a design, which is kept with all that is computed of it; or a table of ``size`` designs."""
+    return _of_one(params) if size is None else LinkageTable(params, size)
+
+
+@kept
+def _of_one(params: LinkageParams) -> LinkageTable:
+    return LinkageTable(params)

@@ -54,8 +54,7 @@ def motion_over(table: LinkageTable, period: Period) -> Motion:
         figures |= {name: Scalar(value, unit) for name, (value, unit) in peaks_of(params).items()}
         figures |= moving_figures(masses, {})
     traces = {
-        name: Trace(link, _place(table, link, point))
-        for name, (link, point) in table.linkage.traces.items()
+        name: Trace(link, _place(table, link, point)) for name, (link, point) in table.linkage.traces.items()
     }
     return Motion(
         STROKE if table.driver_slides else PHI,
@@ -95,7 +94,9 @@ class _ChannelsOfTable(Mapping[str, Channel]):
 
     def _forces(self) -> dict[str, Channel]:
         def compute() -> dict[str, Channel]:
-            rows = [motion_of(self._table.row(place).given, self._samples) for place in range(len(self._table))]
+            rows = [
+                motion_of(self._table.row(place).given, self._samples) for place in range(len(self._table))
+            ]
             names = [name for name in rows[0].channels if name not in self._found] if rows else []
             return {
                 name: Channel(np.stack([one[name] for one in rows]), rows[0].channels[name].unit)

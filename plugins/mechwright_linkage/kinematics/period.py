@@ -142,7 +142,10 @@ def ways_of(table: LinkageTable) -> Ways:
 def _ways(table: LinkageTable) -> Ways:
     sense = 1.0 if table.given.direction == "ccw" else -1.0
     size = table.size
-    start, travel = column(table.drawn_at, size).copy(), column(sense * turns_of(table) * math.tau, size).copy()
+    start, travel = (
+        column(table.drawn_at, size).copy(),
+        column(sense * turns_of(table) * math.tau, size).copy(),
+    )
     rocks = np.zeros((size, 1), bool)
     doubtful = np.flatnonzero(~sure_to_turn(table)) if table.may_turn else np.arange(size)
     for place in doubtful.tolist():
@@ -188,8 +191,6 @@ def drives_at(table: LinkageTable, phases: Array) -> tuple[Array, Turning]:
     jerk = np.where(ways.rocks, -half * omega**3 * sin, 0.0)
     time = np.where(ways.rocks, phases, np.abs(ways.travel) * phases / math.tau) / omega
     return time, Turning.of(theta, speed, alpha, jerk)
-
-
 
 
 def over_phases(table: LinkageTable, samples: int) -> tuple[Array, Solution]:

@@ -37,6 +37,7 @@ class OutputStage(CrankStage):
         self.input = Port(driver, (pivot.real, pivot.imag))
         self.period = Fraction(turns_of(self.table))
         self.speed = (1 if params.direction == "ccw" else -1) * params.speed * math.tau / 60
+        self.start = self.table.drawn_at
         output = params.output_link
         out = _pivot(self.table, output)
         if out is not None and output != driver:

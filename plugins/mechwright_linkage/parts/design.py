@@ -97,5 +97,3 @@ def held_by(params: LinkageParams) -> Mapping[str, Joint]:
     """What holds the bodies; of a linkage without parts nothing is known."""
     layout = layout_or_none(params)
     return {} if layout is None else frames.joints_of(layout)
-
-

@@ -52,6 +52,27 @@ def _joints(table: LinkageTable) -> Iterator[Finding]:
         )
 
 
+def _ends(table: LinkageTable) -> Iterator[Finding]:
+    """Ends of a stroke of a driver that turns, or of a swing of one that slides."""
+    given, slides = table.given, table.driver_slides
+    if given.stroke_from is not None and not slides:
+        yield _no_such_ends("stroke_from", "turns", "swing_from and swing_to")
+    if given.swing_from is not None and slides:
+        yield _no_such_ends("swing_from", "slides", "stroke_from and stroke_to")
+
+
+def _no_such_ends(key: str, does: str, others: str) -> Finding:
+    other = key.replace("from", "to")
+    return Finding.error(
+        "linkage.ends",
+        key,
+        f"{key} is stated, and the driver {does}",
+        remedy=f"leave {key} and {other} out, and state {others}",
+        stage=Stage.MOTION,
+        proposed=({f"parameters.{key}": None, f"parameters.{other}": None},),
+    )
+
+
 def _reach(table: LinkageTable) -> Iterator[Finding]:
     """Whether the links close somewhere, and over all of the way that the input is to go."""
     if not range_of(table).intervals:
@@ -146,9 +167,11 @@ TRANSMISSION = Rule(
     value=_degrees,
     limit=LEAST_TRANSMISSION,
     unit="deg",
-    remedy=lambda f: "give a shorter swing with swing_from and swing_to"
-    if is_lever(f.m) and not f.m.driver_slides
-    else "make the links behind the driver longer",
+    remedy=lambda f: (
+        "give a shorter swing with swing_from and swing_to"
+        if is_lever(f.m) and not f.m.driver_slides
+        else "make the links behind the driver longer"
+    ),
 )
 LOW_TRANSMISSION = TRANSMISSION.but(
     severity=Severity.WARNING,
@@ -158,6 +181,7 @@ LOW_TRANSMISSION = TRANSMISSION.but(
 
 MOTION = in_turn(
     Procedure[LinkageTable](("linkage.joints",), _joints, common=True),
+    Procedure[LinkageTable](("linkage.ends",), _ends, common=True),
     Procedure[LinkageTable](("linkage.closure", "linkage.swing", "linkage.stroke"), _reach, when=_doubtful),
 )
 """All that a motion needs, in order."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mechwright import Finding, GeometryError
+from mechwright import Finding, GeometryError, Stage
 from mechwright.contracts.design_rule import DesignRule, Note, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.linkage.bushings import LEAST_WALL
@@ -20,7 +20,9 @@ def _layers(table: LinkageTable) -> Iterator[Finding]:
             "linkage.layers",
             "frame" if two else table.given.table_name,
             str(error),
-            remedy='set frame = "two"' if two else "make pin_diameter, bushing_wall, rim or clearance smaller",
+            remedy='set frame = "two"'
+            if two
+            else "make pin_diameter, bushing_wall, rim or clearance smaller",
             proposed=({"parameters.frame": "two"},) if two else (),
         )
 
@@ -58,7 +60,7 @@ def _height(m: LinkageTable) -> float:
     return max(high for _, high in layout_of(m.given).stack.spans.values())
 
 
-PARTS = in_turn(BUSHINGS, Procedure[LinkageTable](("linkage.layers",), _layers))
+PARTS = in_turn(BUSHINGS, Procedure[LinkageTable](("linkage.layers",), _layers, stage=Stage.PARTS))
 """What plates and pins need, in order."""
 
 PART_NOTES = all_of(Note[LinkageTable]("linkage.stack", _stack_message, _height, "mm"))

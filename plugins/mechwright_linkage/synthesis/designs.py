@@ -189,5 +189,3 @@ def _said(
             "allow a larger tolerance, more starts, or other linkages",
         ),
     )
-
-

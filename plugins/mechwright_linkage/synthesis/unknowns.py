@@ -30,7 +30,9 @@ class Unknowns:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """The dimensions; signs and counts stay as they are."""
-        return tuple(name for name in type(self.entry).model_fields if isinstance(getattr(self.entry, name), float))
+        return tuple(
+            name for name in type(self.entry).model_fields if isinstance(getattr(self.entry, name), float)
+        )
 
     @cached_property
     def size(self) -> float:

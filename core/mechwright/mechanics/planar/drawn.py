@@ -60,8 +60,8 @@ def _branch(machine: Machine, group: Dyad) -> Any:
         side = bar.real / np.maximum(np.abs(bar), 1e-300)
     if np.any(np.abs(side) < LEAST):
         raise KinematicsError(
-            f"{inner.name}: {' and '.join(group.links)} are drawn at their dead point, where it is open which "
-            "way they go; draw the linkage in another position of its input"
+            f"{inner.name}: {' and '.join(group.links)} are drawn at their dead point, where "
+            "nothing decides how they go on; draw the linkage in another position of its input"
         )
     sign = np.sign(side)
     swapped = group.links != inner.links and group.kind != "RRP"

@@ -4,14 +4,14 @@ Inputs and designs are arrays: the last axis are the samples of the input, one b
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Geared, Group, assembly_order
-from mechwright.mechanics.planar.cluster import followed
+from mechwright.mechanics.planar.cluster_following import followed, with_lead
 from mechwright.mechanics.planar.dyads import (
     Slide,
     Solved,
@@ -44,17 +44,28 @@ class Solution:
     bodies
         Link to its motion (..., n), the ground among them; NaN where a group does not close.
     sines
-        What a group is named by, its inner joint, to the sine (..., n) of its transmission angle; of larger
-        groups the smallest singular value over the largest one. At 0 is a dead point.
+        Inner joint of each dyad to the sine (..., n) of its transmission angle; 0 at a dead point.
+    pivots
+        First inner joint of each larger group to the smallest singular value (..., n) of its equations over
+        the largest one; 0 at a dead point.
     """
 
     bodies: Mapping[str, BodyMotion]
     sines: Mapping[str, Array]
+    pivots: Mapping[str, Array] = field(default_factory=dict)
 
     def place(self, joint: Revolute, rates: int = 3) -> PointMotion:
         """How a pin moves; rates above ``rates`` are NaN."""
         link = joint.two if joint.one == GROUND else joint.one
         return self.bodies[link].point(joint.place(link), rates)
+
+    def after(self, lead: int) -> "Solution":
+        """The motion without its first samples."""
+        if not lead:
+            return self
+        bodies = {name: body.samples(slice(lead, None)) for name, body in self.bodies.items()}
+        sines = {name: sine[..., lead:] for name, sine in self.sines.items()}
+        return Solution(bodies, sines, {name: pivot[..., lead:] for name, pivot in self.pivots.items()})
 
     @property
     def closes(self) -> Array:
@@ -100,12 +111,18 @@ def solve(
     >>> np.degrees(found.bodies["rocker"].turning.theta).round(3).tolist()
     [104.478, 95.929]
     """
+    groups = assembly_order(machine) if order is None else order
+    if any(isinstance(group, Cluster) for group in groups):
+        led, lead = with_lead(machine, inputs)
+        return _solved(machine, led, groups, 3).after(lead)
+    return _solved(machine, inputs, groups, rates)
+
+
+def _solved(machine: Machine, inputs: Sequence[Turning], groups: Sequence[Group], rates: int) -> Solution:
     still = np.zeros(np.broadcast_shapes(*(one.theta.shape for one in inputs)))
     bodies = {GROUND: BodyMotion.about(0j, Turning.of(still))}
     sines: dict[str, Array] = {}
-    groups = assembly_order(machine) if order is None else order
-    if any(isinstance(group, Cluster) for group in groups):
-        rates = 3
+    pivots: dict[str, Array] = {}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # infinite rates at a dead point
         for group in groups:
             if isinstance(group, Driven):
@@ -119,8 +136,8 @@ def solve(
             else:
                 found, sine = followed(machine, group, bodies, inputs)
                 bodies |= found
-                sines[cluster_name(group)] = sine
-    return Solution(bodies, sines)
+                pivots[cluster_name(group)] = sine
+    return Solution(bodies, sines, pivots)
 
 
 def cluster_name(group: Cluster) -> str:

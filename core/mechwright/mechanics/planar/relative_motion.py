@@ -39,7 +39,9 @@ def relative(body: BodyMotion, seen_from: BodyMotion) -> BodyMotion:
         (acceleration + 2 * first * v + second * r) * turn,
         (jerk + 3 * first * acceleration + 3 * second * v + third * r) * turn,
     )
-    turning = Turning(one.theta - two.theta, one.omega - two.omega, one.alpha - two.alpha, one.jerk - two.jerk)
+    turning = Turning(
+        one.theta - two.theta, one.omega - two.omega, one.alpha - two.alpha, one.jerk - two.jerk
+    )
     return BodyMotion(origin, turning)
 
 

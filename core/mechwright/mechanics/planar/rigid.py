@@ -75,6 +75,15 @@ class BodyMotion:
         """
         return carried(self.origin, self.turning, np.asarray(place, complex) * self.turning.direction, rates)
 
+    def samples(self, some: slice) -> "BodyMotion":
+        """The motion at some of the samples, which are the last axis."""
+        origin, turning = self.origin, self.turning
+        places = (origin.position, origin.velocity, origin.acceleration, origin.jerk)
+        angles = (turning.theta, turning.omega, turning.alpha, turning.jerk)
+        return BodyMotion(
+            PointMotion(*(one[..., some] for one in places)), Turning(*(one[..., some] for one in angles))
+        )
+
     def poses(self, z: float = 0.0, *, rates: bool = False) -> Poses:
         """Give the poses for a :class:`mechwright.contracts.motion.Motion`, all at the height ``z``, mm.
 

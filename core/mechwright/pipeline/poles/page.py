@@ -101,7 +101,11 @@ def page(name: str, title: str, coupler: "Coupler") -> str:
         for phi in angles
     ]
     return figures_page(
-        name, f"{title}: acceleration poles{_pair(coupler)}", _notes(coupler), figures, [_table(coupler, angles)]
+        name,
+        f"{title}: acceleration poles{_pair(coupler)}",
+        _notes(coupler),
+        figures,
+        [_table(coupler, angles)],
     )
 
 
