@@ -9,7 +9,7 @@ from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, PathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis, Transmission
+    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis, Target, Transmission
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
@@ -76,6 +76,12 @@ class Linkages(Family[LinkageParams]):
         from mechwright_linkage.drafts import draft_of
 
         return draft_of(source, text)
+
+    def design_targets(self, params: LinkageParams) -> "Sequence[Target]":
+        """The points of a drawn linkage in its drawn position."""
+        from mechwright_linkage.drag import point_handles
+
+        return point_handles(params)
 
     def transmission(self, params: LinkageParams) -> "Transmission":
         """Driver in, output out."""

@@ -1,7 +1,7 @@
 """The design table of a planar linkage."""
 
-from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, Self
+from collections.abc import Collection, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -9,6 +9,7 @@ from mechwright import FIRST, MaterialName, Parameters
 from mechwright.mechanics.linkage import fields
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.units import Millimetres, Unit
+from mechwright_linkage.catalogue.entries import ENTRIES
 from mechwright_linkage.catalogue.entry import Entry
 from mechwright_linkage.catalogue.legs import Jansen, Klann
 from mechwright_linkage.catalogue.parallels import Pantograph, ParallelGuide
@@ -23,6 +24,9 @@ from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, 
 
 MOST_LINKS, MOST_POINTS = 16, 60
 """Of a drawn linkage: layers are sought for all of them."""
+
+DRAWING = frozenset({"points", "scale", "links", "slides", "gears", "driver", "driver_on"})
+"""Fields of a drawn linkage."""
 
 LinkageName = Literal[
     "drawn",
@@ -47,6 +51,12 @@ LinkageName = Literal[
     "wiper",
     "scissor-lift",
 ]
+
+
+def dimensions(entry: Entry) -> Any:
+    """The field of a table with the dimensions of an entry."""
+    name = next(name for name, kind in ENTRIES.items() if kind is type(entry))
+    return Field(entry, description=f'Dimensions for linkage = "{name}".', json_schema_extra=FIRST)
 
 
 class LoadTable(Parameters):
@@ -99,34 +109,26 @@ class LinkageParams(Parameters):
         "by points and links.",
         json_schema_extra=FIRST,
     )
-    watt_1: WattOne = Field(WattOne(), description='Dimensions for linkage = "watt-1".')
-    watt_2: WattTwo = Field(WattTwo(), description='Dimensions for linkage = "watt-2".')
-    stephenson_1: StephensonOne = Field(
-        StephensonOne(), description='Dimensions for linkage = "stephenson-1".'
-    )
-    stephenson_2: StephensonTwo = Field(
-        StephensonTwo(), description='Dimensions for linkage = "stephenson-2".'
-    )
-    stephenson_3: StephensonThree = Field(
-        StephensonThree(), description='Dimensions for linkage = "stephenson-3".'
-    )
-    whitworth: Whitworth = Field(Whitworth(), description='Dimensions for linkage = "whitworth".')
-    crank_shaper: CrankShaper = Field(CrankShaper(), description='Dimensions for linkage = "crank-shaper".')
-    scotch_yoke: ScotchYoke = Field(ScotchYoke(), description='Dimensions for linkage = "scotch-yoke".')
-    pantograph: Pantograph = Field(Pantograph(), description='Dimensions for linkage = "pantograph".')
-    parallel_guide: ParallelGuide = Field(
-        ParallelGuide(), description='Dimensions for linkage = "parallel-guide".'
-    )
-    peaucellier: Peaucellier = Field(Peaucellier(), description='Dimensions for linkage = "peaucellier".')
-    hoecken: Hoecken = Field(Hoecken(), description='Dimensions for linkage = "hoecken".')
-    chebyshev: Chebyshev = Field(Chebyshev(), description='Dimensions for linkage = "chebyshev".')
-    roberts: Roberts = Field(Roberts(), description='Dimensions for linkage = "roberts".')
-    watt_line: WattLine = Field(WattLine(), description='Dimensions for linkage = "watt-line".')
-    jansen: Jansen = Field(Jansen(), description='Dimensions for linkage = "jansen".')
-    klann: Klann = Field(Klann(), description='Dimensions for linkage = "klann".')
-    toggle_press: TogglePress = Field(TogglePress(), description='Dimensions for linkage = "toggle-press".')
-    wiper: Wiper = Field(Wiper(), description='Dimensions for linkage = "wiper".')
-    scissor_lift: ScissorLift = Field(ScissorLift(), description='Dimensions for linkage = "scissor-lift".')
+    watt_1: WattOne = dimensions(WattOne())
+    watt_2: WattTwo = dimensions(WattTwo())
+    stephenson_1: StephensonOne = dimensions(StephensonOne())
+    stephenson_2: StephensonTwo = dimensions(StephensonTwo())
+    stephenson_3: StephensonThree = dimensions(StephensonThree())
+    whitworth: Whitworth = dimensions(Whitworth())
+    crank_shaper: CrankShaper = dimensions(CrankShaper())
+    scotch_yoke: ScotchYoke = dimensions(ScotchYoke())
+    pantograph: Pantograph = dimensions(Pantograph())
+    parallel_guide: ParallelGuide = dimensions(ParallelGuide())
+    peaucellier: Peaucellier = dimensions(Peaucellier())
+    hoecken: Hoecken = dimensions(Hoecken())
+    chebyshev: Chebyshev = dimensions(Chebyshev())
+    roberts: Roberts = dimensions(Roberts())
+    watt_line: WattLine = dimensions(WattLine())
+    jansen: Jansen = dimensions(Jansen())
+    klann: Klann = dimensions(Klann())
+    toggle_press: TogglePress = dimensions(TogglePress())
+    wiper: Wiper = dimensions(Wiper())
+    scissor_lift: ScissorLift = dimensions(ScissorLift())
     points: dict[Word, PointTable] = Field(
         default_factory=dict,
         max_length=MOST_POINTS,
@@ -153,7 +155,8 @@ class LinkageParams(Parameters):
     pairs: Annotated[tuple[tuple[Word, Word], ...], Field(max_length=8)] = Field(
         (),
         description='Pairs of links whose acceleration poles are wanted, as [["coupler", "ground"]]: of the '
-        "first as seen from the second; left out, of the output seen from the ground.",
+        "first as seen from the second; left out, of the output seen from the ground, or of another link if "
+        "the output is joined to the ground.",
     )
     speed: fields.Speed = 60.0
     direction: fields.Direction = "ccw"
@@ -273,6 +276,11 @@ class LinkageParams(Parameters):
             if point not in points[link]:
                 raise ValueError(f"{key}: {link} has no point {point!r}; it has {', '.join(points[link])}")
 
+    def unused_fields(self) -> Collection[str]:
+        """The tables of the other linkages; and drawings of one of the catalogue."""
+        others = {name.replace("-", "_") for name in get_args(LinkageName)} - {self.table_name, "drawn"}
+        return others if self.linkage == "drawn" else others | DRAWING
+
     @property
     def entry(self) -> Entry:
         """The linkage of the catalogue with its dimensions; raises AttributeError of one that is drawn."""
@@ -309,7 +317,23 @@ class LinkageParams(Parameters):
     @property
     def pole_pairs(self) -> tuple[tuple[str, str], ...]:
         """The pairs of links whose poles are wanted."""
-        return self.pairs or ((self.output_link, GROUND),)
+        return self.pairs or ((self.free_link, GROUND),)
+
+    @property
+    def free_link(self) -> str:
+        """The output; of an output that is joined to the ground the last link of two points that is not."""
+        points = self.link_points
+        free = [link for link in points if len(points[link]) > 1 and not self._on_ground(link)]
+        return self.output_link if self.output_link in free or not free else free[-1]
+
+    def _on_ground(self, link: str) -> bool:
+        """Whether a pin or a slide joins a link to the ground."""
+        points = self.link_points
+        if link == GROUND:
+            return True
+        slides = self.slides if self.linkage == "drawn" else self.entry.slides()
+        sliding = any({link, GROUND} == {one.block, one.guide} for one in slides)
+        return sliding or bool(set(points[link]) & set(points[GROUND]))
 
 
 def replaced(params: LinkageParams, **changes: Any) -> LinkageParams:

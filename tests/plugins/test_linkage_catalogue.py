@@ -37,13 +37,13 @@ PUBLISHED = {
 REFERENCE = {
     "watt-1": ("watt1", {}, {}),
     "watt-2": ("watt2", {}, {}),
-    "stephenson-1": ("stephenson1", {}, {}),
+    "stephenson-1": ("stephenson1", {"g_x": 60}, {}),
     "stephenson-2": (
         "stephenson2",
         {},
         {"T1": "crank", "b1": "rod1", "b2": "rod2", "T2": "coupler", "b3": "rocker"},
     ),
-    "stephenson-3": ("stephenson3", {}, {"Pc": "C"}),
+    "stephenson-3": ("stephenson3", {"c0_y": 130}, {"Pc": "C"}),
     "whitworth": ("whitworth", {}, {}),
     "crank-shaper": (
         "crank_shaper",
@@ -52,7 +52,7 @@ REFERENCE = {
     ),
     "scotch-yoke": ("scotch_yoke", {"slot_angle": np.degrees(1.39626340159546), "guide_height": 5}, {}),
     "pantograph": ("pantograph", {}, {"a": "arm", "b": "long-side", "c": "short-side", "d": "tie"}),
-    "peaucellier": ("peaucellier", {}, {}),
+    "peaucellier": ("peaucellier", {"crank": 40}, {}),
     "hoecken": ("hoecken", {"crank": 10}, {}),
     "chebyshev": ("chebyshev", {"base": 40}, {}),
     "roberts": ("roberts", {}, {}),

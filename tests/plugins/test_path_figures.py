@@ -132,15 +132,15 @@ def test_least_band_is_no_wider_and_turns_with_the_path():
 
 def test_peaucellier_line_and_limits():
     figures = FIGURES["peaucellier"]
-    machine = ENTRIES["peaucellier"]().linkage().machine
+    machine = ENTRIES["peaucellier"](crank=40).linkage().machine
     (way,) = ranges(machine).intervals
     limits = way.low, way.high
     assert near(limits, figures["driver_limits"])
     assert near(limits[1], 2 * acos(55 / 80))
-    one = path("peaucellier", at=np.linspace(*limits, 361) * (1 - 1e-13))
+    one = path("peaucellier", crank=40, at=np.linspace(*limits, 361) * (1 - 1e-13))
     assert near(one.along.value, figures["line_x"])
     assert near(one.across.value[[0, -1]], [-figures["y_at_limit"], figures["y_at_limit"]])
-    inner = path("peaucellier", at=np.linspace(*limits, 361) * 0.999)
+    inner = path("peaucellier", crank=40, at=np.linspace(*limits, 361) * 0.999)
     assert extremes(inner.along).extent < EXACT
 
 

@@ -15,6 +15,7 @@ from mechwright_cad.live import answers
 from mechwright_cad.live.building import Building
 from mechwright_cad.live.fields import fields_of
 from mechwright_cad.live.following import Answering, Asked, Change, Following, change_of
+from mechwright_cad.live.places import dragged, drawn
 
 _REMEDIES = ("mechwright.remedies", "mechwright_cad.live.answers")
 
@@ -35,6 +36,7 @@ class Session(Following):
         return {
             **self.common(),
             "motion": lambda body: answers.motion(self.changed(change_of(body), settle=False)),
+            "drag": self._drag,
             "parts": lambda body: answers.parts(self.changed(change_of(body))),
             "remedies": lambda body: {"findings": self.remedies(change_of(body))},
             "build": self._build,
@@ -84,6 +86,13 @@ class Session(Following):
     def accept(self, content: Mapping[str, Any]) -> None:
         """As :func:`~mechwright.designs.design.design_of` raises."""
         design_of(content, self.path, "", self.host)
+
+    def _drag(self, body: Asked) -> Mapping[str, Any]:
+        """What a target dragged to a place makes of the change."""
+        change = change_of(body)
+        moved = dragged(answers.targets(self.changed(change, settle=False)), body)
+        after = {**change, **{f"parameters.{key}": value for key, value in moved.items()}}
+        return {"change": after, "targets": drawn(answers.targets(self.changed(after, settle=False)))}
 
     def _build(self, body: Asked) -> Mapping[str, Any]:
         if change_of(body):

@@ -383,3 +383,10 @@ class Family(Plugin, Generic[P]):
         from mechwright.contracts.target import point_targets
 
         return point_targets(requirement)
+
+    def design_targets(self, params: P) -> "Sequence[Target]":  # noqa: ARG002 - some do
+        """The places of a design that its parameters state, which ``mechwright live`` lets one drag.
+
+        :attr:`Target.moved` gives dotted keys of the table ``[parameters]``. The default gives none.
+        """
+        return ()

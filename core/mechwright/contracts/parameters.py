@@ -1,6 +1,6 @@
 """Base of all tables of a design file, and what is kept of the designs that were asked for last."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args, get_origin
 
@@ -115,6 +115,13 @@ class Parameters(BaseModel):
         Such fields are marked with :data:`FITTED`. A family's ``evaluate`` has to know it too.
         """
         return {}
+
+    def unused_fields(self) -> Collection[str]:
+        """Names of fields that mean nothing with the values of the others, such as tables of another choice.
+
+        New files and pages omit them, and remedies do not change them. The default names none.
+        """
+        return ()
 
     def model_post_init(self, context: Any, /) -> None:  # noqa: ARG002 - pydantic's
         """Take what :meth:`fitted` says; it still counts as left out."""

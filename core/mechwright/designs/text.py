@@ -116,7 +116,10 @@ def table_lines(
     schema = model_schema(model)["properties"]
     stated = frozenset() if values is None else values.model_fields_set
     shown = first_fields(model) if first else tuple(model.model_fields)
-    chosen = [key for key in model.model_fields if key in shown or (first and key in stated)]
+    unused = values.unused_fields() if isinstance(values, Parameters) else ()
+    chosen = [
+        key for key in model.model_fields if (key in shown or (first and key in stated)) and key not in unused
+    ]
     for key in chosen:
         field = model.model_fields[key]
         value = getattr(values, key) if values is not None else field.get_default(call_default_factory=True)

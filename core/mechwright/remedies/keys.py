@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
-from mechwright.contracts.parameters import value_at
+from mechwright.contracts.parameters import Parameters, value_at
 from mechwright.designs.change import changed, found_at
 from mechwright.designs.design import Design
 from mechwright.units import convert
@@ -109,8 +109,10 @@ def keys_of(design: Design) -> dict[str, Key]:
 
 
 def _keys_of_table(table: BaseModel, path: str) -> Iterator[Key]:
-    """The keys of a table, and of those that it has by their names."""
-    yield from _keys(type(table), path)
+    """The keys of a table and of those that it has by their names, without unused fields."""
+    unused = table.unused_fields() if isinstance(table, Parameters) else ()
+    depth = path.count(".") + 1
+    yield from (key for key in _keys(type(table), path) if key.path.split(".")[depth] not in unused)
     for field in type(table).model_fields:
         value = getattr(table, field)
         if isinstance(value, dict):

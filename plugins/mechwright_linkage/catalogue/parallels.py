@@ -59,6 +59,7 @@ class ParallelGuide(Entry):
     output = "platform"
     traces: ClassVar = {"P": ("platform", "P")}
     start = 90.0
+    swing = (40.0, 140.0)
     signs: ClassVar = {"B": 1}
     pin_links: ClassVar = {
         "A0": (GROUND, "crank"),

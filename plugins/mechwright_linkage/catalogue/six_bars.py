@@ -139,7 +139,7 @@ class StephensonOne(_SixBar):
     f_y: Coordinate = Field(30.0, description="Pin F in the crank, to the left of A0 to A.")
     coupler: Length = Field(110.0, description="Coupler, from A to B.")
     rocker: Length = Field(75.0, description="Rocker, from B0 to B.")
-    g_x: Coordinate = Field(60.0, description="Pin G in the rocker, along B0 to B.")
+    g_x: Coordinate = Field(78.0, description="Pin G in the rocker, along B0 to B.")
     g_y: Coordinate = Field(40.0, description="Pin G in the rocker, to the left of B0 to B.")
     link5: Length = Field(110.0, description="Link5, from F to H.")
     link6: Length = Field(95.0, description="Link6, from G to H.")
@@ -178,7 +178,7 @@ class StephensonThree(_SixBar):
 
     base: Length = Field(100.0, description="Ground, from A0 to B0 along X.")
     c0_x: Coordinate = Field(60.0, description="Pivot C0 of link6, along A0 to B0.")
-    c0_y: Coordinate = Field(130.0, description="Pivot C0 of link6, to the left of A0 to B0.")
+    c0_y: Coordinate = Field(133.0, description="Pivot C0 of link6, to the left of A0 to B0.")
     crank: Length = Field(30.0, description="Crank, from A0 to A.")
     coupler: Length = Field(100.0, description="Coupler, from A to B.")
     c_x: Coordinate = Field(60.0, description="Pin C in the coupler, along A to B.")

@@ -23,9 +23,10 @@ class Peaucellier(Entry):
     """
 
     title = "Peaucellier-Lipkin inversor"
-    source = "Arms 100, rhombus 45, crank 40"
+    source = "Arms 100, rhombus 45, crank 38"
     output = "AD"
     traces: ClassVar = {"D": ("AD", "D")}
+    swing = (-60.0, 60.0)
     signs: ClassVar = {"A": 1, "C": -1, "D": 1}
     pin_links: ClassVar = {
         "Q": (GROUND, "crank"),
@@ -38,7 +39,7 @@ class Peaucellier(Entry):
 
     arm: Length = Field(100.0, description="Arms, from O to A and C.")
     side: Length = Field(45.0, description="Sides of the rhombus A, B, C, D.")
-    crank: Length = Field(40.0, description="Crank, from Q to B, and the distance from O to Q.")
+    crank: Length = Field(38.0, description="Crank, from Q to B, and the distance from O to Q.")
 
     @model_validator(mode="after")
     def _closes_at_start(self) -> Self:
@@ -108,6 +109,7 @@ class Chebyshev(Entry):
     output = "coupler"
     traces: ClassVar = {"C": ("coupler", "C")}
     start = 60.0
+    swing = (45.0, 83.0)
     signs: ClassVar = {"B": -1}
     pin_links: ClassVar = _FOUR_BAR
 
@@ -134,6 +136,7 @@ class Roberts(Entry):
     output = "coupler"
     traces: ClassVar = {"C": ("coupler", "C")}
     start = 65.0
+    swing = (49.0, 78.0)
     signs: ClassVar = {"B": 1}
     pin_links: ClassVar = _FOUR_BAR
 
@@ -173,6 +176,7 @@ class WattLine(Entry):
     source = "Watt's parallel motion, patent of 1784"
     output = "coupler"
     traces: ClassVar = {"C": ("coupler", "C")}
+    swing = (-15.0, 15.0)
     signs: ClassVar = {"B": -1}
     pin_links: ClassVar = _FOUR_BAR
 

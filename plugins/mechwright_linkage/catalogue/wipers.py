@@ -34,7 +34,7 @@ class Wiper(Entry):
     c0_x: Coordinate = Field(310.0, description="Pivot C0 of the second lever, to the right of A0.")
     c0_y: Coordinate = Field(15.0, description="Pivot C0 of the second lever, over A0.")
     crank: Length = Field(20.0, description="Motor's crank, from A0 to A.")
-    rod1: Length = Field(80.0, description="First rod, from A to B.")
+    rod1: Length = Field(77.0, description="First rod, from A to B.")
     b_x: Coordinate = Field(-15.0, description="Pin B in the first lever, X from B0.")
     b_y: Coordinate = Field(25.0, description="Pin B in the first lever, Y from B0.")
     d_x: Coordinate = Field(13.5, description="Pin D of the second rod in the first lever, X from B0.")

@@ -1,6 +1,7 @@
 """The parts of a linkage: plates, pins, bushings, and posts between two ground plates."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from mechwright import Colour, GeometryError, Instance, Part
 from mechwright.contracts.turned import Step, Turned
@@ -20,10 +21,12 @@ THREAD = 5.0
 
 GREY: Colour = (0.62, 0.64, 0.66)
 COLOURS: tuple[Colour, ...] = (
-    (0.78, 0.36, 0.30), (0.45, 0.58, 0.70), (0.80, 0.68, 0.42), (0.48, 0.66, 0.50),
-    (0.62, 0.50, 0.68), (0.85, 0.56, 0.36), (0.40, 0.62, 0.66), (0.70, 0.70, 0.48),
+    (0.78, 0.36, 0.30), (0.36, 0.55, 0.76), (0.88, 0.72, 0.34), (0.45, 0.68, 0.46),
+    (0.60, 0.44, 0.68), (0.90, 0.55, 0.30), (0.30, 0.64, 0.66), (0.86, 0.56, 0.66),
+    (0.55, 0.42, 0.32), (0.66, 0.74, 0.34), (0.32, 0.38, 0.60), (0.62, 0.80, 0.86),
+    (0.56, 0.24, 0.36), (0.20, 0.44, 0.36), (0.80, 0.78, 0.62), (0.76, 0.62, 0.84),
 )  # fmt: skip
-"""Of the moving links, in their order."""
+"""Of the moving links, in their order; a drawn linkage has at most 15."""
 
 
 def parts_of(layout: Layout) -> tuple[Part, ...]:
@@ -43,9 +46,30 @@ def parts_of(layout: Layout) -> tuple[Part, ...]:
     return found
 
 
+FRAME_PARTS = frozenset(
+    {
+        "base-plate",
+        "coupling",
+        "foot",
+        "leg",
+        "motor",
+        "motor-pillar",
+        "motor-plate",
+        "pillar",
+        "plain-pillar",
+    }
+)
+"""Names of parts that a frame around the linkage may have."""
+
+
 def part_name(plate: str) -> str:
-    """The name of a plate's part: a file name."""
-    return plate.lower()
+    """The name of a plate's part: a file name that no part of a frame has.
+
+    >>> part_name("Rod"), part_name("foot")
+    ('rod', 'foot-link')
+    """
+    name = plate.lower()
+    return f"{name}-link" if name in FRAME_PARTS else name
 
 
 def pin_span(layout: Layout, pin: Pin) -> tuple[float, float]:
@@ -95,14 +119,17 @@ def _bushings(layout: Layout) -> Iterator[Part]:
     bore = sizes.pin_diameter + sizes.running_fit
     thin: list[Instance] = []
     thick: list[Instance] = []
+    # What rolls in a slot is held by the plates over and under it, with the air of a washer.
+    loose = sizes.washer if any(pin.rolling for pin in layout.pins) else 0.0
     for pin, plate, link in bushed(layout):
         frame = frame_of(pin, link, roller_place(layout, pin, link))
         same = sizes.thickness_of(plate) == sizes.thickness
         (thin if same else thick).append(Instance(frame, layout.stack.bottom(plate)))
     if thin:
-        yield bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin)
+        yield replace(bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin), play=loose)
     if thick:
-        yield bushing_part("bushing-ground", bore, sizes.roller, sizes.ground_thickness, thick)
+        ground = bushing_part("bushing-ground", bore, sizes.roller, sizes.ground_thickness, thick)
+        yield replace(ground, play=loose)
 
 
 def _posts(layout: Layout) -> Iterator[Part]:

@@ -1,4 +1,4 @@
-// What a requirement asks for as handles in the picture: dragged with the pointer, or moved by the arrow keys.
+// Places of a requirement or a design as handles in the picture: dragged with the pointer, or moved by the arrow keys.
 const GRIP = 1 / 60, REACH = 2.2, NUDGE = 1 / 100, FINE = 1 / 10; // of the picture; of a handle; of the picture; of a nudge
 function drawnIn(name, attributes, parent) {
   const one = document.createElementNS("http://www.w3.org/2000/svg", name);
