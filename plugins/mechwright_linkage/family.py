@@ -9,7 +9,16 @@ from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, PathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis, Transmission
+    from mechwright import (
+        GroundPlate,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+        Transmission,
+    )
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
@@ -80,6 +89,12 @@ class Linkages(Family[LinkageParams]):
         from mechwright_linkage.kinematics.transmission import OutputStage
 
         return OutputStage(params)
+
+    def tolerances(self, params: LinkageParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the output and of traced points."""
+        from mechwright_linkage.tolerance.model import LinkageTolerances
+
+        return LinkageTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
