@@ -10,7 +10,9 @@ from mechwright_linkage.requirements import DwellRequirement, FunctionRequiremen
 
 if TYPE_CHECKING:
     from mechwright import (
+        AsMade,
         GroundPlate,
+        MadePart,
         Motion,
         Part,
         Progress,
@@ -95,6 +97,12 @@ class Linkages(Family[LinkageParams]):
         from mechwright_linkage.tolerance.model import LinkageTolerances
 
         return LinkageTolerances(params, tolerances)
+
+    def as_made(self, params: LinkageParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Errors and play with bores and slots as the programs leave them."""
+        from mechwright_linkage.tolerance.as_made import as_made
+
+        return as_made(params, made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -145,7 +145,9 @@ class LinkageTolerances(ToleranceModel):
     @cached_property
     def _course(self) -> Poses:
         """Poses at the positions of the period, along which links are followed and angles run on."""
-        return _poses(solve(self.machine, [Turning.of(self.positions)], self.order, 0), self.positions.size)
+        return _poses(
+            solve(self.machine, [Turning.of(self.positions, 1.0)], self.order, 0), self.positions.size
+        )
 
     def _poses(self, at: Array) -> tuple[Poses, Array]:
         """Nominal poses at inputs, flat (d,), and whether links move there in proportion to a change."""
