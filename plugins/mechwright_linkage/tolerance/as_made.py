@@ -9,7 +9,6 @@ from mechwright import AsMade, Finding, MadeFigure, MadePart, Severity, Stage
 from mechwright.contracts.as_made import MadeCurve
 from mechwright.mechanics.linkage.made import STEP, Joint, MadeLink, joint, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, MadeError, made_errors, room_figure
-from mechwright_linkage.kinematics.channels import STROKE
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.tolerance.contributors import (
     bore_names,
@@ -19,7 +18,7 @@ from mechwright_linkage.tolerance.contributors import (
     line_name,
     pin_name,
 )
-from mechwright_linkage.tolerance.made_features import MissingFeatureError, MadeFeature, MadePlates
+from mechwright_linkage.tolerance.made_features import MadeFeature, MadePlates, MissingFeatureError
 from mechwright_linkage.tolerance.model import LinkageTolerances
 from mechwright_linkage.tolerance.plates import Plates
 
@@ -146,7 +145,7 @@ def _names(model: LinkageTolerances, errors: Sequence[MadeError]) -> Iterator[st
 def _curve(error: MadeError, params: LinkageParams, model: LinkageTolerances) -> MadeCurve:
     driver = params.driver_links[0]
     curve = error.curve(driver)
-    if model.input_name != STROKE:
+    if model.input_unit == "rad":
         return curve
     return MadeCurve(curve.title, f"way of the {driver}, mm", curve.unit, error.at, curve.lines)
 

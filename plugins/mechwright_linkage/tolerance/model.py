@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright import Array, ToleranceModel, Tolerances
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, assembly_order
@@ -47,7 +48,7 @@ class LinkageTolerances(ToleranceModel):
         table, course = table_of(params), course_of(table_of(params))
         self.machine, self.order = table.machine, table.order
         self.turn = 0.0 if course.rocks else abs(course.travel)
-        self.input_name = STROKE if table.driver_slides else PHI
+        self.input_name, self.input_unit = (STROKE, "mm") if table.driver_slides else (PHI, "rad")
         if course.rocks:
             self.positions = np.sort(course.way(POSITIONS))
         else:
@@ -65,7 +66,7 @@ class LinkageTolerances(ToleranceModel):
         found = []
         if any(isinstance(joint, GearPair) for joint in self.machine.joints):
             found.append("errors and play of the gears' teeth are not among the contributors")
-        dead = ~self._poses(self.positions)[1]
+        dead = np.logical_not(self._poses(self.positions)[1])
         if dead.any():
             found.append(
                 f"at {dead.sum()} of {dead.size} positions the links are near a dead point, where no error "
@@ -109,7 +110,7 @@ class LinkageTolerances(ToleranceModel):
         return found.reshape(found.shape[0], *shape)
 
     def _errors(
-        self, output: str, poses: Poses, inputs: Array, places: Array, deviations: Sequence[Array]
+        self, output: str, poses: Poses, inputs: Array, places: NDArray[np.intp], deviations: Sequence[Array]
     ) -> Array:
         """Errors (c, d) of mechanisms at the nominal poses of given places."""
         here = {link: Pose(one.origin[places], one.angle[places]) for link, one in poses.items()}

@@ -139,7 +139,7 @@ def sensitivities(
     for number in range(len(changes)):
         dx, dy, turn = (found[:, part::3, number] for part in range(3))
         own = {link: Pose(dx[:, k] + 1j * dy[:, k], turn[:, k]) for k, link in enumerate(links)}
-        moved.append({GROUND: Pose(none + 0j, none), **own})
+        moved.append({GROUND: Pose(none.astype(np.complex128), none), **own})
     return moved
 
 
