@@ -33,7 +33,7 @@ def as_made(params: LinkageParams, made: Mapping[str, Sequence[MadePart]]) -> As
         return AsMade()
     found = MadePlates(plates, plates.layout, made)
     try:
-        links, pins, rollers = _links(found), _pins(found), _rollers(found)
+        links, pins, rollers = links_as_made(found), pins_as_made(found), _rollers(found)
     except (MissingFeatureError, KeyError):
         return AsMade()
     fit, bushed = params.running_fit, params.bushing_wall > 0
@@ -50,7 +50,7 @@ def as_made(params: LinkageParams, made: Mapping[str, Sequence[MadePart]]) -> As
     return AsMade(tuple(figures), tuple(_curve(one, params, model) for one in errors), tuple(jammed))
 
 
-def _links(found: MadePlates) -> dict[str, MadeLink]:
+def links_as_made(found: MadePlates) -> dict[str, MadeLink]:
     """What is off in the sizes of all links."""
     links: dict[str, MadeLink] = {}
     for link in found.plates.links:
@@ -92,7 +92,7 @@ def _spread(found: MadePlates, one: MadeFeature, two: MadeFeature) -> float:
     return spread if one.plate == two.plate else spread + 2 * found.part(two.plate).corridor
 
 
-def _pins(found: MadePlates) -> dict[str, Joint]:
+def pins_as_made(found: MadePlates) -> dict[str, Joint]:
     """The room of every pin in every link that turns on it, the least of its plates."""
     plates, params = found.plates, found.plates.params
     bushed = params.running_fit if params.bushing_wall > 0 else None
