@@ -70,7 +70,7 @@ def test_a_drawn_four_bar_has_the_figures_of_its_family(table):
     known, found = FourBars().as_made(bar, made), LINKAGES.as_made(params, made)
     names = {"follower.error": "output.error"}
     # Across the line of the pivots the family four-bar leaves out what is of the second order.
-    within = 1e-6 if table["frame"] == "one" else 2e-5
+    within = 1e-6 if table["frame"] == "one" else 2e-4
     assert [one.name for one in found.figures] == [names.get(one.name, one.name) for one in known.figures]
     for one, mine in zip(known.figures, found.figures, strict=True):
         for key in ("design", "made", "low", "high"):
