@@ -98,18 +98,22 @@ def test_plates_as_drawn_have_the_play_of_their_pins_alone(name):
     assert said.findings == ()
 
 
+@pytest.mark.parametrize("frame", ["auto", "two"])
 @pytest.mark.parametrize("name", CATALOGUE)
-def test_a_plate_that_is_put_down_elsewhere_has_no_error(name):
+def test_a_plate_that_is_put_down_elsewhere_has_no_error(name, frame):
     """Each plate moved and turned as a whole: the distances of its bores are as drawn."""
-    params = LinkageParams(linkage=name)
+    params = LinkageParams(linkage=name, frame=frame)
     plates = Plates.of(params)
     split = plates.layout.scheme.split
     turn, shift = cmath.exp(0.3j), 2 - 1j
-    names = list(plates_of(params))
-    own = {} if split is None else {part_name(one): lambda z: z for one in (split.link, split.second)}
-    moves = {one: lambda z: turn * z + shift for one in names} | own
-    if plates.layout.posts:
-        moves |= {one: lambda z: z + shift for one in ("ground", "ground-2")}
+    moves = {one: lambda z: turn * z + shift for one in plates_of(params)}
+    # What aligns two plates says where they are, and not how they are turned.
+    moves |= {"ground": lambda z: z + shift, "ground-2": lambda z: z - 3 * shift}
+    if split is not None:
+        moves |= {
+            part_name(split.link): lambda z: z + shift,
+            part_name(split.second): lambda z: z - 2 * shift,
+        }
     made = plates_of(params, **moves)
     links = links_as_made(MadePlates(plates, plates.layout, made))
     assert links
@@ -244,6 +248,25 @@ def test_a_slot_that_is_cut_wider_gives_its_roller_more_room():
     assert wide["output.error"].made > usual["output.error"].made
     found = MadePlates(Plates.of(params), layout_of(params), shaped(params, lever={"wider": 0.04})).slots()
     assert found["lever-slide"][1].least == pytest.approx(layout_of(params).sizes.slot_width + 0.04, abs=1e-4)
+
+
+def test_a_bump_on_the_wall_of_a_slot_takes_the_room_of_its_roller():
+    params = shaper()
+    made = shaped(params)
+    (part,) = made["lever"]
+    (section,) = part.sections
+    rings, bumps = [], []
+    for one in section.rings:
+        slot = layout_of(params).slots[0]
+        z = one.points @ np.array([1, 1j])
+        seen = (z - (slot.first + slot.last) / 2) * abs(slot.last - slot.first) / (slot.last - slot.first)
+        bump = (np.abs(seen.real) < 3) & (np.abs(seen.imag - slot.width / 2) < 0.01) & (one.area < 0)
+        rings.append(ring(z - 0.012j * bump * (slot.last - slot.first) / abs(slot.last - slot.first)))
+        bumps.append(bump.any())
+    assert sum(bumps) == 1
+    bumped = made | {"lever": [MadePart("p", "p", 0.001, (MadeSection(0.0, 6.0, tuple(rings)),))]}
+    figures = {one.name: one for one in LINKAGES.as_made(params, bumped).figures}
+    assert figures["slot.room"].made == pytest.approx(params.running_fit - 0.012, abs=1e-4)
 
 
 def test_a_slot_that_is_cut_aside_offsets_its_line():

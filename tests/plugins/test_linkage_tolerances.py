@@ -8,7 +8,7 @@ from drawn_bars import four_bar, slider_crank
 from mechwright import Tolerances, Turning
 from mechwright.contracts.tolerance_settings import ToleranceSettings
 from mechwright.mechanics.linkage.made_error import EXACT
-from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Revolute
+from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 from mechwright.mechanics.tolerance import analyse
@@ -270,3 +270,106 @@ def test_at_a_dead_point_no_change_moves_links_in_proportion():
     }  # fmt: skip
     (moved,) = sensitivities(machine, poses, [Change({("A", "crank"): 1 + 0j})])
     assert not (np.abs(moved["rocker"].angle) < 1e6).any()
+
+
+def test_guide_pins_tilt_their_block():
+    """A point over the second pin goes up with that pin alone; one over the first with the first."""
+    params = slider_crank(SliderCrankParams(), guide_length=30.0)
+    b = params.points["B"]
+    points = {"Q1": type(b)(x=b.x - 15, y=b.y), "Q2": type(b)(x=b.x + 15, y=b.y)}
+    links = {**params.links, "slider": ("B", "Q1", "Q2")}
+    model = LinkageTolerances(
+        params.model_copy(update={"points": {**params.points, **points}, "links": links}), EXACT
+    )
+    for point, gap, other in (("Q1", 1, 2), ("Q2", 2, 1)):
+        found = rows(model, f"point {point}", AT)
+        assert found[f"slide-1-play-{gap}"][1, 0] == pytest.approx(np.ones(AT.size))
+        assert found[f"slide-1-play-{other}"][1, 0] == pytest.approx(np.zeros(AT.size), abs=1e-9)
+
+
+def test_a_block_that_tilts_about_a_point_off_its_origin_has_sensitivities_that_are_slopes():
+    params = slider_crank(SliderCrankParams())
+    b = params.points["B"]
+    points = {**params.points, "Q": type(b)(x=b.x + 5, y=b.y + 40)}
+    links = {**params.links, "slider": ("Q", "B")}
+    model = LinkageTolerances(params.model_copy(update={"points": points, "links": links}), INPUT)
+    assert model.outputs[0].name == "slider position"
+    assert tolerance_faults(model) == []
+
+
+def test_a_traced_pin_moves_with_the_length_of_its_link():
+    """D of the inversor is where two circles meet: dD · (D - A) = |D - A|, dD · (D - C) = 0."""
+    params = LinkageParams(linkage="peaucellier")
+    model = LinkageTolerances(params, EXACT)
+    at = model.positions[20:-20:20]
+    found = rows(model, "point D", at)["ad"][:, 0]
+    bodies = table_of(params).solved(Turning.of(at)).bodies
+    points = table_of(params).linkage.points
+    a, c, d = (
+        bodies[link].point(points[link][name], 0).position
+        for link, name in (("AD", "A"), ("CD", "C"), ("AD", "D"))
+    )
+    moved = found[0] + 1j * found[1]
+    assert (moved * np.conj(d - a)).real == pytest.approx(np.abs(d - a), rel=1e-9)
+    assert (moved * np.conj(d - c)).real == pytest.approx(
+        np.zeros(at.size), abs=1e-9 * np.abs(moved).max() * 100
+    )
+
+
+def test_whole_turns_count_alike():
+    model = LinkageTolerances(LinkageParams(linkage="watt-1"), EXACT)
+    for closed_form in (True, False):
+        model.closed_form = closed_form
+        model._kept = None
+        for output in model.outputs:
+            off = [np.full((one.components, 1), 0.01) for one in model.contributors]
+            there, here = (model.errors(output.name, off, AT[:5] + turn) for turn in (-4 * np.pi, 0.0))
+            assert there == pytest.approx(here, abs=1e-9)
+
+
+def test_changes_of_a_slide_on_a_moving_guide_are_differences_of_the_motion():
+    joints = [
+        Revolute("A0", "ground", "crank", 0j, 0j),
+        Revolute("B0", "ground", "lever", -60 + 10j, 0j),
+        Revolute("A", "crank", "block", 25 + 0j, 3 + 2j),
+        Prismatic("slide", "lever", "block", 5 + 8j, 1 - 4j, 0.2, 0.5),
+    ]
+    machine = Machine(joints, [Drive("crank")])
+    change = Change(
+        {("slide", "lever"): 1 - 2j, ("slide", "block"): 3 + 1j, ("A", "block"): 0.5j}, {"slide": 0.04}
+    )
+    at = np.array([0.3, 1.7, 4.0])
+
+    def stands(by):
+        found = solve(changed(machine, change.scaled(by)), [Turning.of(at)]).bodies
+        return {name: Pose(body.origin.position, body.turning.theta) for name, body in found.items()}
+
+    (moved,) = sensitivities(machine, stands(0.0), [change])
+    ends = stands(1e-3), stands(-1e-3)
+    for link in ("lever", "block"):
+        assert moved[link].origin == pytest.approx(
+            (ends[0][link].origin - ends[1][link].origin) / 2e-3, rel=1e-5
+        )
+        assert moved[link].angle == pytest.approx(
+            (ends[0][link].angle - ends[1][link].angle) / 2e-3, rel=1e-5
+        )
+
+
+def test_a_link_without_bores_is_measured_from_its_first_slide():
+    found = [one.name for one in LinkageTolerances(LinkageParams(linkage="scotch-yoke"), EXACT).contributors]
+    assert found == [
+        "crank", "guide-yoke", "guide", "guide-2", "shaft", "slot-play", "guide-play-1", "guide-play-2",
+    ]  # fmt: skip
+
+
+def test_pins_of_a_bar_without_load_are_pressed_along_it():
+    asked = Tolerances(ToleranceSettings(contact="loaded"))
+    found = {
+        one.name: one.directions
+        for one in LinkageTolerances(LinkageParams(linkage="watt-1"), asked).contributors
+    }
+    # link6 is a bar of two pins; coupler and rocker have three, link5 is the output.
+    assert {name for name, count in found.items() if count == 1} == {"pin-d", "pin-e"}
+    load = {"link": "link6", "force_x": 1.0}
+    loaded = LinkageParams.model_validate({"linkage": "watt-1", "loads": [load]})
+    assert 1 not in {one.directions for one in LinkageTolerances(loaded, asked).contributors}

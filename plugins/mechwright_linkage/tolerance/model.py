@@ -101,7 +101,7 @@ class LinkageTolerances(ToleranceModel):
             for one, own in zip(deviations, self.sources, strict=True)
             for part in np.asarray(one)[: len(own.effects)]
         ]
-        poses, inputs = self._poses(at)[0], at.ravel()
+        poses, inputs = self._poses(at)[0], self._counted(at)
         parts = [
             self._errors(output, poses, inputs, places[some], [one[some] for one in flat])
             for some in (slice(start, start + BLOCK) for start in range(0, max(places.size, 1), BLOCK))
@@ -150,13 +150,17 @@ class LinkageTolerances(ToleranceModel):
             solve(self.machine, [Turning.of(self.positions, 1.0)], self.order, 0), self.positions.size
         )
 
+    def _counted(self, at: Array) -> Array:
+        """Inputs, flat (d,), within the period: whole turns make no difference."""
+        flat, low = np.ravel(np.asarray(at, float)), self.positions[0]
+        return np.asarray(low + (flat - low) % self.turn if self.turn else flat)
+
     def _poses(self, at: Array) -> tuple[Poses, Array]:
         """Nominal poses at inputs, flat (d,), and whether links move there in proportion to a change."""
         flat = np.ravel(np.asarray(at, float))
         key = flat.tobytes()
         if self._kept is None or self._kept[0] != key:
-            low = self.positions[0]
-            own = low + (flat - low) % self.turn if self.turn else flat
+            own = self._counted(flat)
             above = np.clip(np.searchsorted(self.positions, own), 1, self.positions.size - 1)
             places = above - (own - self.positions[above - 1] < self.positions[above] - own)
             near = {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
