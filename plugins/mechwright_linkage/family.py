@@ -9,7 +9,19 @@ from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, PathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import GroundPlate, Motion, Part, Progress, Synthesis, Target, Transmission
+    from mechwright import (
+        AsMade,
+        GroundPlate,
+        MadePart,
+        Motion,
+        Part,
+        Progress,
+        Synthesis,
+        Target,
+        ToleranceModel,
+        Tolerances,
+        Transmission,
+    )
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
@@ -88,6 +100,18 @@ class Linkages(Family[LinkageParams]):
         from mechwright_linkage.kinematics.transmission import OutputStage
 
         return OutputStage(params)
+
+    def tolerances(self, params: LinkageParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the output and of traced points."""
+        from mechwright_linkage.tolerance.model import LinkageTolerances
+
+        return LinkageTolerances(params, tolerances)
+
+    def as_made(self, params: LinkageParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Errors and play with bores and slots as the programs leave them."""
+        from mechwright_linkage.tolerance.as_made import as_made
+
+        return as_made(params, made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

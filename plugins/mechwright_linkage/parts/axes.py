@@ -42,6 +42,8 @@ class Axis:
         The link that holds the pin, where the ground does not.
     shaft
         Whether it is the axis of the driven link on the ground.
+    joints
+        The revolutes on it.
     """
 
     point: str
@@ -49,6 +51,7 @@ class Axis:
     rollers: Mapping[str, Prismatic]
     holder: str
     shaft: bool
+    joints: tuple[Revolute, ...] = ()
 
 
 def axes_of(linkage: Linkage) -> tuple[Axis, ...]:
@@ -73,7 +76,7 @@ def _axis(
     order = {link: place for place, link in enumerate(linkage.machine.links)}
     holder = driven or min(moving, key=lambda one: (distance[one], order[one]))
     rollers = {link: blocks[link] for link in every if link in blocks}
-    return Axis(group[0].name, places, rollers, holder, driven is not None)
+    return Axis(group[0].name, places, rollers, holder, driven is not None, tuple(group))
 
 
 def _driven(linkage: Linkage, group: list[Revolute]) -> str | None:

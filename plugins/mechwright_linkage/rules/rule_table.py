@@ -4,5 +4,6 @@ from mechwright.contracts.rule_list import in_turn
 from mechwright_linkage.rules.motion_rules import MOTION, TRANSMISSIONS
 from mechwright_linkage.rules.notes import NOTES
 from mechwright_linkage.rules.part_rules import PARTS
+from mechwright_linkage.rules.strength import STRENGTH
 
-RULES = in_turn(MOTION, TRANSMISSIONS, PARTS, NOTES)
+RULES = in_turn(MOTION, TRANSMISSIONS, PARTS, STRENGTH, NOTES)

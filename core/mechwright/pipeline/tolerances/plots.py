@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.mechanics.tolerance import Analysis, Result
 from mechwright.output.ticks import ticks
-from mechwright.pipeline.tolerances.units import degrees, shown_unit
+from mechwright.pipeline.tolerances.units import input_position, shown_unit
 
 WIDTH, HEIGHT = 640, 250
 LEFT, RIGHT, TOP, BOTTOM = 74, 22, 12, 40
@@ -46,7 +46,8 @@ class Plot:
 
 def plot(analysis: Analysis, result: Result) -> Plot | None:
     """The band of an output; None where it has none, or is the same everywhere."""
-    band, at = result.band, np.degrees(analysis.model.positions)
+    band, unit = result.band, analysis.model.input_unit
+    at = np.degrees(analysis.model.positions) if unit == "rad" else analysis.model.positions
     good = np.isfinite(band.low) & np.isfinite(band.high)
     if result.output.figure == "steady" or good.sum() < 2:
         return None
@@ -72,6 +73,7 @@ def plot(analysis: Analysis, result: Result) -> Plot | None:
 
     stretches = [part for part in np.split(np.arange(at.size), _breaks(good)) if good[part].all()]
     worst_at = result.worst.at[0] if result.worst is not None else None
+    worst = "" if worst_at is None else f"; worst at {input_position(worst_at, unit).split()[0]}"
     return Plot(
         tuple(_outline(x(at[part]), y(low[part]), y(high[part])) for part in stretches),
         tuple(_outline(x(at[part]), y(sigma_low[part]), y(sigma_high[part])) for part in stretches),
@@ -80,9 +82,9 @@ def plot(analysis: Analysis, result: Result) -> Plot | None:
         tuple(
             (float(x(value)), f"{value:g}") for value in ticks(float(at[0]), float(at[-1]), 7, inside=True)
         ),
-        None if worst_at is None else float(x(math.degrees(worst_at))),
+        None if worst_at is None else float(x(math.degrees(worst_at) if unit == "rad" else worst_at)),
         f"{result.output.name}, {shown_unit(result.output.unit)}",
-        f"{analysis.model.input_name}, deg" + ("" if worst_at is None else f"; worst at {degrees(worst_at)}"),
+        f"{analysis.model.input_name}, {'deg' if unit == 'rad' else unit}" + worst,
     )
 
 

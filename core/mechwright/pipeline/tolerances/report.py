@@ -9,7 +9,15 @@ import numpy as np
 
 from mechwright.contracts.tolerances import Contributor, Output
 from mechwright.mechanics.tolerance import Analysis, Place, Result, Trial
-from mechwright.pipeline.tolerances.units import degrees, limits, nominal, percent, shown, shown_unit
+from mechwright.pipeline.tolerances.units import (
+    degrees,
+    input_position,
+    limits,
+    nominal,
+    percent,
+    shown,
+    shown_unit,
+)
 
 _MISS = 0.05
 """Part of sigma by which the first order may miss that of the mechanisms before it is told."""
@@ -71,12 +79,12 @@ def _distribution(one: Contributor) -> str:
 
 def where(analysis: Analysis, place: Place, output: Output) -> str:
     """The position of a first order, in words."""
-    name = analysis.model.input_name
+    name, unit = analysis.model.input_name, analysis.model.input_unit
     if output.figure == "steady":
         return "in every position"
     if len(place.at) > 1:
         return f"between {name} = {degrees(place.at[0])} and {degrees(place.at[1])} deg"
-    return f"at {name} = {degrees(place.at[0])} deg"
+    return f"at {name} = {input_position(place.at[0], unit)}"
 
 
 def order(result: Result, place: Place) -> str:
@@ -101,7 +109,7 @@ def outcome(analysis: Analysis, output: Output, trial: Trial) -> list[str]:
     unit, count = output.unit, f"{trial.samples:,}".replace(",", " ")
     place = "in every position" if output.figure == "steady" else "over the turn"
     if trial.at is not None:
-        place = f"at {analysis.model.input_name} = {degrees(trial.at)} deg"
+        place = f"at {analysis.model.input_name} = {input_position(trial.at, analysis.model.input_unit)}"
     ends = f"{shown(trial.least, unit)} to {shown(trial.greatest, unit)}"
     said = [f"{count} mechanisms {place}: sigma {shown(trial.sigma, unit)}, {ends} {shown_unit(unit)}"]
     half = (shown(trial.half_95, unit), shown(trial.half_9973, unit))
@@ -123,14 +131,17 @@ def outcome(analysis: Analysis, output: Output, trial: Trial) -> list[str]:
 def remarks(analysis: Analysis) -> Iterator[str]:
     """What is told besides: the model's own words, and where the first order is not enough."""
     yield from analysis.model.told
+    unit = analysis.model.input_unit
     for result in analysis.results:
         name, places = result.output.name, {place.at[0]: place for place in result.places}
         if result.worst is None:
             yield f"{name}: there is no position with a first order"
             continue
-        blind = [degrees(place.at[0]) for place in result.places if not math.isfinite(place.sigma)]
+        blind = [
+            input_position(place.at[0], unit) for place in result.places if not math.isfinite(place.sigma)
+        ]
         if blind:
-            yield f"{name}: no first order at {', '.join(blind)} deg, so no mechanisms are tried there"
+            yield f"{name}: no first order at {', '.join(blind)}, so no mechanisms are tried there"
         gone = int(np.isnan(result.band.sigma).sum())
         if gone and not analysis.model.told:
             yield f"{name}: {gone} of {result.band.sigma.size} positions have no first order: a dead centre"
@@ -141,8 +152,9 @@ def remarks(analysis: Analysis) -> Iterator[str]:
                 continue
             miss = trial.sigma / place.sigma - 1
             if not abs(miss) <= _MISS:
+                at = input_position(trial.at or 0.0, unit)
                 yield (
-                    f"{name}: at {degrees(trial.at or 0.0)} deg the first order misses the sigma of the "
+                    f"{name}: at {at} the first order misses the sigma of the "
                     f"mechanisms by {percent(-miss)}; believe the mechanisms"
                 )
 

@@ -34,6 +34,15 @@ def degrees(value: float) -> str:
     return f"{math.degrees(value):.2f}".rstrip("0").rstrip(".")
 
 
+def input_position(value: float, unit: str) -> str:
+    """An input position with its unit.
+
+    >>> input_position(math.pi / 8, "rad"), input_position(12.5, "mm")
+    ('22.5 deg', '12.5 mm')
+    """
+    return f"{degrees(value)} deg" if unit == "rad" else f"{value:.2f}".rstrip("0").rstrip(".") + " mm"
+
+
 def nominal(value: float, unit: str) -> str:
     """A dimension with its unit; angles in degrees.
 
