@@ -130,7 +130,8 @@ def refuse_strangers(
             raise ValueError(f"{key}: there are {len(names)}; at most {most}")
         if wrong := [name for name in names if not re.fullmatch(NAME, name)]:
             raise ValueError(
-                f"{key}: {wrong[0]!r} is no name; use up to 40 letters, digits, - and _, a letter or digit first"
+                f"{key}: {wrong[0]!r} is no name; use up to 40 letters, digits, - and _, and begin with a "
+                "letter or a digit"
             )
     if GROUND not in links:
         raise ValueError(
