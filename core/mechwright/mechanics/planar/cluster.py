@@ -142,8 +142,8 @@ class ClusterEquations:
             rows = self.equations(self.bodies(orders, standing), inputs)
             right = np.stack([np.broadcast_to(one[order], x.shape[:1]) for one in rows], axis=-1)
             orders[order] = solved(jacobian, -right)
-        weighted = np.where(np.isfinite(jacobian), jacobian, 0.0) / self.column_weights(len(x))
-        values = np.linalg.svd(weighted, compute_uv=False)
+        weighted = jacobian / self.column_weights(len(x))
+        values = np.linalg.svd(np.nan_to_num(weighted, posinf=0.0, neginf=0.0), compute_uv=False)
         with np.errstate(invalid="ignore", divide="ignore"):
             return orders[1:], values[..., -1] / values[..., 0]
 

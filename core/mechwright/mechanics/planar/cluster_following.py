@@ -86,7 +86,8 @@ def with_lead(machine: Machine, inputs: Sequence[Turning]) -> tuple[list[Turning
     drive = inputs[0]
     if len(inputs) > 1 or drive.theta.ndim == 0:
         return list(inputs), 0
-    drawn = np.reshape(np.asarray(machine.drawn_at[0], float), -1)[0]
+    drawn = np.asarray(machine.drawn_at[0], float)
+    drawn = drawn.reshape(-1)[0] if drawn.size == 1 else drawn.reshape(-1, 1)
     near = np.abs(drive.theta - drawn).min(axis=-1).max()
     slides = isinstance(machine.driven_joint(machine.drives[0]), Prismatic)
     stride = max(near / LEAD, 1e-300) if slides else STRIDE
