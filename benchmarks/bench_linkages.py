@@ -4,10 +4,10 @@
     python benchmarks/bench_linkages.py synthesis --each 10
     python benchmarks/bench_linkages.py sweep --designs 20000
 
-``motion`` compares the positions and two rates of all links with Newton's method on all joint equations at once
-and with central differences of it. ``synthesis`` draws linkages at random, keeps those that keep the limits of a
-requirement, and asks for what they do: their dwell, their outputs at nine inputs, nine points of their path.
-Times are the processor's.
+``motion`` compares the positions and two rates of all links with Newton's method on all joint equations at
+once, and with central differences of it. ``synthesis`` draws linkages at random, keeps those that keep the
+limits of a requirement, and asks for what they do: their dwell, their outputs at nine inputs, nine points of
+their path. Times are the processor's.
 """
 
 import argparse
@@ -25,7 +25,6 @@ from linkage_newton import Array, rates, standing, unknowns
 
 from mechwright import KinematicsError, Parameters, Stage
 from mechwright.contracts.evaluation import Batch
-from mechwright.mechanics.planar.assembly_order import Dyad, assembly_order
 from mechwright.mechanics.planar.machine import Machine
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.rigid import Turning
@@ -34,7 +33,12 @@ from mechwright_linkage.catalogue.entry import Entry
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.kinematics.channels import transmission_angle
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, LinkageSearch, PathRequirement
+from mechwright_linkage.requirements import (
+    DwellRequirement,
+    FunctionRequirement,
+    LinkageSearch,
+    PathRequirement,
+)
 from mechwright_linkage.synthesis.tasks import output_of
 from mechwright_linkage.synthesis.unknowns import Unknowns, joint_distances
 
@@ -50,7 +54,7 @@ DRAWS, LIMIT = 2_000, 30.0
 
 
 def inputs_of(machine: Machine) -> Array | None:
-    """Inputs over the turn, or over a tenth of a turn about the drawn position; None where a dead point is near."""
+    """Inputs over the turn, or 0.3 rad to both sides of the drawn position; None near a dead point."""
     start = float(np.ravel(machine.drawn_at[0])[0])
     for half in (math.pi, 0.3):
         at = np.linspace(start - half, start + half, 181)
@@ -87,7 +91,8 @@ def compared(machine: Machine, at: Array, size: float) -> tuple[float, float, fl
             body = found.bodies[link]
             z = getattr(body.origin, ("position", "velocity", "acceleration")[order])
             angle = getattr(body.turning, ("theta", "omega", "alpha")[order])
-            poses[link] = complex(np.broadcast_to(z, at.shape)[place]), float(np.broadcast_to(angle, at.shape)[place])
+            z, angle = (np.broadcast_to(one, at.shape)[place] for one in (z, angle))
+            poses[link] = complex(z), float(angle)
         return unknowns(machine, poses)
 
     scale = np.tile([size, size, 1.0], len(machine.links))
@@ -125,12 +130,11 @@ def motion(count: int) -> bool:
     print(f"  {'all':<15} {count:3d}  " + "  ".join(f"{one:.1e}" for one in most))
     limits = (1e-10, 1e-8, 1e-8)
     names = ("positions", "velocities", "accelerations")
-    return all(
-        [
-            require(f"{name} over their limit of {limit:g}", one / limit, 1.0)
-            for name, one, limit in zip(names, most, limits, strict=True)
-        ]
-    )
+    kept = [
+        require(f"{name} over their limit of {limit:g}", one / limit, 1.0)
+        for name, one, limit in zip(names, most, limits, strict=True)
+    ]
+    return all(kept)
 
 
 def turning(name: str, limits: LinkageSearch, rng: np.random.Generator) -> tuple[Unknowns, Array, Any, Any]:
@@ -152,7 +156,7 @@ def dwells(rng: np.random.Generator) -> Iterator[tuple[str, DwellRequirement]]:
     names = ("stephenson-3", "watt-2")
     while True:
         for name in names:
-            own, x, linkage, found = turning(name, DwellRequirement(), rng)
+            _, _, linkage, found = turning(name, DwellRequirement(), rng)
             if linkage is None:
                 continue
             output, slides = output_of(linkage, found)
@@ -206,17 +210,24 @@ def synthesis(each: int, kinds: Sequence[str]) -> bool:
             met = share <= 1 and seconds[-1] <= LIMIT
             found += met
             best.append(share)
-            note = f"{getattr(wanted, 'stroke', '')}"
-            print(f"  {kind:<9} {name:<13} {note:<7} {share:8.3g} of the tolerance {count:2d} designs {seconds[-1]:6.1f} s")
-        print(f"{kind}: {found}/{each} met within {LIMIT:g} s; median {np.median(seconds):.1f} s, longest {max(seconds):.1f} s,"
-              f" misses over the tolerance: best {min(best):.2g}, median {np.median(best):.2g}")
+            said = f"{share:8.3g} of the tolerance, {count:2d} designs, {seconds[-1]:6.1f} s"
+            print(f"  {kind:<9} {name:<13} {getattr(wanted, 'stroke', ''):<7} {said}")
+        print(
+            f"{kind}: {found}/{each} met within {LIMIT:g} s; median {np.median(seconds):.1f} s, longest "
+            f"{max(seconds):.1f} s; of the tolerance: best {min(best):.2g}, median {np.median(best):.2g}, "
+            f"worst {max(best):.2g}"
+        )
         kept.append(require(f"{kind}: requirements that are missed", each - found, 0))
     return all(kept)
 
 
+def _silent(done: float, what: str) -> None:
+    """Report nothing."""
+
+
 def _met(kind: str, wanted: Parameters) -> tuple[float, int]:
     """The residual of the best design, in the unit of the tolerance, and how many designs there are."""
-    found = Linkages().synthesise(kind, wanted, lambda done, what: None).candidates
+    found = Linkages().synthesise(kind, wanted, _silent).candidates
     if not found:
         return math.inf, 0
     residual = found[0].shown["residual"]
@@ -265,7 +276,8 @@ class _Counted(Linkages):
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", nargs="*", default=["motion", "synthesis", "sweep"])
     parser.add_argument("--linkages", type=int, default=200)
     parser.add_argument("--each", type=int, default=10)
@@ -277,7 +289,8 @@ def main() -> int:
         "synthesis": lambda: synthesis(chosen.each, chosen.kinds),
         "sweep": lambda: sweep(chosen.designs),
     }
-    return 0 if all([work[one]() for one in chosen.what]) else 1
+    kept = [work[one]() for one in chosen.what]
+    return 0 if all(kept) else 1
 
 
 if __name__ == "__main__":

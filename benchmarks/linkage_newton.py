@@ -1,7 +1,7 @@
-"""A planar machine by Newton's method on all its joint equations at once, and rates by central differences.
+"""A planar machine by Newton's method on all joint equations at once, and rates by central differences.
 
-Unknown are x, y, mm, and the angle, rad, of every moving link; a pin gives two equations, a slide two, the drive
-one. No dyad, no branch and no derivative of ``mechwright.mechanics.planar.positions`` is in it.
+Unknown are x, y, mm, and the angle, rad, of every moving link; a pin gives two equations, a slide two, the
+drive one. No dyad, no branch and no derivative of ``mechwright.mechanics.planar.positions`` is in it.
 """
 
 from collections.abc import Callable, Mapping
@@ -53,11 +53,11 @@ def equations(machine: Machine, q: Array, at: float) -> tuple[Array, Array]:
             add(off.imag, (one, (0, -1, -arm.real)), (two, (0, 1, lever.real)))
         elif isinstance(joint, Prismatic):
             normal = 1j * np.exp(1j * (angle + float(joint.line_angle)))
-            beside = (off * np.conj(normal)).real
+            aside = (off * np.conj(normal)).real
             turn = (off * np.conj(1j * normal) - 1j * arm * np.conj(normal)).real
             push = (1j * lever * np.conj(normal)).real
             x, y = normal.real, normal.imag
-            add(beside, (one, (-x, -y, turn)), (two, (x, y, push)))
+            add(aside, (one, (-x, -y, turn)), (two, (x, y, push)))
             wound = turned + float(joint.block_angle) - angle - float(joint.line_angle)
             add(float(np.angle(np.exp(1j * wound))), (one, (0, 0, -1)), (two, (0, 0, 1)))
     drive = machine.drives[0]
@@ -87,7 +87,7 @@ def rates(place: Callable[[float, Array], Array], start: Array, at: float, h: fl
         for number in range(1, 5):
             last = place(at + way * number * h, last)
             some.append(last)
-        found = [*found, *some] if way == 1 else [*some[::-1], *found]
+        found = [*found, *some] if way == 1 else [*reversed(some), *found]
     values = np.array(found)
     return FIRST @ values / h, SECOND @ values / h**2
 

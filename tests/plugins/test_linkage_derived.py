@@ -1,7 +1,7 @@
 """Families that derive from the linkages: what their parameters have, and what they have not."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 import pytest
 from pydantic import Field, ValidationError
@@ -21,7 +21,7 @@ class Cylinder(Entry):
 
     title = "Cylinder"
     output = "rocker"
-    pin_links = {"A0": (GROUND, "barrel"), "B0": (GROUND, "rocker"), "B": ("rocker", "rod")}
+    pin_links: ClassVar = {"A0": (GROUND, "barrel"), "B0": (GROUND, "rocker"), "B": ("rocker", "rod")}
 
     base: Length = Field(100.0, description="From A0 to B0.")
     rocker: Length = Field(70.0, description="From B0 to B.")

@@ -24,7 +24,7 @@ from mechwright_linkage.poles_page import LinkagePoles
 class DwellPress(Entry):
     """A point of the coupler of a four-bar moves a ram through a rod.
 
-    Where the path of the point is nearly an arc about the ram's pin, with the rod as its radius, the ram dwells.
+    The ram dwells where the path of the point is nearly an arc about the ram's pin, with the rod as radius.
     """
 
     title = "Dwell press"
