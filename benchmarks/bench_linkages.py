@@ -1,8 +1,8 @@
 """Linkages of the catalogue: motion against Newton, requirements with a known answer, designs of a sweep.
 
     python benchmarks/bench_linkages.py motion --linkages 200
-    python benchmarks/bench_linkages.py synthesis --each 10
-    python benchmarks/bench_linkages.py sweep --designs 20000
+    python benchmarks/bench_linkages.py synthesis --each 10 --first 0 --kinds dwell function path
+    python benchmarks/bench_linkages.py sweep --designs 4000
 
 ``motion`` compares the positions and two rates of all links with Newton's method on all joint equations at
 once, and with central differences of it. ``synthesis`` draws linkages at random, keeps those that keep the
@@ -196,13 +196,13 @@ def paths(rng: np.random.Generator) -> Iterator[tuple[str, PathRequirement]]:
             yield name, PathRequirement(points=tuple((round(z.real, 3), round(z.imag, 3)) for z in path))
 
 
-def synthesis(each: int, kinds: Sequence[str]) -> bool:
+def synthesis(each: int, first: int, kinds: Sequence[str]) -> bool:
     """How many requirements with a known answer are met, and in what time."""
     sources: Mapping[str, Any] = {"dwell": dwells, "function": functions, "path": paths}
     kept = []
     for kind in kinds:
         found, seconds, best = 0, [], []
-        for name, wanted in islice(sources[kind](np.random.default_rng(11)), each):
+        for name, wanted in islice(sources[kind](np.random.default_rng(11)), first, first + each):
             start = time.process_time()
             residual, count = _met(kind, wanted)
             seconds.append(time.process_time() - start)
@@ -281,12 +281,13 @@ def main() -> int:
     parser.add_argument("what", nargs="*", default=["motion", "synthesis", "sweep"])
     parser.add_argument("--linkages", type=int, default=200)
     parser.add_argument("--each", type=int, default=10)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--kinds", nargs="*", default=["dwell", "function", "path"])
-    parser.add_argument("--designs", type=int, default=20_000)
+    parser.add_argument("--designs", type=int, default=4_000)
     chosen = parser.parse_args()
     work = {
         "motion": lambda: motion(chosen.linkages),
-        "synthesis": lambda: synthesis(chosen.each, chosen.kinds),
+        "synthesis": lambda: synthesis(chosen.each, chosen.first, chosen.kinds),
         "sweep": lambda: sweep(chosen.designs),
     }
     kept = [work[one]() for one in chosen.what]

@@ -24,8 +24,8 @@ def installed(copy, tmp_path_factory):
 
 MAKE = """
 from mechwright.testing.commands import run
-for arguments in (["new", "dwell-press"], ["check", "dwell-press.toml"], ["solve", "dwell-press.toml", "-o", "out"]):
-    done = run(*arguments)
+for command in ("new dwell-press -o dwell-press.toml", "check dwell-press.toml", "solve dwell-press.toml -o out"):
+    done = run(*command.split())
     assert done.returncode == 0, done.stderr
 """
 
