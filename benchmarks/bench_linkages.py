@@ -147,6 +147,7 @@ def turning(name: str, limits: LinkageSearch, rng: np.random.Generator) -> tuple
         lengths = np.broadcast_to(joint_distances(linkage), (DRAWS, joint_distances(linkage).shape[-1]))
         good = found.closes.all(axis=-1) & (sines > math.sin(math.radians(limits.least_transmission_angle)))
     good &= (lengths.min(axis=1) > limits.shortest_link) & (lengths.max(axis=1) < limits.longest_link)
+    good[0] = False  # the entry itself, which the search tries first
     x = x[good]
     return (own, x, *own.moved(x, TURN)) if len(x) else (own, x, None, None)
 
@@ -234,24 +235,26 @@ def _met(kind: str, wanted: Parameters) -> tuple[float, int]:
     return (math.degrees(residual.value) if residual.unit == "rad" else residual.value), len(found)
 
 
-SWEPT: Mapping[str, tuple[str, Sequence[str]]] = {
-    "watt-2": ("output_swing", ("crank", "coupler", "link5")),
-    "stephenson-3": ("output_swing", ("crank", "coupler", "link5")),
-    "jansen": ("xF_range", ("m", "a", "b")),
-    "crank-shaper": ("output_stroke", ("crank", "lever", "rod")),
+SWEPT: Mapping[str, tuple[str, float, Sequence[str]]] = {
+    "watt-2": ("output_swing", 0.1, ("crank", "coupler", "link5")),
+    "stephenson-3": ("output_swing", 0.1, ("crank", "coupler", "link5")),
+    "jansen": ("output_swing", 0.02, ("m", "a", "b")),
+    "crank-shaper": ("output_stroke", 0.1, ("crank", "lever", "rod")),
 }
-"""Linkage to a figure and to dimensions that are varied by a tenth."""
+"""Linkage to a figure, and to a share by which dimensions are varied."""
 
 
-def sweep(designs: int) -> bool:
+def sweep(designs: int, names: Sequence[str]) -> bool:
     """Designs a second and core of a sweep of the motion, and how many are decided by arrays."""
     kept = []
     print(f"\n{designs} designs: linkage, designs a second and core, allowed, decided by arrays")
-    for name, (figure, varied) in SWEPT.items():
+    for name in names:
+        figure, share, varied = SWEPT[name]
         family, asked = _Counted(), LinkageParams(linkage=name)
         rng, table = np.random.default_rng(3), name.replace("-", "_")
         columns = {
-            f"{table}.{key}": getattr(asked.entry, key) * rng.uniform(0.9, 1.1, designs) for key in varied
+            f"{table}.{key}": getattr(asked.entry, key) * rng.uniform(1 - share, 1 + share, designs)
+            for key in varied
         }
         measured = tuple(one for one in ("least_transmission_angle", figure) if one in family.measures(asked))
         batch = Batch(LinkageParams, {"linkage": name}, columns)
@@ -283,12 +286,13 @@ def main() -> int:
     parser.add_argument("--each", type=int, default=10)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--kinds", nargs="*", default=["dwell", "function", "path"])
+    parser.add_argument("--swept", nargs="*", default=list(SWEPT))
     parser.add_argument("--designs", type=int, default=4_000)
     chosen = parser.parse_args()
     work = {
         "motion": lambda: motion(chosen.linkages),
         "synthesis": lambda: synthesis(chosen.each, chosen.first, chosen.kinds),
-        "sweep": lambda: sweep(chosen.designs),
+        "sweep": lambda: sweep(chosen.designs, chosen.swept),
     }
     kept = [work[one]() for one in chosen.what]
     return 0 if all(kept) else 1
