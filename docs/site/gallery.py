@@ -24,6 +24,7 @@ FAMILIES = (
     "slider-crank",
     "four-bar",
     "five-bar",
+    "linkage",
     "spherical",
     "plate",
     Chain.name,

@@ -22,9 +22,6 @@ from mechwright_linkage.catalogue.wipers import Wiper
 from mechwright_linkage.sketch import refuse_loose_driver, refuse_strangers
 from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, Word
 
-MOST_LINKS, MOST_POINTS = 16, 60
-"""Of a drawn linkage: layers are sought for all of them."""
-
 DRAWING = frozenset({"points", "scale", "links", "slides", "gears", "driver", "driver_on"})
 """Fields of a drawn linkage."""
 
@@ -132,17 +129,15 @@ class LinkageParams(Parameters):
     toggle_press: TogglePress = dimensions(TogglePress())
     wiper: Wiper = dimensions(Wiper())
     scissor_lift: ScissorLift = dimensions(ScissorLift())
-    points: dict[Word, PointTable] = Field(
+    points: dict[str, PointTable] = Field(
         default_factory=dict,
-        max_length=MOST_POINTS,
         description="Points of a drawn linkage in one position, as A = { x = 30, y = 0 }.",
     )
     scale: Annotated[float, Field(ge=0.001, le=1000), Unit("")] = Field(
         1.0, description="Size of a drawn linkage over that of the drawing."
     )
-    links: dict[Word, tuple[Word, ...]] = Field(
+    links: dict[str, tuple[Word, ...]] = Field(
         default_factory=dict,
-        max_length=MOST_LINKS,
         description='Links of a drawn linkage by their points, as { ground = ["A0", "B0"], crank = ["A0", '
         '"A"] }; a point of two links is their pin.',
     )

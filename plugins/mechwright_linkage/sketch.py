@@ -1,6 +1,7 @@
 """A linkage as it is drawn: points in one position, the links through them, slides and gears."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
@@ -17,7 +18,10 @@ from mechwright.mechanics.planar.machine import (
     Revolute,
 )
 from mechwright_linkage.linkage import Linkage
-from mechwright_linkage.sketch_tables import GearTable, SlideTable
+from mechwright_linkage.sketch_tables import NAME, GearTable, SlideTable
+
+MOST_LINKS, MOST_POINTS = 16, 60
+"""Of a drawn linkage: layers are sought for all of them."""
 
 
 def drawn_linkage(
@@ -121,6 +125,14 @@ def refuse_strangers(
     gears: Sequence[GearTable],
 ) -> None:
     """Refuse names of points and links that are not there, and links that are no links; raises ValueError."""
+    for key, names, most in (("points", points, MOST_POINTS), ("links", links, MOST_LINKS)):
+        if len(names) > most:
+            raise ValueError(f"{key}: there are {len(names)}; at most {most}")
+        if wrong := [name for name in names if not re.fullmatch(NAME, name)]:
+            raise ValueError(
+                f"{key}: {wrong[0]!r} is no name; use up to 40 letters, digits, - and _, and begin with a "
+                "letter or a digit"
+            )
     if GROUND not in links:
         raise ValueError(
             'links: none is called "ground"; name the points that stand still: ground = ["A0", "B0"]'

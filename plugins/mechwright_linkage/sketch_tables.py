@@ -8,7 +8,10 @@ from mechwright import FIRST, Parameters
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.units import Degrees, Millimetres, Ratio
 
-Word = Annotated[str, Field(max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$|^$")]
+NAME = r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}"
+"""What a name of a link, a point or a joint is."""
+
+Word = Annotated[str, Field(max_length=40, pattern=rf"^{NAME}$|^$")]
 """The name of a link, a point or a joint."""
 
 Coordinate = Annotated[Millimetres, Field(ge=-10000, le=10000)]

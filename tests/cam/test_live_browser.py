@@ -265,6 +265,7 @@ def test_a_point_of_a_drawn_linkage_is_dragged_undone_and_saved(drawing):
     assert page.evaluate("[...document.querySelectorAll('.grip')].map((one) => one.dataset.name).join()") == (
         "O,A,B,B0,C,D"
     )
+    assert page.locator('.grip[data-name="B0"] text').text_content() == "B0"
     before = page.evaluate("document.querySelector('#picture').innerHTML")
     box = page.locator('.grip[data-name="C"] .ring').bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

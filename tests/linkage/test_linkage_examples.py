@@ -72,3 +72,16 @@ def test_its_programs_are_proven(path):
     with Build(design, host(), Wanted("verify")) as build:
         found = [*design.check(), *build.made(Machining).findings]
     assert only_published(path, warnings(found))
+
+
+def test_a_link_that_is_named_as_a_part_of_frames_has_another_file_name():
+    names = [part.name for part in load(FOLDER / "jansen.toml", host()).parts()]
+    assert {"foot", "foot-link"} <= set(names)
+    assert len(set(names)) == len(names)
+
+
+def test_what_rolls_in_a_slot_has_the_play_of_a_washer():
+    drawn, jansen = (load(FOLDER / f"{name}.toml", host()) for name in ("drawn-ram", "jansen"))
+    for design, play in ((drawn, drawn.params.washer), (jansen, 0.0)):
+        bushings = [part for part in design.family.parts(design.params) if part.name.startswith("bushing")]
+        assert [part.play for part in bushings] == [play] * len(bushings)

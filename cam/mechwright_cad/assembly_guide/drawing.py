@@ -20,7 +20,7 @@ ROW = 6.0
 
 COLUMNS = (10.0, 10.0, 45.0, 60.0)
 """Widths of item, quantity, name, material or designation, mm."""
-CHARACTER = 0.62
+CHARACTER = 0.7
 """Width of a character over its height; long words are written smaller, so that they stay in their column."""
 
 _CORNERS = 24

@@ -77,10 +77,10 @@ function grips(scene, targets, drag) {
     const radius = view.across * GRIP;
     drawnIn("circle", { class: "hold", r: radius * REACH }, handle);
     drawnIn("circle", { class: "ring", r: radius }, handle);
-    const number = name.match(/\d+$/);
-    if (number) {
-      const text = drawnIn("text", { "font-size": radius * 1.3, "text-anchor": "middle", y: radius * 0.45 }, handle);
-      text.textContent = number[0];
+    const words = name.length <= 3 ? name : name.match(/\d+$/)?.[0];
+    if (words) {
+      const size = radius * (words.length > 2 ? 0.9 : 1.3);
+      drawnIn("text", { "font-size": size, "text-anchor": "middle", y: size * 0.35 }, handle).textContent = words;
     }
     drawnIn("title", {}, handle).textContent = name;
     made_.set(name, handle);
