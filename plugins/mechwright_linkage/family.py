@@ -87,7 +87,7 @@ class Linkages(Family[LinkageParams]):
         """A linkage of the catalogue, or one that a file or an address of another program draws."""
         from mechwright_linkage.drafts import draft_of
 
-        return draft_of(source, text)
+        return draft_of(source, text, self.Params)
 
     def design_targets(self, params: LinkageParams) -> "Sequence[Target]":
         """The points of a drawn linkage in its drawn position."""

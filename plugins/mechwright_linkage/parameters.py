@@ -10,7 +10,7 @@ from mechwright.mechanics.linkage import fields
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.units import Millimetres, Unit
 from mechwright_linkage.catalogue.entries import ENTRIES
-from mechwright_linkage.catalogue.entry import Entry
+from mechwright_linkage.catalogue.entry import Entry, Prismatic
 from mechwright_linkage.catalogue.legs import Jansen, Klann
 from mechwright_linkage.catalogue.parallels import Pantograph, ParallelGuide
 from mechwright_linkage.catalogue.quick_return import CrankShaper, Whitworth
@@ -50,9 +50,9 @@ LinkageName = Literal[
 ]
 
 
-def dimensions(entry: Entry) -> Any:
-    """The field of a table with the dimensions of an entry."""
-    name = next(name for name, kind in ENTRIES.items() if kind is type(entry))
+def dimensions(entry: Entry, name: str = "") -> Any:
+    """The field of a table with the dimensions of an entry; ``name`` of one that is not in the catalogue."""
+    name = name or next(name for name, kind in ENTRIES.items() if kind is type(entry))
     return Field(entry, description=f'Dimensions for linkage = "{name}".', json_schema_extra=FIRST)
 
 
@@ -86,6 +86,9 @@ class SpringTable(Parameters):
 
 class LinkageParams(Parameters):
     """Links, pins and slides in a plane, made of plates; from the catalogue, or as they are drawn.
+
+    A class that derives from it with another Literal as ``linkage`` has the linkages of these names alone:
+    it loses the tables of all others, and the fields of drawn ones.
 
     Examples
     --------
@@ -209,6 +212,29 @@ class LinkageParams(Parameters):
     )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Remove the fields of linkages that a derived class does not name; the code reads their defaults."""
+        fields = cls.__pydantic_fields__
+        names = get_args(fields["linkage"].annotation)
+        own = {name.replace("-", "_") for name in names}
+        others = {name for name, field in fields.items() if isinstance(field.default, Entry)} - own
+        if "drawn" not in names:
+            others |= DRAWING
+            if not any(_slides(kind()) for kind in cls.entries().values()):
+                others |= {"stroke_from", "stroke_to"}
+        for name in others & fields.keys():
+            setattr(cls, name, fields.pop(name).get_default(call_default_factory=True))
+        cls.also = cls.__dict__.get("also", {})
+        cls.model_rebuild(force=True)
+
+    @classmethod
+    def entries(cls) -> Mapping[str, type[Entry]]:
+        """Name of each linkage that is not drawn to its class."""
+        fields = cls.model_fields
+        names = [name for name in get_args(fields["linkage"].annotation) if name != "drawn"]
+        return {name: type(fields[name.replace("-", "_")].default) for name in names}
+
     def __hash__(self) -> int:
         own = tuple(self.links) if self.linkage == "drawn" else tuple(self.entry.__dict__.values())
         return hash((self.linkage, own, self.speed, self.pin_diameter, self.thickness, self.frame))
@@ -273,7 +299,7 @@ class LinkageParams(Parameters):
 
     def unused_fields(self) -> Collection[str]:
         """The tables of the other linkages; and drawings of one of the catalogue."""
-        others = {name.replace("-", "_") for name in get_args(LinkageName)} - {self.table_name, "drawn"}
+        others = {name.replace("-", "_") for name in self.entries()} - {self.table_name}
         return others if self.linkage == "drawn" else others | DRAWING
 
     @property
@@ -329,6 +355,12 @@ class LinkageParams(Parameters):
         slides = self.slides if self.linkage == "drawn" else self.entry.slides()
         sliding = any({link, GROUND} == {one.block, one.guide} for one in slides)
         return sliding or bool(set(points[link]) & set(points[GROUND]))
+
+
+def _slides(entry: Entry) -> bool:
+    """Whether the driver of a linkage slides."""
+    drive = {entry.drive().link, entry.drive().on}
+    return any(isinstance(one, Prismatic) and set(one.links) == drive for one in entry.joints())
 
 
 def replaced(params: LinkageParams, **changes: Any) -> LinkageParams:

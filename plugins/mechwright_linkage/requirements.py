@@ -106,7 +106,7 @@ class DwellRequirement(LinkageSearch):
     dwell: Annotated[float, Field(ge=5, le=200), Unit("deg")] = Field(
         60.0, description="Angle of the input over which the output stands.", json_schema_extra=FIRST
     )
-    stroke: Annotated[float, Field(gt=0, le=1000)] = Field(
+    stroke: Annotated[float, Field(gt=0, le=1000), Unit("")] = Field(
         40.0,
         description="How far the output goes, degrees, or mm of one that slides.",
         json_schema_extra=FIRST,

@@ -23,6 +23,7 @@ def _layers(table: LinkageTable) -> Iterator[Finding]:
             remedy='set frame = "two"'
             if two
             else "make pin_diameter, bushing_wall, rim or clearance smaller",
+            stage=Stage.PARTS,
             proposed=({"parameters.frame": "two"},) if two else (),
         )
 
