@@ -35,7 +35,7 @@ class Linkages(Family[LinkageParams]):
     name = "linkage"
     title = "Planar linkage"
     summary = "Six-bars, quick returns, straight lines, walking legs, or any linkage as it is drawn."
-    Params = LinkageParams
+    Params: type[LinkageParams] = LinkageParams
     batch: ClassVar[int] = 1 << 16
     block: ClassVar[int] = 64
     sampled: ClassVar[int] = 16

@@ -50,8 +50,9 @@ LinkageName = Literal[
 ]
 
 
-def dimensions(entry: Entry, name: str = "") -> Any:
+def dimensions(chosen: Entry | type[Entry], name: str = "") -> Any:
     """The field of a table with the dimensions of an entry; ``name`` of one that is not in the catalogue."""
+    entry = chosen() if isinstance(chosen, type) else chosen
     name = name or next(name for name, kind in ENTRIES.items() if kind is type(entry))
     return Field(entry, description=f'Dimensions for linkage = "{name}".', json_schema_extra=FIRST)
 

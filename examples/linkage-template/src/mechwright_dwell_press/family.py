@@ -72,7 +72,7 @@ class DwellPressParams(LinkageParams):
     linkage: Literal["dwell-press"] = Field(  # type: ignore[assignment]  # instead of the catalogue
         "dwell-press", description="The one linkage of this family.", json_schema_extra=FIRST
     )
-    dwell_press: DwellPress = dimensions(DwellPress(), "dwell-press")
+    dwell_press: DwellPress = dimensions(DwellPress, "dwell-press")
 
 
 class DwellPresses(Linkages):
