@@ -32,6 +32,9 @@ SURE = 0.2
 """Sine of the least transmission angle at samples of a turn with which a driver turns fully: between two of
 them it falls by far less."""
 
+FINER = 8
+"""How much finer a doubtful turn is looked at, and how much less its sines may be."""
+
 TURN_SAMPLES = 181
 """Samples of a turn at which that is looked at."""
 
@@ -158,14 +161,24 @@ def sure_to_turn(table: LinkageTable) -> NDArray[np.bool_]:
     """Which drivers (n,) of a table turn all the way without a doubt."""
 
     def found() -> NDArray[np.bool_]:
-        at = table.drawn_at + travelled(turns_of(table) * math.tau, TURN_SAMPLES * turns_of(table))
-        solution = table.solved_at(np.atleast_2d(at), 0)
-        sines = [np.broadcast_to(one, (table.size, one.shape[-1])) for one in solution.sines.values()]
-        closes = np.broadcast_to(solution.closes, (table.size, at.shape[-1])).all(axis=-1)
-        steep = np.logical_and.reduce([(one > SURE).all(axis=-1) for one in sines]) if sines else closes
-        return np.asarray(closes & steep)
+        sure, closes = _turn_at(table, TURN_SAMPLES, SURE)
+        doubtful = np.flatnonzero(closes & ~sure)
+        if doubtful.size:
+            fewer = table.rows(doubtful)
+            sure[doubtful] = _turn_at(fewer, FINER * (TURN_SAMPLES - 1) + 1, SURE / FINER)[0]
+        return sure
 
     return table.once("sure to turn", found)
+
+
+def _turn_at(table: LinkageTable, samples: int, least: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which drivers (n,) turn with all sines above the least at samples of a turn, and which close at all."""
+    at = table.drawn_at + travelled(turns_of(table) * math.tau, samples * turns_of(table))
+    solution = table.solved_at(np.atleast_2d(at), 0)
+    shape = table.size, at.shape[-1]
+    closes = np.broadcast_to(solution.closes, shape).all(axis=-1)
+    steep = [np.broadcast_to(one > least, shape).all(axis=-1) for one in solution.sines.values()]
+    return np.logical_and.reduce([closes, *steep]), closes
 
 
 def phases_of(samples: int) -> Array:
