@@ -67,6 +67,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
         "five-bar",
         "four-bar",
         "geneva",
+        "linkage",
         "noncircular-gears",
         "plate",
         "slider-crank",
