@@ -101,11 +101,13 @@ def _count(machine: Machine) -> None:
     if machine.freedom != len(machine.drives):
         pins = sum(isinstance(joint, Revolute) for joint in machine.joints)
         slides = sum(isinstance(joint, Prismatic) for joint in machine.joints)
-        drives = "1 drive" if len(machine.drives) == 1 else f"{len(machine.drives)} drives"
+        over = machine.freedom - len(machine.drives)
+        drives = "the drive needs 1" if len(machine.drives) == 1 else f"the drives need {len(machine.drives)}"
+        amends = "links to one another by more pins or slides" if over > 0 else "fewer links to one another"
         raise KinematicsError(
             f"{len(machine.links)} moving links with {pins} pins, {slides} slides and "
-            f"{len(machine.joints) - pins - slides} gear pairs have {machine.freedom} degrees of freedom; "
-            f"{drives} need as many"
+            f"{len(machine.joints) - pins - slides} gear pairs have {machine.freedom} degrees of freedom, "
+            f"and {drives}; join {amends}"
         )
 
 
