@@ -35,6 +35,10 @@ HARD = 4.0
 INSIDE = 1.02
 """Share by which a search stays inside of a limit, so that no sample between its own breaks one."""
 
+SPARE = 4
+"""Linkages that are good enough for each design that is wanted, with which no further kind is tried: some
+of them are alike, or have no room for their layers."""
+
 SAME = 0.02
 """Unknowns that agree so far are one linkage."""
 
@@ -106,8 +110,8 @@ def search(
     Parameters
     ----------
     met
-        Root mean square of the misses at which a linkage is good enough: a kind of linkage that has as many
-        of them as designs are wanted is not searched further.
+        Root mean square of the misses at which a linkage is good enough. A kind of linkage that has as many
+        of them as designs are wanted is not searched further; further kinds are tried while there are few.
     """
     found: list[Found] = []
     for number, name in enumerate(wanted.linkages):
@@ -121,6 +125,8 @@ def search(
             progress((number + done / wanted.starts) / len(wanted.linkages), f"linkages of the kind {name}")
             if sum(one.miss <= met for one in found if one.task is task) >= wanted.designs:
                 break
+        if sum(one.miss <= met for one in found) >= SPARE * wanted.designs:
+            break
     return _distinct(sorted(found, key=lambda one: one.miss))
 
 
