@@ -1,5 +1,6 @@
-"""The least value over a period, refined between samples; of one linkage or of a table."""
+"""Least and greatest values over a period, refined between samples; of one linkage or of a table."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -18,7 +19,7 @@ FINER, ROUNDS = 8, 5
 6e-5 degrees, where a smooth extreme is flat to 1e-13 of the value."""
 
 Value = Callable[[Solution], Array]
-"""A value (..., m) of the motion at m phases."""
+"""A value (..., m) of positions at m phases."""
 
 
 @dataclass(frozen=True)
@@ -29,20 +30,42 @@ class Extreme:
     phase: Array
 
 
-def least(table: LinkageTable, value: Value, order: int = 0) -> Extreme:
-    """The least value over a period; ``order`` is the highest rate of the motion that the value needs."""
-    phases = np.broadcast_to(phases_of(SAMPLES), (table.size, SAMPLES))
+def least(table: LinkageTable, value: Value, turn: float = 0.0) -> Extreme:
+    """The least value over a period.
+
+    With a ``turn`` values are angles, counted on over the samples: those that differ by turns are one.
+    """
+    phases, coarse = table.once("positions by phase", lambda: _coarse(table))
+    phases = np.broadcast_to(phases, (table.size, SAMPLES))
     step = (phases[:, -1:] - phases[:, :1]) / (SAMPLES - 1)
-
-    def at(places: Array) -> Array:
-        found = value(table.solved_at(inputs_at(table, places), order))
-        return np.broadcast_to(np.where(np.isnan(found), np.inf, found), places.shape)
-
-    values, rows = at(phases), np.arange(table.size)[:, None]
+    values, rows = _known(value(coarse), phases.shape), np.arange(table.size)[:, None]
     for _ in range(ROUNDS):
         best = values.argmin(axis=-1)[:, None]
-        centre = phases[rows, best]
+        centre, before = phases[rows, best], values[rows, best]
         phases = centre + step / FINER * np.arange(-FINER, FINER + 1)
-        step, values = step / FINER, at(phases)
+        step = step / FINER
+        values = _known(value(table.solved_at(inputs_at(table, phases), 0)), phases.shape)
+        if turn:
+            values = values + turn * np.round((before - values[:, FINER : FINER + 1]) / turn)
     best = values.argmin(axis=-1)[:, None]
     return Extreme(values[rows, best], phases[rows, best])
+
+
+def extent(table: LinkageTable, value: Value, turn: float = 0.0) -> Array:
+    """Greatest less least value (n, 1) over a period; of an angle that turns on, how far it turns."""
+    low, high = least(table, value, turn), least(table, lambda found: -value(found), turn)
+    reach = -high.value - low.value
+    if not turn:
+        return np.asarray(reach)
+    whole = _known(value(table.once("positions by phase", lambda: _coarse(table))[1]), (table.size, SAMPLES))
+    turned = np.abs(whole[:, -1:] - whole[:, :1])
+    return np.where(turned > turn / 2, turned, reach)
+
+
+def _coarse(table: LinkageTable) -> tuple[Array, Solution]:
+    phases = phases_of(SAMPLES)
+    return phases, table.solved_at(inputs_at(table, phases), 0)
+
+
+def _known(values: Array, shape: tuple[int, ...]) -> Array:
+    return np.broadcast_to(np.where(np.isnan(values), math.inf, values), shape)

@@ -1,7 +1,9 @@
 """Figures of a linkage, or of a table of linkages: transmission angles, output, paths."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +14,9 @@ from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 from mechwright.mechanics.planar.positions import Solution
 from mechwright_linkage.kinematics.channels import transmission_angle
-from mechwright_linkage.kinematics.curves import Curve
-from mechwright_linkage.kinematics.extremes import SAMPLES, Extreme, least
+from mechwright_linkage.kinematics.extremes import SAMPLES, Extreme, extent, least
 from mechwright_linkage.kinematics.linkage_table import LinkageTable
-from mechwright_linkage.kinematics.path_figures import Path, Stroke, extremes, gait, output_curve, stroke
+from mechwright_linkage.kinematics.path_figures import Stroke, output_curve, stroke
 from mechwright_linkage.kinematics.period import inputs_at, over_phases, ways_of
 
 
@@ -39,16 +40,44 @@ def figures_of(table: LinkageTable) -> Mapping[str, Figure]:
             lambda: _number(table, np.abs(ways_of(table).travel)), "mm" if table.driver_slides else "rad"
         ),
         "output_stroke" if slides else "output_swing": Figure(
-            lambda: _of_row(table, _stroke(table).extremes.extent), "mm" if slides else "rad"
+            lambda: _number(table, _extent(table, output_value(table), 0.0 if slides else math.tau)),
+            "mm" if slides else "rad",
         ),
         "time_ratio": Figure(lambda: _of_row(table, _time_ratio(table))),
     }
     for name in table.linkage.traces:
-        found[f"x{name}_range"] = Figure(
-            lambda key=name: _of_row(table, extremes(_path(table, key).along).extent), "mm"
-        )
-        found[f"y{name}_range"] = Figure(lambda key=name: _of_row(table, gait(_path(table, key)).lift), "mm")
+        for axis, part in (("x", np.real), ("y", np.imag)):
+            found[f"{axis}{name}_range"] = Figure(partial(_path_range, table, name, part), "mm")
     return found
+
+
+def output_value(table: LinkageTable) -> Callable[[Solution], Array]:
+    """The output over samples: its way along its slide on the ground, mm, or its angle, rad."""
+    output = table.given.output_link
+    for joint in table.machine.between(output, GROUND):
+        if isinstance(joint, Prismatic):
+            return partial(_along, joint)
+    return lambda found: found.bodies[output].turning.theta
+
+
+def _along(joint: Prismatic, found: Solution) -> Array:
+    seen = found.bodies[joint.block].point(joint.point, 0).position
+    guide = found.bodies[joint.guide].point(joint.line, 0).position
+    direction = found.bodies[joint.guide].turning.theta + joint.line_angle
+    return np.asarray(((seen - guide) * np.exp(-1j * direction)).real)
+
+
+def _coordinate(table: LinkageTable, name: str, part: Callable[[Any], Any], found: Solution) -> Array:
+    link, point = table.linkage.traces[name]
+    return np.asarray(part(found.bodies[link].point(table.linkage.points[link][point], 0).position))
+
+
+def _path_range(table: LinkageTable, name: str, part: Callable[[Any], Any]) -> Array:
+    return _number(table, _extent(table, partial(_coordinate, table, name, part)))
+
+
+def _extent(table: LinkageTable, value: Callable[[Solution], Array], turn: float = 0.0) -> Array:
+    return np.broadcast_to(extent(table, value, turn), (table.size, 1))
 
 
 def _least_angle(table: LinkageTable) -> Extreme:
@@ -80,13 +109,6 @@ def _time_ratio(table: LinkageTable) -> Array:
     """NaN of an input that goes there and back, which has no forward and return of its own."""
     rocks = ways_of(table).rocks[:, 0]
     return np.where(rocks, math.nan, _stroke(table).time_ratio)
-
-
-def _path(table: LinkageTable, name: str) -> Path:
-    phases, motion = _motion(table)
-    link, point = table.linkage.traces[name]
-    moved = motion.bodies[link].point(table.linkage.points[link][point])
-    return Path(Curve.of_point(phases, moved), Curve.of_point(phases, moved, math.pi / 2))
 
 
 def _of_row(table: LinkageTable, values: Array) -> Array:

@@ -176,9 +176,9 @@ def _turn_at(table: LinkageTable, samples: int, least: float) -> tuple[NDArray[n
     at = table.drawn_at + travelled(turns_of(table) * math.tau, samples * turns_of(table))
     solution = table.solved_at(np.atleast_2d(at), 0)
     shape = table.size, at.shape[-1]
-    closes = np.broadcast_to(solution.closes, shape).all(axis=-1)
+    closes = np.asarray(np.broadcast_to(solution.closes, shape).all(axis=-1))
     steep = [np.broadcast_to(one > least, shape).all(axis=-1) for one in solution.sines.values()]
-    return np.logical_and.reduce([closes, *steep]), closes
+    return np.asarray(np.logical_and.reduce([closes, *steep])), closes
 
 
 def phases_of(samples: int) -> Array:
