@@ -127,6 +127,16 @@ class Linkages(Family[LinkageParams]):
             return leading(requirement, progress)
         return super().synthesise(kind, requirement, progress)
 
+    def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
+        """The end of a dwell and a stroke, the outputs of a function, or the points of a path."""
+        from mechwright_linkage.synthesis.targets import dwell_targets, function_targets
+
+        if isinstance(requirement, DwellRequirement):
+            return dwell_targets(requirement)
+        if isinstance(requirement, FunctionRequirement):
+            return function_targets(requirement)
+        return super().targets(kind, requirement)
+
     def figures(self, table: "DesignTable[LinkageParams]") -> "Mapping[str, Figure]":
         """Transmission angles, output and paths."""
         from mechwright_linkage.kinematics.figures import figures_of
