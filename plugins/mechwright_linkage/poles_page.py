@@ -59,7 +59,7 @@ def _seen(table: LinkageTable, link: str, seen_from: str) -> Coupler:
 
 def _drawn(table: LinkageTable, seen_from: str, at: float) -> Drawn:
     """The linkage at an angle of the input, in the frame of a link."""
-    bodies = table.unit(np.array([at])).bodies
+    bodies = table.solved_at(np.array([at])).bodies
     joints: dict[str, complex] = {}
     lines = []
     for name, points in table.linkage.points.items():

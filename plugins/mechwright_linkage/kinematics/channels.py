@@ -71,11 +71,6 @@ def transmission_angle(found: Solution) -> Array:
     return np.asarray(np.arcsin(np.minimum(np.minimum.reduce(np.broadcast_arrays(*sines)), 1.0)))
 
 
-def slide_of(machine: Machine, link: str) -> Prismatic:
-    """The slide of a link that does not turn; raises StopIteration where it has none."""
-    return next(joint for joint in machine.joints if isinstance(joint, Prismatic) and link == joint.block)
-
-
 def _slide_channels(joint: Prismatic, found: Solution) -> Mapping[str, Channel]:
     seen = relative(found.bodies[joint.block], found.bodies[joint.guide]).point(joint.point)
     turn = np.exp(-1j * np.asarray(joint.line_angle))

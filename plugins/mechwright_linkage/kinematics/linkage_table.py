@@ -67,10 +67,6 @@ class LinkageTable(DesignTable[LinkageParams]):
         """The motion for a motion of the input."""
         return solve(self.machine, [drive], self.order)
 
-    def unit(self, at: Array) -> Solution:
-        """The motion per unit of the input at places (..., n): rates are derivatives by the input."""
-        return self.solved(Turning.of(at, 1.0))
-
     def solved_at(self, at: Array, order: int = 3) -> Solution:
         """The motion per unit of the input, with rates up to an order."""
         return solve(self.machine, [Turning.of(at, 1.0)], self.order, rates=order)

@@ -9,7 +9,6 @@ phase
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,15 +17,11 @@ from mechwright import Array
 from mechwright.contracts.design_table import column
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import Course
-from mechwright.mechanics.planar.input_range import InputRange, Interval, ranges, usable
-from mechwright.mechanics.planar.machine import GearPair
+from mechwright.mechanics.planar.input_range import InputRange, Interval, period_turns, ranges, usable
 from mechwright.mechanics.planar.positions import Solution
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright.mechanics.planar.swing import SLACK, within
 from mechwright_linkage.kinematics.linkage_table import LinkageTable
-
-MOST_TURNS = 400
-"""Turns of the driver after which gears stand as at the start, at most."""
 
 SURE = 0.2
 """Sine of the least transmission angle at samples of a turn with which a driver turns fully: between two of
@@ -110,16 +105,7 @@ def _course(table: LinkageTable) -> Course:
         ends = ends_of(table)
         assert ends is not None  # noqa: S101 - the rules come first
         return Course.between(*(ends if requested(table) is not None or sense > 0 else ends[::-1]))
-    return Course(table.drawn_at, sense * turns_of(table) * math.tau)
-
-
-def turns_of(table: LinkageTable) -> int:
-    """Turns of the driver that bring all gears back to where they were."""
-    found = 1
-    for joint in table.machine.joints:
-        if isinstance(joint, GearPair):
-            found *= Fraction(joint.ratio).limit_denominator(MOST_TURNS).denominator
-    return min(found, MOST_TURNS)
+    return Course(table.drawn_at, sense * period_turns(table.machine) * math.tau)
 
 
 def period_of(table: LinkageTable, samples: Samples) -> Period:
@@ -147,7 +133,7 @@ def _ways(table: LinkageTable) -> Ways:
     size = table.size
     start, travel = (
         column(table.drawn_at, size).copy(),
-        column(sense * turns_of(table) * math.tau, size).copy(),
+        column(sense * period_turns(table.machine) * math.tau, size).copy(),
     )
     rocks = np.zeros((size, 1), bool)
     doubtful = np.flatnonzero(~sure_to_turn(table)) if table.may_turn else np.arange(size)
@@ -173,7 +159,9 @@ def sure_to_turn(table: LinkageTable) -> NDArray[np.bool_]:
 
 def _turn_at(table: LinkageTable, samples: int, least: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Which drivers (n,) turn with all sines above the least at samples of a turn, and which close at all."""
-    at = table.drawn_at + travelled(turns_of(table) * math.tau, samples * turns_of(table))
+    at = table.drawn_at + travelled(
+        period_turns(table.machine) * math.tau, samples * period_turns(table.machine)
+    )
     solution = table.solved_at(np.atleast_2d(at), 0)
     shape = table.size, at.shape[-1]
     closes = np.asarray(np.broadcast_to(solution.closes, shape).all(axis=-1))

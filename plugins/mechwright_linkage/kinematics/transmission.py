@@ -8,10 +8,11 @@ import numpy as np
 from mechwright import Array, DesignError, KinematicsError, Motion, Port, Turning
 from mechwright.mechanics.planar.crank_stage import CrankStage
 from mechwright.mechanics.planar.dynamics import GROUND
+from mechwright.mechanics.planar.input_range import period_turns
 from mechwright.mechanics.planar.machine import Revolute
 from mechwright_linkage.kinematics.linkage_table import LinkageTable, table_of
 from mechwright_linkage.kinematics.motion import motion_over, refuse_unmoved
-from mechwright_linkage.kinematics.period import Period, is_lever, turns_of
+from mechwright_linkage.kinematics.period import Period, is_lever
 from mechwright_linkage.parameters import LinkageParams
 
 
@@ -35,7 +36,7 @@ class OutputStage(CrankStage):
                 "chain follows a shaft that does; change a length, and leave swing_from and swing_to out"
             )
         self.input = Port(driver, (pivot.real, pivot.imag))
-        self.period = Fraction(turns_of(self.table))
+        self.period = Fraction(period_turns(self.table.machine))
         self.speed = (1 if params.direction == "ccw" else -1) * params.speed * math.tau / 60
         self.start = self.table.drawn_at
         output = params.output_link
@@ -46,7 +47,7 @@ class OutputStage(CrankStage):
             self.advance = Fraction(round(float(turn[-1] - turn[0]) / math.tau))
 
     def _output(self, phi: Array) -> Array:
-        found = self.table.unit(phi).bodies[self.params.output_link].turning.theta
+        found = self.table.solved_at(phi).bodies[self.params.output_link].turning.theta
         return np.unwrap(found)
 
     def move(self, drive: Turning) -> Turning:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright import Array, ToleranceModel, Tolerances
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, assembly_order
+from mechwright.mechanics.planar.input_range import period_turns
 from mechwright.mechanics.planar.machine import GearPair, Machine
 from mechwright.mechanics.planar.machine import Pose as Drawn
 from mechwright.mechanics.planar.positions import Solution, solve
@@ -21,7 +22,7 @@ from mechwright.mechanics.planar.rigid import Turning
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 from mechwright_linkage.kinematics.channels import PHI, STROKE
 from mechwright_linkage.kinematics.linkage_table import table_of
-from mechwright_linkage.kinematics.period import course_of, turns_of
+from mechwright_linkage.kinematics.period import course_of
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.tolerance.contributors import sources_of
 from mechwright_linkage.tolerance.outputs import outputs_of
@@ -52,7 +53,7 @@ class LinkageTolerances(ToleranceModel):
         if course.rocks:
             self.positions = np.sort(course.way(POSITIONS))
         else:
-            count = min(turns_of(table) * (POSITIONS - 1) + 1, MOST_POSITIONS)
+            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
             self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
         self.sources = sources_of(Plates.of(params), tolerances)
         self.judged = {one.output.name: one for one in outputs_of(table.linkage)}

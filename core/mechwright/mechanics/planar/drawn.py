@@ -63,9 +63,7 @@ def _branch(machine: Machine, group: Dyad) -> Any:
             f"{inner.name}: {' and '.join(group.links)} are drawn at their dead point, where "
             "nothing decides how they go on; draw the linkage in another position of its input"
         )
-    sign = np.sign(side)
-    swapped = group.links != inner.links and group.kind != "RRP"
-    return -sign if swapped else sign
+    return np.sign(side)
 
 
 def _place(machine: Machine, joint: Any, link: str) -> Any:

@@ -184,7 +184,7 @@ def ranges(
         )
     order = assembly_order(machine)
     turns = isinstance(machine.driven_joint(machine.drives[0]), Revolute)
-    period = _period(machine) if turns and bounds is None else None
+    period = math.tau * period_turns(machine) if turns and bounds is None else None
     low, high = _window(machine, order, period, bounds)
     pieces = [_Piece(low, high, turn=math.tau if turns else high - low)]
     for number, group in enumerate(order):
@@ -209,13 +209,13 @@ def usable(
     return ranges(machine, transmission, bounds)
 
 
-def _period(machine: Machine) -> float:
-    """The angle of the input after which all gears are back, rad."""
+def period_turns(machine: Machine) -> int:
+    """The turns of the input after which all gears are back where they were."""
     turns = 1
     for joint in machine.joints:
         if isinstance(joint, GearPair):
             turns *= Fraction(joint.ratio).limit_denominator(LARGEST_TEETH).denominator
-    return math.tau * turns
+    return turns
 
 
 def _window(

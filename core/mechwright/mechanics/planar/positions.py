@@ -5,7 +5,6 @@ Inputs and designs are arrays: the last axis are the samples of the input, one b
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -180,7 +179,7 @@ def _sum(one: Turning, two: Turning) -> Turning:
 
 def _dyad(machine: Machine, group: Dyad, bodies: Mapping[str, BodyMotion], rates: int) -> Solved:
     inner, (first, last), (one, two) = group.inner, group.outer, group.links
-    branch = _branch(machine, group)
+    branch = machine.branches.get(inner.name, 1)
     if isinstance(first, Revolute) and isinstance(last, Revolute):
         ends = [outer_pin(joint, link, bodies, rates) for joint, link in ((first, one), (last, two))]
         if isinstance(inner, Revolute):
@@ -219,10 +218,3 @@ def _dyad(machine: Machine, group: Dyad, bodies: Mapping[str, BodyMotion], rates
     sought = Slide(slide.point, slide.turning, offset_from_line(last, two, inner.place(two)))
     point, sine = crossing(sought, Slide(bar.point(inner.place(one), rates), direction), rates)
     return bar, body_at(point, inner.place(two), second_turning, rates), sine
-
-
-def _branch(machine: Machine, group: Dyad) -> Any:
-    """The branch of a dyad, whose joints may stand in another order than the links of its inner joint."""
-    branch = machine.branches.get(group.inner.name, 1)
-    swapped = group.links != group.inner.links
-    return -np.asarray(branch) if swapped and group.kind in {"RRR", "RPR"} else branch
