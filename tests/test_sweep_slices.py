@@ -284,6 +284,8 @@ def sentence(saved):
     """What is said of a folder with so many designs."""
     if not saved:
         return f"saved in out: none of {COUNT} designs; the same command begins anew"
+    if saved == COUNT:
+        return f"saved in out: all of {COUNT} designs; the same command goes on from there"
     return (
         f"saved in out: {saved} of {COUNT} designs; the same command goes on with the other {COUNT - saved}"
     )
