@@ -25,13 +25,13 @@ from linkage_newton import Array, rates, standing, unknowns
 
 from mechwright import KinematicsError, Parameters, Stage
 from mechwright.contracts.evaluation import Batch
+from mechwright.mechanics.linkage.kinematics.channels import transmission_angle
 from mechwright.mechanics.planar.machine import Machine
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright_linkage.catalogue.entries import ENTRIES
 from mechwright_linkage.catalogue.entry import Entry
 from mechwright_linkage.family import Linkages
-from mechwright_linkage.kinematics.channels import transmission_angle
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.requirements import (
     DwellRequirement,

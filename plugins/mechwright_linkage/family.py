@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
     from mechwright.contracts.rule_list import Rules
-    from mechwright_linkage.kinematics.linkage_table import LinkageTable
+    from mechwright_linkage.table import LinkageTable
 
 
 class Linkages(Family[LinkageParams]):
@@ -53,35 +53,37 @@ class Linkages(Family[LinkageParams]):
 
     def table(self, params: LinkageParams, size: int | None = None) -> "LinkageTable":
         """The linkage with its machine and its motion."""
-        from mechwright_linkage.kinematics.linkage_table import table_of
+        from mechwright_linkage.table import LinkageTable
 
-        return table_of(params, size)
+        return LinkageTable.of(params, size)
 
     def solve(self, params: LinkageParams, samples: int) -> "Motion":
         """One turn of the driver at constant speed, or its way there and back."""
-        from mechwright_linkage.kinematics.motion import motion_of
+        from mechwright.mechanics.linkage.kinematics.motion import motion_of
+        from mechwright_linkage.rules.motion_rules import moving
 
-        return motion_of(params, samples)
+        return motion_of(moving(self.table(params)), samples)
 
     def stretches(self, params: LinkageParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_linkage.kinematics.motion import motion_of
+        from mechwright.mechanics.linkage.kinematics.motion import motion_of
+        from mechwright_linkage.rules.motion_rules import moving
 
-        return in_stretches(partial(motion_of, params), samples)
+        return in_stretches(partial(motion_of, moving(self.table(params))), samples)
 
     def parts(self, params: LinkageParams) -> "Sequence[Part]":
         """Links and ground as plates, their pins and bushings."""
-        from mechwright_linkage.parts.design import parts_of
+        from mechwright.mechanics.linkage.parts.parts import parts_of
 
         refuse(self.check(params), Stage.PARTS)
-        return parts_of(params)
+        return parts_of(self.table(params).layout)
 
     def mounting(self, params: LinkageParams) -> "GroundPlate":
         """Its ground plate with the driver's shaft."""
-        from mechwright_linkage.parts.design import mounting_of
+        from mechwright.mechanics.linkage.parts.mounting import mounting_of
 
-        return mounting_of(params)
+        return mounting_of(self.table(params).layout)
 
     def draft(self, source: str, text: str) -> LinkageParams:
         """A linkage of the catalogue, or one that a file or an address of another program draws."""
@@ -97,21 +99,22 @@ class Linkages(Family[LinkageParams]):
 
     def transmission(self, params: LinkageParams) -> "Transmission":
         """Driver in, output out."""
-        from mechwright_linkage.kinematics.transmission import OutputStage
+        from mechwright.mechanics.linkage.kinematics.transmission import OutputStage
+        from mechwright_linkage.rules.motion_rules import moving
 
-        return OutputStage(params)
+        return OutputStage(moving(self.table(params)))
 
     def tolerances(self, params: LinkageParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the output and of traced points."""
-        from mechwright_linkage.tolerance.model import LinkageTolerances
+        from mechwright.mechanics.linkage.tolerance.model import LinkageTolerances
 
-        return LinkageTolerances(params, tolerances)
+        return LinkageTolerances(self.table(params), tolerances)
 
     def as_made(self, params: LinkageParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Errors and play with bores and slots as the programs leave them."""
-        from mechwright_linkage.tolerance.as_made import as_made
+        from mechwright.mechanics.linkage.tolerance.as_made import as_made
 
-        return as_made(params, made)
+        return as_made(self.table(params), made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
@@ -139,12 +142,12 @@ class Linkages(Family[LinkageParams]):
 
     def figures(self, table: "DesignTable[LinkageParams]") -> "Mapping[str, Figure]":
         """Transmission angles, output and paths."""
-        from mechwright_linkage.kinematics.figures import figures_of
+        from mechwright.mechanics.linkage.kinematics.figures import figures_of
 
         return figures_of(cast("LinkageTable", table))
 
     def channels(self, table: "DesignTable[LinkageParams]", samples: int) -> "Mapping[str, Channel]":
         """What input, links, slides and points do."""
-        from mechwright_linkage.kinematics.motion import channels_over
+        from mechwright.mechanics.linkage.kinematics.motion import channels_over
 
         return channels_over(cast("LinkageTable", table), samples)

@@ -5,13 +5,13 @@ from functools import partial
 
 import numpy as np
 
+from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.relative_motion import relative
 from mechwright.pipeline.poles import NAME, Coupler, PolesPage
-from mechwright_linkage.kinematics.linkage_table import LinkageTable, table_of
-from mechwright_linkage.kinematics.period import course_of
 from mechwright_linkage.parameters import LinkageParams
+from mechwright_linkage.table import LinkageTable
 
 Drawn = tuple[dict[str, complex], Sequence[Sequence[complex]]]
 """Places of joints, and lines of links."""
@@ -25,14 +25,14 @@ class LinkagePoles(PolesPage):
 
     def file_names(self, params: LinkageParams) -> Sequence[str]:
         """One for each pair; none where the input slides, whose accelerations have another unit."""
-        if table_of(params).driver_slides:
+        if LinkageTable.of(params).driver_slides:
             return ()
         others = params.pole_pairs[1:]
         return (NAME, *(f"poles-{one}-{two}.html".lower() for one, two in others))
 
     def couplers(self, params: LinkageParams) -> Mapping[str, Coupler]:
         """Each pair."""
-        table = table_of(params)
+        table = LinkageTable.of(params)
         pairs = zip(self.file_names(params), params.pole_pairs, strict=False)
         return {name: _seen(table, *pair) for name, pair in pairs}
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 from mechwright import KinematicsError
+from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.planar.drawn import frame_of, in_frame, with_drawn_branches
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import (
@@ -17,7 +18,6 @@ from mechwright.mechanics.planar.machine import (
     Prismatic,
     Revolute,
 )
-from mechwright_linkage.linkage import Linkage
 from mechwright_linkage.sketch_tables import NAME, GearTable, SlideTable
 
 MOST_LINKS, MOST_POINTS = 16, 60

@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 from drawn_linkages import LINKAGES
 
-from mechwright_linkage.parts.layout import layout_of
-from mechwright_linkage.parts.sizes import Sizes
+from mechwright.mechanics.linkage.parts.layout import layout_of
+from mechwright.mechanics.linkage.parts.sizes import Sizes
 
 SAMPLES = 721
 """Positions at which shapes are compared: twice as many as the layers were found with, half of them new."""

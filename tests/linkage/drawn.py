@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.planar.machine import Drive, Machine, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.rigid import Turning
-from mechwright_linkage.linkage import Linkage
 
 
 @dataclass(frozen=True)

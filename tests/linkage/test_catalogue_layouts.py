@@ -6,16 +6,16 @@ import pytest
 from by_night import by_night
 
 from mechwright import GeometryError, Severity
+from mechwright.mechanics.linkage.kinematics.period import period_of
+from mechwright.mechanics.linkage.parts.frames import frames_of
+from mechwright.mechanics.linkage.parts.layout import layout_of
+from mechwright.mechanics.linkage.parts.parts import parts_of
+from mechwright.mechanics.linkage.parts.sizes import Sizes
 from mechwright_linkage.catalogue.entries import ENTRIES
 from mechwright_linkage.drafts import draft_of
 from mechwright_linkage.family import Linkages
-from mechwright_linkage.kinematics.linkage_table import LinkageTable
-from mechwright_linkage.kinematics.period import period_of
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.parts.frames import frames_of
-from mechwright_linkage.parts.layout import layout_of
-from mechwright_linkage.parts.parts import parts_of
-from mechwright_linkage.parts.sizes import Sizes
+from mechwright_linkage.table import LinkageTable
 
 PUBLISHED = {"stephenson-2", "hoecken", "jansen", "klann"}
 """Their dimensions are published, or a plate on three bars has no such angle: their transmission stays."""

@@ -10,12 +10,12 @@ from built import discs, fine, laid_out, placed, polygon, shapes
 from drawn_linkages import LINKAGES
 
 from mechwright import Channel, GeometryError, Motion
+from mechwright.mechanics.linkage.parts.frames import frames_of, joints_of
+from mechwright.mechanics.linkage.parts.layout import layout_of
+from mechwright.mechanics.linkage.parts.parts import parts_of
+from mechwright.mechanics.linkage.parts.sizes import Sizes
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright_cad.interference import interference
-from mechwright_linkage.parts.frames import frames_of, joints_of
-from mechwright_linkage.parts.layout import layout_of
-from mechwright_linkage.parts.parts import parts_of
-from mechwright_linkage.parts.sizes import Sizes
 
 every = pytest.mark.parametrize("name", list(LINKAGES))
 

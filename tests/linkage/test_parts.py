@@ -14,17 +14,17 @@ from drawn_linkages import LINKAGES
 from mechwright import GeometryError, MountingError
 from mechwright.contracts.joint import check_bodies
 from mechwright.contracts.mass import mass_moments
+from mechwright.mechanics.linkage.linkage import Linkage
+from mechwright.mechanics.linkage.parts.frames import frames_of, joints_of, placed_frames
+from mechwright.mechanics.linkage.parts.layout import layout_of
+from mechwright.mechanics.linkage.parts.masses import masses_of
+from mechwright.mechanics.linkage.parts.mounting import mounting_of
+from mechwright.mechanics.linkage.parts.parts import parts_of
+from mechwright.mechanics.linkage.parts.sizes import Sizes
 from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright_cad.solids.solid import part_solid
-from mechwright_linkage.linkage import Linkage
-from mechwright_linkage.parts.frames import frames_of, joints_of, placed_frames
-from mechwright_linkage.parts.layout import layout_of
-from mechwright_linkage.parts.masses import masses_of
-from mechwright_linkage.parts.mounting import mounting_of
-from mechwright_linkage.parts.parts import parts_of
-from mechwright_linkage.parts.sizes import Sizes
 
 every = pytest.mark.parametrize("name", list(LINKAGES))
 

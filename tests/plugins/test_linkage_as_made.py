@@ -9,16 +9,16 @@ from drawn_bars import four_bar
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
+from mechwright.mechanics.linkage.parts.parts import part_name
+from mechwright.mechanics.linkage.tolerance.as_made import links_as_made, pins_as_made
+from mechwright.mechanics.linkage.tolerance.made_features import MadePlates
+from mechwright.mechanics.linkage.tolerance.model import LinkageTolerances
+from mechwright.mechanics.linkage.tolerance.plates import Plates
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.parts.design import layout_of
-from mechwright_linkage.parts.parts import part_name
-from mechwright_linkage.tolerance.as_made import links_as_made, pins_as_made
-from mechwright_linkage.tolerance.made_features import MadePlates
-from mechwright_linkage.tolerance.model import LinkageTolerances
-from mechwright_linkage.tolerance.plates import Plates
+from mechwright_linkage.table import LinkageTable
 
 LINKAGES = Linkages()
 
@@ -50,7 +50,7 @@ def somewhere(name):
 
 
 def plates_of(params, **moves):
-    names = [part_name(plate) for plate in layout_of(params).outlines]
+    names = [part_name(plate) for plate in LinkageTable.of(params).layout.outlines]
     return {name: [Bored(moves.get(name, lambda z: z))] for name in names}
 
 
@@ -103,7 +103,7 @@ def test_plates_as_drawn_have_the_play_of_their_pins_alone(name):
 def test_a_plate_that_is_put_down_elsewhere_has_no_error(name, frame):
     """Each plate moved and turned as a whole: the distances of its bores are as drawn."""
     params = LinkageParams(linkage=name, frame=frame)
-    plates = Plates.of(params)
+    plates = Plates.of(LinkageTable.of(params))
     split = plates.layout.scheme.split
     turn, shift = cmath.exp(0.3j), 2 - 1j
     moves = {one: lambda z: turn * z + shift for one in plates_of(params)}
@@ -124,7 +124,7 @@ def test_a_plate_that_is_put_down_elsewhere_has_no_error(name, frame):
 def test_sizes_as_made_are_those_of_the_contributors():
     """A third bore that is off along and across the line of the first two."""
     params = LinkageParams(linkage="watt-1")
-    plates = Plates.of(params)
+    plates = Plates.of(LinkageTable.of(params))
     axes = plates.bores("coupler")
     a, b, c = (axis.places["coupler"] for axis in axes)
     along = (b - a) / abs(b - a)
@@ -149,9 +149,9 @@ def test_errors_as_made_are_those_of_the_machine_with_such_sizes():
     made = plates_of(params, coupler=somewhere("coupler"), link5=somewhere("link5"))
     from mechwright.mechanics.linkage.made_error import EXACT
 
-    plates = Plates.of(params)
+    plates = Plates.of(LinkageTable.of(params))
     links = links_as_made(MadePlates(plates, plates.layout, made))
-    model = LinkageTolerances(params, EXACT)
+    model = LinkageTolerances(LinkageTable.of(params), EXACT)
     off = [
         np.full((one.components, 1), links[one.name].off if one.name in links else 0.0)
         for one in model.contributors
@@ -163,7 +163,7 @@ def test_errors_as_made_are_those_of_the_machine_with_such_sizes():
 
 def test_a_pin_of_three_links_has_a_room_in_each_plate_that_turns_on_it():
     params = LinkageParams(linkage="jansen", bushing_wall=0.0)
-    plates = Plates.of(params)
+    plates = Plates.of(LinkageTable.of(params))
     made = plates_of(params) | {"c": [Bored(more=-0.01)]}
     rooms = {name: one.room for name, one in pins_as_made(MadePlates(plates, plates.layout, made)).items()}
     assert rooms["pin-b0-c"] == pytest.approx(0.01)
@@ -221,7 +221,7 @@ def shaper(**table):
 
 
 def shaped(params, corridor=0.001, **slots):
-    outlines = layout_of(params).outlines
+    outlines = LinkageTable.of(params).layout.outlines
     return {
         part_name(plate): [plate_with(outline, corridor, **slots.get(plate, {}))]
         for plate, outline in outlines.items()
@@ -246,8 +246,14 @@ def test_a_slot_that_is_cut_wider_gives_its_roller_more_room():
     wide = {one.name: one for one in LINKAGES.as_made(params, shaped(params, lever={"wider": 0.04})).figures}
     usual = {one.name: one for one in LINKAGES.as_made(params, shaped(params)).figures}
     assert wide["output.error"].made > usual["output.error"].made
-    found = MadePlates(Plates.of(params), layout_of(params), shaped(params, lever={"wider": 0.04})).slots()
-    assert found["lever-slide"][1].least == pytest.approx(layout_of(params).sizes.slot_width + 0.04, abs=1e-4)
+    found = MadePlates(
+        Plates.of(LinkageTable.of(params)),
+        LinkageTable.of(params).layout,
+        shaped(params, lever={"wider": 0.04}),
+    ).slots()
+    assert found["lever-slide"][1].least == pytest.approx(
+        LinkageTable.of(params).layout.sizes.slot_width + 0.04, abs=1e-4
+    )
 
 
 def test_a_bump_on_the_wall_of_a_slot_takes_the_room_of_its_roller():
@@ -257,7 +263,7 @@ def test_a_bump_on_the_wall_of_a_slot_takes_the_room_of_its_roller():
     (section,) = part.sections
     rings, bumps = [], []
     for one in section.rings:
-        slot = layout_of(params).slots[0]
+        slot = LinkageTable.of(params).layout.slots[0]
         z = one.points @ np.array([1, 1j])
         seen = (z - (slot.first + slot.last) / 2) * abs(slot.last - slot.first) / (slot.last - slot.first)
         bump = (np.abs(seen.real) < 3) & (np.abs(seen.imag - slot.width / 2) < 0.01) & (one.area < 0)
@@ -271,7 +277,7 @@ def test_a_bump_on_the_wall_of_a_slot_takes_the_room_of_its_roller():
 
 def test_a_slot_that_is_cut_aside_offsets_its_line():
     params = shaper()
-    plates = Plates.of(params)
+    plates = Plates.of(LinkageTable.of(params))
     found = MadePlates(plates, plates.layout, shaped(params, lever={"across": 0.02}))
     slot, made, _ = found.slots()["lever-slide"]
     way = (slot.last - slot.first) / abs(slot.last - slot.first)
@@ -316,7 +322,7 @@ def test_without_a_plate_or_a_bore_nothing_is_said():
     whole = shaper()
     assert (
         LINKAGES.as_made(
-            whole, shaped(whole) | {"lever": [plate_with(layout_of(whole).outlines["crank"])]}
+            whole, shaped(whole) | {"lever": [plate_with(LinkageTable.of(whole).layout.outlines["crank"])]}
         ).figures
         == ()
     )

@@ -9,22 +9,24 @@ from drawn_bars import four_bar, slider_crank
 from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.materials import material
+from mechwright.mechanics.linkage.kinematics.forces import period_forces
+from mechwright.mechanics.linkage.kinematics.pin_loads import PinLoads, PlateLoad, pin_loads
+from mechwright.mechanics.linkage.parts.pins import Pin
+from mechwright.mechanics.linkage.rules import strength
 from mechwright.mechanics.strength.allowed import PIN_BENDING
 from mechwright.mechanics.strength.hertz import contact_modulus
 from mechwright_four_bar import strength_checks as four
 from mechwright_four_bar.params import FourBarParams
 from mechwright_linkage.family import Linkages
-from mechwright_linkage.kinematics.forces import period_forces
-from mechwright_linkage.kinematics.linkage_table import LinkageTable, table_of
-from mechwright_linkage.kinematics.pin_loads import PinLoads, PlateLoad, pin_loads
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.parts.design import layout_of, masses_of
-from mechwright_linkage.parts.pins import Pin
-from mechwright_linkage.rules import strength
+from mechwright_linkage.table import LinkageTable
 from mechwright_slider_crank import strength_checks as slider
 from mechwright_slider_crank.params import SliderCrankParams
 
 CODES = {"linkage.pin", "linkage.eye", "linkage.bushing", "linkage.guide", "linkage.bearing-pressure"}
+
+
+PIN, EYE, *_ = strength.strength_rules(LinkageTable).every
 
 
 def values(stresses):
@@ -46,7 +48,7 @@ def found(params):
 def test_a_drawn_four_bar_bears_what_its_family_says(table):
     bar = FourBarParams(**table)
     params = four_bar(bar)
-    m = table_of(params)
+    m = LinkageTable.of(params)
     assert values(strength.pin_stresses(m)) == pytest.approx(values(four.pins(bar)), rel=1e-6)
     assert values(strength.bushings(m)) == pytest.approx(values(four.bushes(bar)), rel=1e-6)
     bores = [one.value for one in strength.eyes(m) if " in " not in one.what]
@@ -57,11 +59,12 @@ def test_a_drawn_four_bar_bears_what_its_family_says(table):
         for one in strength.eyes(m)
         if " in " in one.what
     }
-    (shaft,) = (pair for pair in strength.pairs_of(params) if pair.name == "shaft A0")
+    (shaft,) = (pair for pair in strength.pairs_of(LinkageTable.of(params)) if pair.name == "shaft A0")
     assert held["shaft A0 in crank"] == pytest.approx(shaft.greatest / (2 * params.rim * params.thickness))
     assert len(held) == 4
     widths, limits = (
-        {(p.width, p.bore, p.rim) for p in pairs} for pairs in (strength.pairs_of(params), four.pairs_of(bar))
+        {(p.width, p.bore, p.rim) for p in pairs}
+        for pairs in (strength.pairs_of(LinkageTable.of(params)), four.pairs_of(bar))
     )
     assert widths == limits
     pressure = max(pair.greatest / (pair.pin * pair.width) for pair in four.pairs_of(bar))
@@ -75,7 +78,7 @@ def slow_slider(force, **table):
 
 def test_a_slow_slider_crank_carries_its_load():
     params, drawn = slow_slider(-500.0)
-    pairs = {pair.name: pair for pair in strength.pairs_of(drawn)}
+    pairs = {pair.name: pair for pair in strength.pairs_of(LinkageTable.of(drawn))}
     wanted = {pair.name: pair.greatest for pair in slider.pairs_of(params)}
     for mine, theirs in (("shaft A0", "the shaft"), ("pin A", "the crank pin"), ("pin B", "the wrist pin")):
         assert pairs[mine].greatest == pytest.approx(wanted[theirs], rel=1e-4)
@@ -96,8 +99,8 @@ def test_guide_pins_share_the_slides_force_and_turn_its_moment_into_a_pair():
             ),
         }
     )
-    one, two = (pin for pin in pin_loads(drawn) if pin.pin.number)
-    period, _ = period_forces(drawn)
+    one, two = (pin for pin in pin_loads(LinkageTable.of(drawn)) if pin.pin.number)
+    period, _ = period_forces(LinkageTable.of(drawn))
     rod = period.solution.bodies["rod"].turning.theta
     normal = np.abs(force * np.tan(rod))
     sums = np.abs(one.loads[0].force + two.loads[0].force)
@@ -106,9 +109,9 @@ def test_guide_pins_share_the_slides_force_and_turn_its_moment_into_a_pair():
     assert np.abs(pair) == pytest.approx(np.full(pair.shape, abs(force) * h / length), abs=1e-3)
     # The load pushes the upper end back and so the front up: the slot presses the front pin down.
     assert pair.mean() > 0
-    slides = table_of(drawn).solved(period.drive).bodies["slider"].origin.velocity
+    slides = LinkageTable.of(drawn).solved(period.drive).bodies["slider"].origin.velocity
     assert one.loads[0].turning == pytest.approx(
-        np.abs(slides) / (layout_of(drawn).sizes.roller / 2), abs=1e-12
+        np.abs(slides) / (LinkageTable.of(drawn).layout.sizes.roller / 2), abs=1e-12
     )
 
 
@@ -153,8 +156,8 @@ def test_a_pin_in_two_plates_is_bent_as_if_the_nearer_one_had_the_load():
 def test_forces_of_the_pins_move_every_link(name):
     """Newton's law of each link: what its pins get from it, it gets from them, and nothing else moves it."""
     params = LinkageParams(linkage=name, speed=200.0)
-    pins, layout = pin_loads(params), layout_of(params)
-    period, masses = period_forces(params)[0], masses_of(params)
+    pins, layout = pin_loads(LinkageTable.of(params)), LinkageTable.of(params).layout
+    period, masses = period_forces(LinkageTable.of(params))[0], LinkageTable.of(params).masses
     for link in layout.linkage.machine.links:
         plates = {plate for plate in layout.outlines if layout.link(plate) == link}
         if not plates:
@@ -176,7 +179,7 @@ def test_forces_of_the_pins_move_every_link(name):
 
 
 def test_slots_and_pins_grow_with_the_load_by_their_laws():
-    one, two = (table_of(slow_slider(force)[1]) for force in (-300.0, -600.0))
+    one, two = (LinkageTable.of(slow_slider(force)[1]) for force in (-300.0, -600.0))
     assert values(strength.pin_stresses(two)) == pytest.approx(
         [2 * v for v in values(strength.pin_stresses(one))], rel=1e-4
     )
@@ -187,15 +190,15 @@ def test_slots_and_pins_grow_with_the_load_by_their_laws():
 
 def test_the_wall_of_a_slot_has_the_hertz_pressure_of_its_roller():
     _, params = slow_slider(-500.0)
-    guide = next(pin for pin in pin_loads(params) if pin.pin.number)
+    guide = next(pin for pin in pin_loads(LinkageTable.of(params)) if pin.pin.number)
     force, plate = np.abs(guide.loads[0].force).max(), material("aluminium")
     modulus = contact_modulus(plate, material("brass"))
     wanted = math.sqrt(force * modulus / (math.pi * params.ground_thickness * 4.0))
-    (wall, *_) = [one for one in strength.guides(table_of(params)) if "slot" in one.what]
+    (wall, *_) = [one for one in strength.guides(LinkageTable.of(params)) if "slot" in one.what]
     assert wall.value == pytest.approx(wanted, rel=1e-9)
     assert wall.breaks > wall.limit
     bare = params.model_copy(update={"bushing_wall": 0.0})
-    (wall, *_) = [one for one in strength.guides(table_of(bare)) if "slot" in one.what]
+    (wall, *_) = [one for one in strength.guides(LinkageTable.of(bare)) if "slot" in one.what]
     modulus = contact_modulus(plate, material("steel"))
     assert wall.value == pytest.approx(math.sqrt(force * modulus / (math.pi * 8.0 * 3.0)), rel=1e-3)
 
@@ -241,7 +244,7 @@ def test_what_a_linkage_of_the_catalogue_bears_is_noted():
     (forces,) = [
         one for one in Linkages().check(LinkageParams(linkage="klann")) if one.code == "linkage.forces"
     ]
-    drive = np.abs(period_forces(LinkageParams(linkage="klann"))[1].drive).max() / 1000
+    drive = np.abs(period_forces(LinkageTable.of(LinkageParams(linkage="klann")))[1].drive).max() / 1000
     assert (forces.value, forces.unit) == (pytest.approx(drive), "N*m")
 
 
@@ -253,14 +256,16 @@ def test_of_many_designs_those_are_forbidden_whose_plates_break():
     table = LinkageTable(with_columns(base, {"rim": rims}), 3)
     wanted = []
     for rim in rims.ravel().tolist():
-        m = table_of(base.model_copy(update={"rim": rim}))
-        wanted.append(any(one.severity is Severity.ERROR for one in strength.EYE.findings(m, quick=True)))
-    assert strength.EYE.forbids(table, Stage.PARTS).tolist() == wanted
+        m = LinkageTable.of(base.model_copy(update={"rim": rim}))
+        wanted.append(any(one.severity is Severity.ERROR for one in EYE.findings(m, quick=True)))
+    assert EYE.forbids(table, Stage.PARTS).tolist() == wanted
     assert set(wanted) == {True, False}
-    assert strength.EYE.forbids(table, Stage.MOTION) is None
-    assert strength.PIN.forbids(table, Stage.PARTS) is None
+    assert EYE.forbids(table, Stage.MOTION) is None
+    assert PIN.forbids(table, Stage.PARTS) is None
 
 
 def test_the_limit_of_bending_is_that_of_hardened_pins():
-    (bent, *_) = [one for one in strength.pin_stresses(table_of(LinkageParams())) if "bent" in one.what]
+    (bent, *_) = [
+        one for one in strength.pin_stresses(LinkageTable.of(LinkageParams())) if "bent" in one.what
+    ]
     assert bent.limit == PIN_BENDING

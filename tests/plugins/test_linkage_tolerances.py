@@ -8,6 +8,7 @@ from drawn_bars import four_bar, slider_crank
 from mechwright import Tolerances, Turning
 from mechwright.contracts.tolerance_settings import ToleranceSettings
 from mechwright.mechanics.linkage.made_error import EXACT
+from mechwright.mechanics.linkage.tolerance.model import LinkageTolerances
 from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
@@ -16,9 +17,8 @@ from mechwright.testing.tolerances import tolerance_faults
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
-from mechwright_linkage.kinematics.linkage_table import table_of
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.tolerance.model import LinkageTolerances
+from mechwright_linkage.table import LinkageTable
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.tolerances import SliderCrankTolerances
 
@@ -45,7 +45,7 @@ def same(found, wanted):
 @pytest.mark.parametrize("table", BARS)
 def test_a_drawn_four_bar_has_the_sensitivities_of_its_family(table):
     bar = FourBarParams(**table)
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(four_bar(bar), INPUT)
+    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
     zones = {one.name: one for one in model.contributors}
     for output, own in zip(known.outputs, model.outputs, strict=True):
         assert (own.unit, own.components) == (output.unit, output.components)
@@ -75,7 +75,7 @@ def test_worst_case_and_sigma_of_a_drawn_four_bar_are_those_of_its_family(contac
 
 def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
     bar = FourBarParams(**BARS[0])
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(four_bar(bar), INPUT)
+    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
     rng = np.random.default_rng(7)
     sizes = {one.name: rng.uniform(-0.3, 0.3, (one.components, 9)) for one in known.contributors}
     sizes["input"] *= 0.1
@@ -92,7 +92,10 @@ def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
 @pytest.mark.parametrize("sizes", [{}, {"offset": -20.0, "slide_direction": 30.0, "assembly": "behind"}])
 def test_a_drawn_slider_crank_has_the_sensitivities_of_its_family(sizes):
     params = SliderCrankParams(coupler_x=40, coupler_y=15, **sizes)
-    known, model = SliderCrankTolerances(params, INPUT), LinkageTolerances(slider_crank(params), INPUT)
+    known, model = (
+        SliderCrankTolerances(params, INPUT),
+        LinkageTolerances(LinkageTable.of(slider_crank(params)), INPUT),
+    )
     named = {
         "crank": "crank", "rod": "rod", "offset": "slide-1", "shaft": "shaft", "crank-pin": "pin-a",
         "wrist-pin": "pin-b", "point-along": "p-along", "point-across": "p-across", "input": "input",
@@ -116,12 +119,15 @@ CLOSED = [
 
 @pytest.mark.parametrize("name", CLOSED)
 def test_sensitivities_are_slopes_of_the_exact_errors(name):
-    assert tolerance_faults(LinkageTolerances(LinkageParams(linkage=name), INPUT)) == []
+    assert tolerance_faults(LinkageTolerances(LinkageTable.of(LinkageParams(linkage=name)), INPUT)) == []
 
 
 @by_night
 def test_so_they_are_of_links_that_are_followed():
-    assert tolerance_faults(LinkageTolerances(LinkageParams(linkage="stephenson-2"), INPUT)) == []
+    assert (
+        tolerance_faults(LinkageTolerances(LinkageTable.of(LinkageParams(linkage="stephenson-2")), INPUT))
+        == []
+    )
 
 
 @pytest.mark.parametrize(
@@ -130,11 +136,11 @@ def test_so_they_are_of_links_that_are_followed():
 def test_sensitivities_of_a_leg_are_differences_of_its_motion(size, contributor):
     """The catalogue draws the linkage anew from other dimensions: nothing of the model is used."""
     params, step = LinkageParams(linkage="jansen"), 1e-4
-    model = LinkageTolerances(params, EXACT)
+    model = LinkageTolerances(LinkageTable.of(params), EXACT)
 
     def moved(off):
         leg = params.jansen.model_copy(update={size: getattr(params.jansen, size) + off})
-        table = table_of(params.model_copy(update={"jansen": leg}))
+        table = LinkageTable.of(params.model_copy(update={"jansen": leg}))
         link, point = table.linkage.traces["F"]
         body = table.solved(Turning.of(AT)).bodies[link]
         return body.point(table.linkage.points[link][point], 0).position
@@ -146,7 +152,7 @@ def test_sensitivities_of_a_leg_are_differences_of_its_motion(size, contributor)
 
 def test_links_that_are_solved_together_have_the_errors_of_the_closed_form():
     params = LinkageParams(linkage="stephenson-3")
-    model, other = (LinkageTolerances(params, EXACT) for _ in range(2))
+    model, other = (LinkageTolerances(LinkageTable.of(params), EXACT) for _ in range(2))
     other.closed_form = False
     rng = np.random.default_rng(3)
     off = [rng.uniform(-0.05, 0.05, (one.components, AT.size)) for one in model.contributors]
@@ -157,9 +163,12 @@ def test_links_that_are_solved_together_have_the_errors_of_the_closed_form():
 
 
 def test_a_pin_of_three_links_has_a_play_for_each_that_turns_on_it():
-    names = {one.name for one in LinkageTolerances(LinkageParams(linkage="jansen"), EXACT).contributors}
+    names = {
+        one.name
+        for one in LinkageTolerances(LinkageTable.of(LinkageParams(linkage="jansen")), EXACT).contributors
+    }
     assert {"pin-m-j", "pin-m-k", "pin-b0-shoulder", "pin-b0-c", "pin-z-k", "pin-z-foot"} <= names
-    model = LinkageTolerances(LinkageParams(linkage="jansen"), EXACT)
+    model = LinkageTolerances(LinkageTable.of(LinkageParams(linkage="jansen")), EXACT)
     found = rows(model, "point F", AT)
     # A pin displaced in a bar of two pins counts as much as the bar's length, along it.
     along = np.sqrt(np.einsum("c...,c...->...", found["j"][:, 0], found["j"][:, 0]))
@@ -169,8 +178,8 @@ def test_a_pin_of_three_links_has_a_play_for_each_that_turns_on_it():
 
 def test_a_third_pin_of_a_plate_has_two_coordinates():
     params = LinkageParams(linkage="watt-1")
-    found = {one.name: one for one in LinkageTolerances(params, EXACT).contributors}
-    points = table_of(params).linkage.points["coupler"]
+    found = {one.name: one for one in LinkageTolerances(LinkageTable.of(params), EXACT).contributors}
+    points = LinkageTable.of(params).linkage.points["coupler"]
     a, b, c = (complex(points[name]) for name in ("A", "B", "C"))
     seen = (c - a) / (b - a) * abs(b - a)
     assert found["coupler"].nominal == pytest.approx(abs(b - a))
@@ -194,7 +203,7 @@ GEARED = {
 
 
 def test_geared_links_have_an_analysis_that_names_what_it_lacks():
-    model = LinkageTolerances(LinkageParams.model_validate(GEARED), INPUT)
+    model = LinkageTolerances(LinkageTable.of(LinkageParams.model_validate(GEARED)), INPUT)
     assert tolerance_faults(model) == []
     assert "teeth" in model.told[0]
     assert {"crank", "wheel", "left", "right", "ground", "pin-c", "shaft"} <= {
@@ -203,7 +212,7 @@ def test_geared_links_have_an_analysis_that_names_what_it_lacks():
 
 
 def test_near_a_dead_point_there_is_no_first_order():
-    model = LinkageTolerances(LinkageParams(linkage="watt-line"), EXACT)
+    model = LinkageTolerances(LinkageTable.of(LinkageParams(linkage="watt-line")), EXACT)
     row = model.sensitivities(model.outputs[0].name, model.positions)[0]
     gone = np.isnan(row[0, 0])
     assert gone[[0, -1]].all()
@@ -218,7 +227,7 @@ def test_a_slide_that_drives_counts_in_mm():
         "links": {"ground": ["C"], "ram": ["A"], "rod": ["A", "B"], "lever": ["C", "B"]},
         "slides": [{"block": "ram", "point": "A"}],
     }  # fmt: skip
-    model = LinkageTolerances(LinkageParams.model_validate(table), INPUT)
+    model = LinkageTolerances(LinkageTable.of(LinkageParams.model_validate(table)), INPUT)
     assert (model.input_unit, model.input_name) == ("mm", "stroke")
     assert (model.positions.min(), model.positions.max()) == (-10, 10)
     assert "input" not in {one.name for one in model.contributors}
@@ -229,7 +238,7 @@ def test_a_slide_that_drives_counts_in_mm():
 
 
 def test_both_ground_plates_have_half_of_what_is_between_them():
-    one, two = (LinkageTolerances(four_bar(FourBarParams(**BARS[n])), EXACT) for n in (0, 1))
+    one, two = (LinkageTolerances(LinkageTable.of(four_bar(FourBarParams(**BARS[n]))), EXACT) for n in (0, 1))
     names = {model: {c.name for c in model.contributors} for model in (one, two)}
     assert names[two] - names[one] == {"ground-2"}
     halves = rows(two, "follower angle", AT)
@@ -279,7 +288,8 @@ def test_guide_pins_tilt_their_block():
     points = {"Q1": type(b)(x=b.x - 15, y=b.y), "Q2": type(b)(x=b.x + 15, y=b.y)}
     links = {**params.links, "slider": ("B", "Q1", "Q2")}
     model = LinkageTolerances(
-        params.model_copy(update={"points": {**params.points, **points}, "links": links}), EXACT
+        LinkageTable.of(params.model_copy(update={"points": {**params.points, **points}, "links": links})),
+        EXACT,
     )
     for point, gap, other in (("Q1", 1, 2), ("Q2", 2, 1)):
         found = rows(model, f"point {point}", AT)
@@ -292,7 +302,9 @@ def test_a_block_that_tilts_about_a_point_off_its_origin_has_sensitivities_that_
     b = params.points["B"]
     points = {**params.points, "Q": type(b)(x=b.x + 5, y=b.y + 40)}
     links = {**params.links, "slider": ("Q", "B")}
-    model = LinkageTolerances(params.model_copy(update={"points": points, "links": links}), INPUT)
+    model = LinkageTolerances(
+        LinkageTable.of(params.model_copy(update={"points": points, "links": links})), INPUT
+    )
     assert model.outputs[0].name == "slider position"
     assert tolerance_faults(model) == []
 
@@ -300,11 +312,11 @@ def test_a_block_that_tilts_about_a_point_off_its_origin_has_sensitivities_that_
 def test_a_traced_pin_moves_with_the_length_of_its_link():
     """D of the inversor is where two circles meet: dD · (D - A) = |D - A|, dD · (D - C) = 0."""
     params = LinkageParams(linkage="peaucellier")
-    model = LinkageTolerances(params, EXACT)
+    model = LinkageTolerances(LinkageTable.of(params), EXACT)
     at = model.positions[20:-20:20]
     found = rows(model, "point D", at)["ad"][:, 0]
-    bodies = table_of(params).solved(Turning.of(at)).bodies
-    points = table_of(params).linkage.points
+    bodies = LinkageTable.of(params).solved(Turning.of(at)).bodies
+    points = LinkageTable.of(params).linkage.points
     a, c, d = (
         bodies[link].point(points[link][name], 0).position
         for link, name in (("AD", "A"), ("CD", "C"), ("AD", "D"))
@@ -317,7 +329,7 @@ def test_a_traced_pin_moves_with_the_length_of_its_link():
 
 
 def test_whole_turns_count_alike():
-    model = LinkageTolerances(LinkageParams(linkage="watt-1"), EXACT)
+    model = LinkageTolerances(LinkageTable.of(LinkageParams(linkage="watt-1")), EXACT)
     for closed_form in (True, False):
         model.closed_form = closed_form
         model._kept = None
@@ -356,7 +368,12 @@ def test_changes_of_a_slide_on_a_moving_guide_are_differences_of_the_motion():
 
 
 def test_a_link_without_bores_is_measured_from_its_first_slide():
-    found = [one.name for one in LinkageTolerances(LinkageParams(linkage="scotch-yoke"), EXACT).contributors]
+    found = [
+        one.name
+        for one in LinkageTolerances(
+            LinkageTable.of(LinkageParams(linkage="scotch-yoke")), EXACT
+        ).contributors
+    ]
     assert found == [
         "crank", "guide-yoke", "guide", "guide-2", "shaft", "slot-play", "guide-play-1", "guide-play-2",
     ]  # fmt: skip
@@ -366,10 +383,10 @@ def test_pins_of_a_bar_without_load_are_pressed_along_it():
     asked = Tolerances(ToleranceSettings(contact="loaded"))
     found = {
         one.name: one.directions
-        for one in LinkageTolerances(LinkageParams(linkage="watt-1"), asked).contributors
+        for one in LinkageTolerances(LinkageTable.of(LinkageParams(linkage="watt-1")), asked).contributors
     }
     # link6 is a bar of two pins; coupler and rocker have three, link5 is the output.
     assert {name for name, count in found.items() if count == 1} == {"pin-d", "pin-e"}
     load = {"link": "link6", "force_x": 1.0}
     loaded = LinkageParams.model_validate({"linkage": "watt-1", "loads": [load]})
-    assert 1 not in {one.directions for one in LinkageTolerances(loaded, asked).contributors}
+    assert 1 not in {one.directions for one in LinkageTolerances(LinkageTable.of(loaded), asked).contributors}

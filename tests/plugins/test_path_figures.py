@@ -9,11 +9,8 @@ from hypothesis import strategies as st
 from reference_linkages import FIGURES, case
 from test_linkage_catalogue import WIPER
 
-from mechwright.mechanics.planar.input_range import ranges
-from mechwright.mechanics.planar.rigid import PointMotion
-from mechwright_linkage.catalogue.entries import ENTRIES
-from mechwright_linkage.kinematics.curves import Curve
-from mechwright_linkage.kinematics.path_figures import (
+from mechwright.mechanics.linkage.kinematics.curves import Curve
+from mechwright.mechanics.linkage.kinematics.path_figures import (
     Path,
     extremes,
     gait,
@@ -26,6 +23,9 @@ from mechwright_linkage.kinematics.path_figures import (
     straightness,
     stroke,
 )
+from mechwright.mechanics.planar.input_range import ranges
+from mechwright.mechanics.planar.rigid import PointMotion
+from mechwright_linkage.catalogue.entries import ENTRIES
 
 TURN = np.linspace(0.0, tau, 721)
 EXACT = 1e-9

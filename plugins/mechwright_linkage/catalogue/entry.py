@@ -9,10 +9,10 @@ import numpy as np
 from pydantic import Field
 
 from mechwright import Parameters
+from mechwright.mechanics.linkage.linkage import Linkage, Place
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Drive, Joint, Machine, Pose, Prismatic, Revolute
 from mechwright.units import Degrees, Millimetres
-from mechwright_linkage.linkage import Linkage, Place
 
 Length = Annotated[Millimetres, Field(ge=0.5, le=5000)]
 """A distance of two joints."""
@@ -78,8 +78,8 @@ class Entry(Parameters):
         """Give the input."""
         return Drive("crank")
 
-    def linkage(self) -> Linkage:
-        """Give the linkage with these dimensions.
+    def linkage(self, output: str = "") -> Linkage:
+        """Give the linkage with these dimensions, for the motion of ``output``; left out, of its own.
 
         Raises
         ------
@@ -89,7 +89,7 @@ class Entry(Parameters):
         machine = Machine(
             tuple(self.joints()), (self.drive(),), self.branches(), self.drawn(), (radians(self.start),)
         )
-        return Linkage(machine, self.points(), self.output, self.traces)
+        return Linkage(machine, self.points(), output or self.output, self.traces)
 
 
 def pins(points: Points, **links: Sequence[str]) -> list[Joint]:

@@ -6,24 +6,23 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Finding, KinematicsError, Severity, Stage
+from mechwright import Finding, KinematicsError, Severity, Stage, refuse
 from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
-from mechwright.mechanics.planar import swing
-from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
-from mechwright.tolerances import falls_short
-from mechwright_linkage.kinematics.figures import least_transmission, worst_joint
-from mechwright_linkage.kinematics.linkage_table import LinkageTable
-from mechwright_linkage.kinematics.period import (
+from mechwright.mechanics.linkage.kinematics.figures import least_transmission, worst_joint
+from mechwright.mechanics.linkage.kinematics.period import (
     course_of,
     ends_of,
     interval_of,
     is_lever,
     range_of,
-    requested,
     sure_to_turn,
     turns_fully,
 )
+from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
+from mechwright.tolerances import falls_short
+from mechwright_linkage.table import LinkageTable
 
 GOOD_TRANSMISSION = 30.0
 """Degrees below which a link mainly presses the next one into its bearings."""
@@ -39,7 +38,7 @@ def _doubtful(table: LinkageTable) -> Any:
 
 def _joints(table: LinkageTable) -> Iterator[Finding]:
     """Whether links and joints make a machine of one degree of freedom."""
-    key = table.given.table_name
+    key = table.key
     try:
         table.order  # noqa: B018 - it raises
     except KinematicsError as error:
@@ -78,7 +77,7 @@ def _reach(table: LinkageTable) -> Iterator[Finding]:
     if not range_of(table).intervals:
         yield Finding.error(
             "linkage.closure",
-            table.given.table_name,
+            table.key,
             "the links cannot be put together at any position of the input",
             remedy="make a link longer, or put its ends nearer to each other",
             stage=Stage.MOTION,
@@ -89,11 +88,11 @@ def _reach(table: LinkageTable) -> Iterator[Finding]:
 
 def _out_of_reach(table: LinkageTable) -> Finding:
     ways = [(one.low, one.high) for one in range_of(table).intervals]
-    asked = requested(table)
+    asked = table.requested
     if asked is None:
         return Finding.error(
             "linkage.closure",
-            table.given.table_name,
+            table.key,
             f"the links are within {math.degrees(TURN_BACK):g} degree of a dead point wherever the input "
             "stands",
             remedy="make a link longer, or put its ends nearer to each other",
@@ -118,7 +117,7 @@ def _out_of_reach(table: LinkageTable) -> Finding:
 
 def _rotation(table: LinkageTable) -> Iterator[Finding]:
     """A driver that cannot turn fully, where the design does not say between which angles it swings."""
-    if table.driver_slides or requested(table) is not None or turns_fully(table):
+    if table.driver_slides or table.requested is not None or turns_fully(table):
         return
     course, way = course_of(table), interval_of(table)
     low, high = sorted(math.degrees(end) for end in (course.start, course.start + course.travel))
@@ -162,7 +161,7 @@ def _degrees(table: LinkageTable) -> Any:
 
 TRANSMISSION = Rule(
     "linkage.transmission",
-    lambda f: f.m.given.table_name,
+    lambda f: f.m.key,
     lambda f: f"the transmission angle at {worst_joint(f.m)} falls to {f.value:.3g} degrees",
     value=_degrees,
     limit=LEAST_TRANSMISSION,
@@ -193,3 +192,9 @@ TRANSMISSIONS = all_of(
     LOW_TRANSMISSION,
 )
 """How well the input drives the rest."""
+
+
+def moving(table: LinkageTable) -> LinkageTable:
+    """The linkage of a design; raises KinematicsError where these rules find an error of the motion."""
+    refuse(MOTION.findings(table), Stage.MOTION, KinematicsError)
+    return table

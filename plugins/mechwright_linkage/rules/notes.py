@@ -5,10 +5,10 @@ import math
 from mechwright import Stage
 from mechwright.contracts.design_rule import Note
 from mechwright.contracts.rule_list import all_of
-from mechwright_linkage.kinematics.figures import figures_of, least_transmission
-from mechwright_linkage.kinematics.linkage_table import LinkageTable
-from mechwright_linkage.kinematics.period import course_of
-from mechwright_linkage.rules.part_rules import PART_NOTES
+from mechwright.mechanics.linkage.kinematics.figures import figures_of, least_transmission
+from mechwright.mechanics.linkage.kinematics.period import course_of
+from mechwright.mechanics.linkage.rules.part_rules import part_notes
+from mechwright_linkage.table import LinkageTable
 
 
 def _motion_message(m: LinkageTable) -> str:
@@ -16,7 +16,7 @@ def _motion_message(m: LinkageTable) -> str:
     travel = abs(course.travel) if m.driver_slides else math.degrees(abs(course.travel))
     unit = "mm" if m.driver_slides else "degrees"
     way = f"goes {travel:.4g} {unit} there and back" if course.rocks else "turns fully"
-    output = m.given.output_link
+    output = m.output
     if "output_stroke" in figures:
         moves = f"the {output} has a stroke of {float(figures['output_stroke']()):.4f} mm"
     else:
@@ -31,5 +31,5 @@ def _motion_message(m: LinkageTable) -> str:
 
 NOTES = all_of(
     Note[LinkageTable]("linkage.motion", _motion_message, stage=Stage.MOTION),
-    PART_NOTES,
+    part_notes(LinkageTable.code),
 )

@@ -9,9 +9,8 @@ from pydantic import ValidationError
 from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.contracts.synthesis import Candidate, Rejected
+from mechwright.mechanics.linkage.kinematics.figures import least_transmission
 from mechwright.mechanics.planar.machine import Prismatic, Revolute
-from mechwright_linkage.kinematics.figures import least_transmission
-from mechwright_linkage.kinematics.linkage_table import LinkageTable
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.requirements import (
     DwellRequirement,
@@ -22,6 +21,7 @@ from mechwright_linkage.requirements import (
 from mechwright_linkage.rules.rule_table import RULES
 from mechwright_linkage.synthesis.search import Found, search
 from mechwright_linkage.synthesis.tasks import Dwell, Function, Leading
+from mechwright_linkage.table import LinkageTable
 
 Designed = tuple[LinkageParams, Scalar]
 """A design, and by how much it misses the requirement."""

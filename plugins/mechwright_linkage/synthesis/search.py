@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, Progress
+from mechwright.mechanics.linkage.kinematics.channels import transmission_angle
+from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright.mechanics.planar.positions import Solution
 from mechwright_linkage.catalogue.entries import ENTRIES
-from mechwright_linkage.kinematics.channels import transmission_angle
-from mechwright_linkage.linkage import Linkage
 from mechwright_linkage.requirements import LinkageSearch
 from mechwright_linkage.synthesis.unknowns import Unknowns, joint_distances
 

@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 from mechwright import Array
+from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 from mechwright.mechanics.planar.positions import Solution
-from mechwright_linkage.linkage import Linkage
 from mechwright_linkage.requirements import DwellRequirement, FunctionRequirement, PathRequirement
 from mechwright_linkage.synthesis.search import TURN, Task
 from mechwright_linkage.synthesis.unknowns import Unknowns

@@ -10,12 +10,12 @@ from functools import cached_property
 import numpy as np
 
 from mechwright import Array
+from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.planar.machine import Revolute
 from mechwright.mechanics.planar.positions import Solution, solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright.units import Unit
 from mechwright_linkage.catalogue.entry import Entry
-from mechwright_linkage.linkage import Linkage
 
 SPREAD, ASIDE = 0.45, 0.5
 """Of random linkages: standard deviation of the logarithms of lengths, of coordinates and angles."""
