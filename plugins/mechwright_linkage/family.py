@@ -1,6 +1,6 @@
 """The family ``linkage``."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
@@ -10,6 +10,7 @@ from mechwright_linkage.requirements import DwellRequirement, FunctionRequiremen
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -151,3 +152,13 @@ class Linkages(Family[LinkageParams]):
         from mechwright.mechanics.linkage.kinematics.motion import channels_over
 
         return channels_over(cast("LinkageTable", table), samples)
+
+    def extremes(
+        self, table: "DesignTable[LinkageParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Those of compiled motion, and of the channels of blocks for what that does not have."""
+        from mechwright.mechanics.linkage.kinematics.channel_extremes import compiled_extremes
+
+        found = compiled_extremes(cast("LinkageTable", table), names)
+        rest = [name for name in names if name not in found]
+        return {**found, **super().extremes(table, rest)} if rest else found

@@ -12,6 +12,7 @@ from mechwright.errors import DesignError
 if TYPE_CHECKING:
     import shapely
 
+    from mechwright.arrays import Array
     from mechwright.contracts.answers import Evaluated, Findings, Parts, WholeMotion
     from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.design_table import DesignTable
@@ -46,7 +47,7 @@ class Family(Plugin, Generic[P]):
     steady = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
     derived = frozenset({"check", "judge", "evaluate"})
-    inner = frozenset({"rules", "table", "remedy", "figures", "channels", "masses"})
+    inner = frozenset({"rules", "table", "remedy", "figures", "channels", "extremes", "masses"})
     piecewise = frozenset({"stretches"})
 
     title: ClassVar[str]
@@ -325,6 +326,18 @@ class Family(Plugin, Generic[P]):
     def channels(self, table: "DesignTable[P]", samples: int) -> "Mapping[str, Channel]":  # noqa: ARG002
         """The channels (n, samples) of the motions of designs, whose extremes are columns of a study."""
         return {}
+
+    def extremes(
+        self, table: "DesignTable[P]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Least and greatest values (n,) of those channels that designs have, and their unit.
+
+        Names are those of channels. The default takes them from :meth:`channels`, so many designs at once as
+        ``sampled`` says.
+        """
+        from mechwright.contracts.table_evaluation import extremes_of_samples
+
+        return extremes_of_samples(self, table, names)
 
     def masses(self, table: "DesignTable[P]") -> "Mapping[str, PartMass] | None":  # noqa: ARG002
         """The masses of the parts of designs by their names; None: those of ``parts``, design by design."""

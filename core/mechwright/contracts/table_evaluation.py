@@ -5,7 +5,7 @@ family take as they take one design.
 """
 
 import warnings
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from typing import Any, ClassVar, Protocol
 
@@ -28,11 +28,8 @@ from mechwright.contracts.singly import Asked, singly
 FAULT = "fault"
 """What forbids a design for which a formula of its family fails, before the code of the rule."""
 
-ENDS: Mapping[str, Callable[[Array], Array]] = {
-    "least": lambda values: values.min(axis=-1),
-    "greatest": lambda values: values.max(axis=-1),
-}
-"""Extremes of a channel (n, samples)."""
+ENDS = ("least", "greatest")
+"""Ends of the names of columns that are extremes of a channel."""
 
 
 class Evaluated(Asked, Protocol):
@@ -58,6 +55,12 @@ class Evaluated(Asked, Protocol):
 
     def channels(self, table: DesignTable[Any], samples: int) -> Mapping[str, Channel]:
         """The channels of their motions."""
+        ...
+
+    def extremes(
+        self, table: DesignTable[Any], names: Collection[str]
+    ) -> Mapping[str, tuple[Array, Array, str]]:
+        """Their least and greatest values."""
         ...
 
     def masses(self, table: DesignTable[Any]) -> Mapping[str, PartMass] | None:
@@ -191,23 +194,34 @@ def columns_of(
         if name in figures
     }
     rest = [name for name in columns if name not in found and not is_mass(name)]
-    if any(name.rpartition(".")[2] in ENDS for name in rest):
-        blocks = [_extremes(family, some, rest) for some in table.blocks(family.sampled)]
-        found |= {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    ends = {name: name.rpartition(".")[::2] for name in rest}
+    if sampled := {channel: None for channel, end in ends.values() if end in ENDS}:
+        extremes = family.extremes(table, list(sampled))
+        for name, (channel, end) in ends.items():
+            if end in ENDS and channel in extremes:
+                *values, unit = extremes[channel]
+                found[name] = told(np.broadcast_to(values[ENDS.index(end)], table.size), unit)
     if stage is not Stage.MOTION and any(map(is_mass, columns)):
         found |= _masses(family, table, columns)
     return found
 
 
-def _extremes(family: Evaluated, table: DesignTable[Any], names: Collection[str]) -> dict[str, Array]:
-    channels: Mapping[str, Channel] = family.channels(table, SAMPLES)
-    found = {}
-    for name in names:
-        channel, _, end = name.rpartition(".")
-        if channel in channels and end in ENDS:
-            values = np.broadcast_to(ENDS[end](np.atleast_2d(channels[channel].values)), table.size)
-            found[name] = told(values, channels[channel].unit)
-    return found
+def extremes_of_samples(
+    family: Evaluated, table: DesignTable[Any], names: Collection[str]
+) -> dict[str, tuple[Array, Array, str]]:
+    """Give what :meth:`Family.extremes` says, from the channels of blocks of designs."""
+    found: dict[str, tuple[list[Array], list[Array], str]] = {}
+    for some in table.blocks(family.sampled):
+        channels = family.channels(some, SAMPLES)
+        for name in names:
+            if name in channels:
+                values = np.atleast_2d(channels[name].values)
+                low, high, _ = found.setdefault(name, ([], [], channels[name].unit))
+                low.append(np.broadcast_to(values.min(axis=-1), some.size))
+                high.append(np.broadcast_to(values.max(axis=-1), some.size))
+    return {
+        name: (np.concatenate(low), np.concatenate(high), unit) for name, (low, high, unit) in found.items()
+    }
 
 
 def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]) -> dict[str, Array]:

@@ -4,11 +4,12 @@ A family says which links and joints its parameters make, how the input goes, an
 rooms beside this module find motion, forces, plates, masses, tolerances and strength of it.
 """
 
+import contextlib
 import math
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
@@ -27,6 +28,9 @@ from mechwright.mechanics.planar.machine import Machine, Prismatic
 from mechwright.mechanics.planar.positions import Solution, solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright.mechanics.planar.springs import AnySpring
+
+if TYPE_CHECKING:
+    from mechwright.mechanics.planar.compiled_chain import CompiledChain
 
 P = TypeVar("P", bound=Parameters)
 T = TypeVar("T", bound="PlanarTable[Any]")
@@ -126,6 +130,15 @@ class PlanarTable(DesignTable[P]):
     def order(self) -> tuple[Group, ...]:
         """The groups of the machine; raises KinematicsError where it cannot be put together."""
         return assembly_order(self.machine)
+
+    @cached_property
+    def chain(self) -> "CompiledChain | None":
+        """The machine of a table, compiled; None of one linkage, and of links that only ``solved`` moves."""
+        from mechwright.mechanics.planar.compiled_chain import CompiledChain
+
+        with contextlib.suppress(NotImplementedError):
+            return None if self.single else CompiledChain(self.machine, self.order)
+        return None
 
     @property
     def driver_slides(self) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.mechanics.planar import compiled_dyads as dyads
+from mechwright.mechanics.planar import compiled_dyads as kinds
 from mechwright.mechanics.planar.assembly_order import Driven, Dyad, Geared, Group, assembly_order
 from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Machine, Prismatic, Revolute
@@ -62,7 +62,7 @@ class CompiledChain:
         self._circles: dict[int, float] = {}
         self._known: dict[Any, int] = {}
         self._sines: dict[str, int] = {}
-        ground = self._add(dyads.FIXED_TURNING, TURNING_ROWS, (), (0.0,))
+        ground = self._add(kinds.FIXED_TURNING, TURNING_ROWS, (), (0.0,))
         self.bodies = {GROUND: Body(ground, self._fixed(0j), (0.0, 0.0, 1.0))}
         for group in assembly_order(machine) if order is None else order:
             if isinstance(group, Driven):
@@ -89,7 +89,7 @@ class CompiledChain:
         """The row of a link's angle, rad, counted as ``positions.solve`` counts it."""
         key = ("angle", link)
         if key not in self._known:
-            self._known[key] = self._add(dyads.ANGLE, 1, (self.turning(link),), self.bodies[link].angle)
+            self._known[key] = self._add(kinds.ANGLE, 1, (self.turning(link),), self.bodies[link].angle)
         return self._known[key]
 
     def way(self, slide: Prismatic) -> int:
@@ -98,7 +98,7 @@ class CompiledChain:
         if key not in self._known:
             line, turning = self._line(slide, slide.guide)
             point = self.point(slide.block, slide.point)
-            self._known[key] = self._add(dyads.WAY, WAY_ROWS, (point, line, turning), ())
+            self._known[key] = self._add(kinds.WAY, WAY_ROWS, (point, line, turning), ())
         return self._known[key]
 
     def sine(self, joint: str) -> int:
@@ -108,21 +108,23 @@ class CompiledChain:
         """
         return self._sines[joint]
 
-    def least_sine(self) -> int | None:
-        """The row of the smallest size of the sines of all dyads; None without a dyad."""
-        rows = list(self._sines.values())
-        if not rows:
-            return None
+    @property
+    def dyads(self) -> tuple[str, ...]:
+        """The inner joints of all dyads."""
+        return tuple(self._sines)
+
+    def least_sine(self) -> int:
+        """The row of the smallest size of the sines of all dyads, of which there must be one."""
         if "least sine" not in self._known:
-            found = self._add(dyads.SMALLER, 1, (rows[0], rows[0]), ())
-            for row in rows[1:]:
-                found = self._add(dyads.SMALLER, 1, (found, row), ())
+            first, *rows = self._sines.values()
+            found = self._add(kinds.SMALLER, 1, (first, first), ())
+            for row in rows:
+                found = self._add(kinds.SMALLER, 1, (found, row), ())
             self._known["least sine"] = found
         return self._known["least sine"]
 
-    def drive(self) -> int:
-        """The first of the four rows of the input, rad or mm, and its rates."""
-        return dyads.DRIVE
+    drive = kinds.DRIVE
+    """The first of the four rows of the input, rad or mm, and its rates."""
 
     def extremes(self, drives: Array, wanted: Sequence[tuple[int, int]], samples: int) -> Array:
         """Least and greatest values (n, k, 2) over a period; NaN where the machine does not close.
@@ -169,7 +171,7 @@ class CompiledChain:
     ) -> tuple[Any, ...]:
         """The arguments of the compiled functions, for the operations that the rows need."""
         ops, rates, some = self._needed(rows)
-        turning = drives[drives[:, dyads.ROCKS] == 0, dyads.TRAVEL]
+        turning = drives[drives[:, kinds.ROCKS] == 0, kinds.TRAVEL]
         travel = abs(float(turning[0])) if turning.size else 2 * np.pi
         share = np.linspace(0.0, 1.0, samples)
         angles = [2 * np.pi * share]
@@ -220,7 +222,7 @@ class CompiledChain:
         return self._count - TURNING_ROWS
 
     def _fixed(self, place: Any) -> int:
-        return self._add(dyads.FIXED_POINT, POINT_ROWS, (), (np.real(place), np.imag(place)))
+        return self._add(kinds.FIXED_POINT, POINT_ROWS, (), (np.real(place), np.imag(place)))
 
     def _placed(self, body: Body, place: Any, *, fixed: bool) -> int:
         if not np.any(place):
@@ -228,15 +230,15 @@ class CompiledChain:
         if fixed:
             return self._fixed(place)
         return self._add(
-            dyads.POINT, POINT_ROWS, (body.origin, body.turning), (np.real(place), np.imag(place))
+            kinds.POINT, POINT_ROWS, (body.origin, body.turning), (np.real(place), np.imag(place))
         )
 
     def _rotated(self, turning: int, angle: Any, *, fixed: bool = False) -> int:
         if not np.any(angle):
             return turning
         if fixed:
-            return self._add(dyads.FIXED_TURNING, TURNING_ROWS, (), (angle,))
-        return self._add(dyads.ROTATED, TURNING_ROWS, (turning,), (angle,))
+            return self._add(kinds.FIXED_TURNING, TURNING_ROWS, (), (angle,))
+        return self._add(kinds.ROTATED, TURNING_ROWS, (turning,), (angle,))
 
     def _line(self, joint: Prismatic, link: str) -> tuple[int, int]:
         """Rows of the point and of the direction of a slide's line, as the link has it."""
@@ -256,7 +258,7 @@ class CompiledChain:
         if group.on != GROUND or self.machine.drives[group.drive].link != group.link:
             raise NotImplementedError("drives on moving links")
         if isinstance(joint, Revolute):
-            turning = self._add(dyads.CRANK, TURNING_ROWS, (), (1.0, 0.0))
+            turning = self._add(kinds.CRANK, TURNING_ROWS, (), (1.0, 0.0))
             self._circles[len(self._ops) - 1] = 1.0
             pin = self.point(GROUND, joint.place(GROUND))
             self._body(group.link, pin, joint.place(group.link), turning, (0.0, 1.0, 1.0))
@@ -264,7 +266,7 @@ class CompiledChain:
         if joint.guide != GROUND:
             raise NotImplementedError("drives along moving lines")
         line, turning = self._line(joint, GROUND)
-        pin = self._add(dyads.SLID, POINT_ROWS, (line, turning, dyads.DRIVE), (0.0,))
+        pin = self._add(kinds.SLID, POINT_ROWS, (line, turning, kinds.DRIVE), (0.0,))
         angle = joint.line_angle - np.asarray(joint.block_angle)
         own = self._rotated(self.bodies[GROUND].turning, angle, fixed=True)
         self._body(group.link, pin, joint.place(group.link), own, (angle, 0.0, 1.0))
@@ -278,7 +280,7 @@ class CompiledChain:
             raise NotImplementedError("gears that are not on the ground")
         ratio = gears.ratio if forwards else 1 / gears.ratio
         phase = gears.phase if forwards else -gears.phase / gears.ratio
-        turning = self._add(dyads.GEAR, TURNING_ROWS, (), (ratio, phase))
+        turning = self._add(kinds.GEAR, TURNING_ROWS, (), (ratio, phase))
         self._circles[len(self._ops) - 1] = float(ratio)
         pin = self.point(GROUND, group.pin.place(GROUND))
         self._body(group.link, pin, group.pin.place(group.link), turning, (phase, float(ratio), 1.0))
@@ -304,14 +306,14 @@ class CompiledChain:
             bar = inner.place(one) - np.asarray(first.place(one), complex)
             numbers = (np.abs(bar), offset, branch, -np.angle(bar))
             end, swung = self._outer(first, one), self._turning_rows()
-            way = self._add(dyads.PIN_AND_SLIDE, 6, (end, line, turning), numbers, swung)
+            way = self._add(kinds.PIN_AND_SLIDE, 6, (end, line, turning), numbers, swung)
             self._body(one, end, first.place(one), swung, (-np.angle(bar), 0.0, 0.0))
             pin = self.point(one, inner.place(one))
         elif isinstance(first, Prismatic):  # PRP: the pin slides along two lines
             other, side, leaning, sidewards = self._along(first, one)
             across = offset_from_line(first, one, inner.place(one))
-            way = self._add(dyads.CROSSING, 6, (other, side, line, turning), (across, offset))
-            pin = self._add(dyads.SLID, POINT_ROWS, (other, side, way), (across,))
+            way = self._add(kinds.CROSSING, 6, (other, side, line, turning), (across, offset))
+            pin = self._add(kinds.SLID, POINT_ROWS, (other, side, way), (across,))
             self._body(one, pin, inner.place(one), leaning, sidewards)
         else:  # RPP: the second link slides on what stands, and the first, pinned to what stands, on it
             assert isinstance(inner, Prismatic)  # noqa: S101 - as groups are ordered
@@ -320,8 +322,8 @@ class CompiledChain:
             turn = inner.direction(two) - np.asarray(inner.direction(one))
             self._body(one, self._outer(first, one), first.place(one), leaning, _further(counted, turn))
             lines = (line, turning, self.point(one, inner.place(one)), across)
-            way = self._add(dyads.CROSSING, 6, lines, (offset, 0.0))
-            pin = self._add(dyads.SLID, POINT_ROWS, (line, turning, way), (offset,))
+            way = self._add(kinds.CROSSING, 6, lines, (offset, 0.0))
+            pin = self._add(kinds.SLID, POINT_ROWS, (line, turning, way), (offset,))
         self._body(two, pin, inner.place(two), own, counted)
         self._sines[inner.name] = way + 4
 
@@ -347,7 +349,7 @@ class CompiledChain:
         ]
         numbers = (*(np.abs(bar) for bar in bars), branch, *(-np.angle(bar) for bar in bars))
         turnings = self._turning_rows(), self._turning_rows()
-        self._sines[inner.name] = self._add(dyads.PINS, 2, ends, numbers, *turnings)
+        self._sines[inner.name] = self._add(kinds.PINS, 2, ends, numbers, *turnings)
         for link, outer, end, turning, bar in zip(
             (one, two), (first, last), ends, turnings, bars, strict=True
         ):
@@ -358,7 +360,7 @@ class CompiledChain:
         assert isinstance(inner, Prismatic)  # noqa: S101 - as groups are ordered
         offset = offset_across(inner, first.place(one), last.place(two), one)
         line = self._turning_rows()
-        self._sines[inner.name] = self._add(dyads.SLIDE_BETWEEN, 2, ends, (offset, branch), line)
+        self._sines[inner.name] = self._add(kinds.SLIDE_BETWEEN, 2, ends, (offset, branch), line)
         for link, outer, end in zip((one, two), (first, last), ends, strict=True):
             angle = np.asarray(inner.direction(link))
             self._body(link, end, outer.place(link), self._rotated(line, -angle), (-angle, 0.0, 0.0))

@@ -1,16 +1,16 @@
 """Figures of a linkage, or of a table of linkages: transmission angles, output, paths."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.figure import Figure
 from mechwright.mechanics.linkage.kinematics.channels import transmission_angle
-from mechwright.mechanics.linkage.kinematics.extremes import SAMPLES, Extreme, extent, least
+from mechwright.mechanics.linkage.kinematics.extremes import SAMPLES, Extreme, Quantity, extent, least
 from mechwright.mechanics.linkage.kinematics.path_figures import Stroke, output_curve, stroke
 from mechwright.mechanics.linkage.kinematics.period import inputs_at, over_phases, ways_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
@@ -18,6 +18,9 @@ from mechwright.mechanics.planar.assembly_order import Dyad
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 from mechwright.mechanics.planar.positions import Solution
+
+if TYPE_CHECKING:
+    from mechwright.mechanics.planar.compiled_chain import CompiledChain
 
 
 def least_transmission(table: AnyPlanarTable) -> Array:
@@ -46,18 +49,32 @@ def figures_of(table: AnyPlanarTable) -> Mapping[str, Figure]:
         "time_ratio": Figure(lambda: _of_row(table, _time_ratio(table))),
     }
     for name in table.linkage.traces:
-        for axis, part in (("x", np.real), ("y", np.imag)):
-            found[f"{axis}{name}_range"] = Figure(partial(_path_range, table, name, part), "mm")
+        for axis, letter in enumerate("xy"):
+            found[f"{letter}{name}_range"] = Figure(partial(_path_range, table, name, axis), "mm")
     return found
 
 
-def output_value(table: AnyPlanarTable) -> Callable[[Solution], Array]:
-    """The output over samples: its way along its slide on the ground, mm, or its angle, rad."""
+TRANSMISSION = Quantity(
+    transmission_angle, lambda chain: chain.least_sine(), lambda sines: np.arcsin(np.minimum(sines, 1.0))
+)
+"""The least transmission angle of all dyads, rad."""
+
+
+def output_value(table: AnyPlanarTable) -> Quantity:
+    """The output: its way along its slide on the ground, mm, or its angle, rad."""
+    return table.once("output", lambda: _output_value(table))
+
+
+def _output_value(table: AnyPlanarTable) -> Quantity:
     output = table.output
     for joint in table.machine.between(output, GROUND):
         if isinstance(joint, Prismatic):
-            return partial(_along, joint)
-    return lambda found: found.bodies[output].turning.theta
+            return Quantity(partial(_along, joint), partial(_way_row, joint))
+    return Quantity(lambda found: found.bodies[output].turning.theta, lambda chain: chain.angle(output))
+
+
+def _way_row(joint: Prismatic, chain: "CompiledChain") -> int:
+    return chain.way(joint)
 
 
 def _along(joint: Prismatic, found: Solution) -> Array:
@@ -67,23 +84,25 @@ def _along(joint: Prismatic, found: Solution) -> Array:
     return np.asarray(((seen - guide) * np.exp(-1j * direction)).real)
 
 
-def _coordinate(table: AnyPlanarTable, name: str, part: Callable[[Any], Any], found: Solution) -> Array:
+def _path_range(table: AnyPlanarTable, name: str, axis: int) -> Array:
     link, point = table.linkage.traces[name]
-    return np.asarray(part(found.bodies[link].point(table.linkage.points[link][point], 0).position))
+    place = table.linkage.points[link][point]
+
+    def coordinate(found: Solution) -> Array:
+        position = found.bodies[link].point(place, 0).position
+        return np.asarray(position.imag if axis else position.real)
+
+    return _number(table, _extent(table, Quantity(coordinate, lambda chain: chain.point(link, place) + axis)))
 
 
-def _path_range(table: AnyPlanarTable, name: str, part: Callable[[Any], Any]) -> Array:
-    return _number(table, _extent(table, partial(_coordinate, table, name, part)))
-
-
-def _extent(table: AnyPlanarTable, value: Callable[[Solution], Array], turn: float = 0.0) -> Array:
-    return np.broadcast_to(extent(table, value, turn), (table.size, 1))
+def _extent(table: AnyPlanarTable, quantity: Quantity, turn: float = 0.0) -> Array:
+    return np.broadcast_to(extent(table, quantity, turn), (table.size, 1))
 
 
 def _least_angle(table: AnyPlanarTable) -> Extreme:
     if not any(isinstance(group, Dyad) for group in table.order):
         return Extreme(np.full((table.size, 1), math.pi / 2), np.zeros((table.size, 1)))
-    return table.once("least transmission angle", lambda: least(table, transmission_angle))
+    return table.once("least transmission angle", lambda: least(table, TRANSMISSION))
 
 
 def _slides(table: AnyPlanarTable) -> bool:

@@ -151,8 +151,11 @@ def _turn_at(
     at = table.drawn_at + travelled(
         period_turns(table.machine) * math.tau, samples * period_turns(table.machine)
     )
-    solution = table.solved_at(np.atleast_2d(at), 0)
-    shape = table.size, at.shape[-1]
+    at, shape, chain = np.atleast_2d(at), (table.size, at.shape[-1]), table.chain
+    if chain is not None and chain.dyads:
+        sines = chain.values(np.broadcast_to(at, shape), [chain.least_sine()])[:, 0]
+        return np.all(sines > least, axis=-1), np.all(np.isfinite(sines), axis=-1)
+    solution = table.solved_at(at, 0)
     closes = np.asarray(np.broadcast_to(solution.closes, shape).all(axis=-1))
     steep = [np.broadcast_to(one > least, shape).all(axis=-1) for one in solution.sines.values()]
     return np.asarray(np.logical_and.reduce([closes, *steep])), closes
