@@ -38,7 +38,7 @@ class Linkages(Family[LinkageParams]):
     summary = "Six-bars, quick returns, straight lines, walking legs, or any linkage as it is drawn."
     Params: type[LinkageParams] = LinkageParams
     batch: ClassVar[int] = 1 << 16
-    block: ClassVar[int] = 64
+    block: ClassVar[int] = 4096
     sampled: ClassVar[int] = 16
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {
         "function": FunctionRequirement,

@@ -262,10 +262,9 @@ class LinkageParams(Parameters):
 
     def _refuse_other_tables(self) -> None:
         """Refuse dimensions of a linkage that is not chosen."""
-        for name, field in type(self).model_fields.items():
-            if name == self.table_name or not isinstance(field.default, Entry):
-                continue
-            if getattr(self, name) != field.default:
+        for name in self.model_fields_set - {self.table_name}:
+            default = type(self).model_fields[name].default
+            if isinstance(default, Entry) and getattr(self, name) != default:
                 chosen = name.replace("_", "-")
                 raise ValueError(
                     f'{name}: it is of linkage = "{chosen}", not of "{self.linkage}"; leave {name} out'

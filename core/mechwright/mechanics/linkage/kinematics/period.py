@@ -27,8 +27,9 @@ SURE = 0.2
 """Sine of the least transmission angle at samples of a turn with which a driver turns fully: between two of
 them it falls by far less."""
 
-FINER = 8
-"""How much finer a doubtful turn is looked at, and how much less its sines may be."""
+FINER = (8, 64)
+"""How much finer a doubtful turn is looked at, and how much less its sines may be: the square of a sine falls
+between two samples by less than their distance squared."""
 
 TURN_SAMPLES = 181
 """Samples of a turn at which that is looked at."""
@@ -136,9 +137,11 @@ def sure_to_turn(table: AnyPlanarTable) -> NDArray[np.bool_]:
     def found() -> NDArray[np.bool_]:
         sure, closes = _turn_at(table, TURN_SAMPLES, SURE)
         doubtful = np.flatnonzero(closes & ~sure)
-        if doubtful.size:
-            fewer = table.rows(doubtful)
-            sure[doubtful] = _turn_at(fewer, FINER * (TURN_SAMPLES - 1) + 1, SURE / FINER)[0]
+        for finer in FINER:
+            if not doubtful.size:
+                break
+            some = _turn_at(table.rows(doubtful), finer * (TURN_SAMPLES - 1) + 1, SURE / finer)
+            sure[doubtful], doubtful = some[0], doubtful[some[1] & ~some[0]]
         return sure
 
     return table.once("sure to turn", found)
@@ -169,8 +172,10 @@ def phases_of(samples: int) -> Array:
 def inputs_at(table: AnyPlanarTable, phases: Array) -> Array:
     """Inputs (n, m) at phases (m,) or (n, m)."""
     ways = ways_of(table)
-    there = ways.start + ways.travel / 2 * (1 - np.cos(phases))
-    return np.where(ways.rocks, there, ways.start + ways.travel * phases / math.tau)
+    turned = np.asarray(ways.start + ways.travel * phases / math.tau)
+    if not ways.rocks.any():
+        return turned
+    return np.where(ways.rocks, ways.start + ways.travel / 2 * (1 - np.cos(phases)), turned)
 
 
 def drives_at(table: AnyPlanarTable, phases: Array) -> tuple[Array, Turning]:
