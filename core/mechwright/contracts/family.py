@@ -157,8 +157,7 @@ class Family(Plugin, Generic[P]):
     def mounting(self, params: P) -> "Mounting | GroundPlate | Flange | None":  # noqa: ARG002 - used by some
         """Where its shafts stand, or its own ground plate, so that a frame can be built around it.
 
-        It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,
-        and a frame is refused.
+        It is asked of a design whose ``check`` finds no error. None, the default, refuses a frame.
 
         Raises
         ------
@@ -330,11 +329,7 @@ class Family(Plugin, Generic[P]):
     def extremes(
         self, table: "DesignTable[P]", names: Collection[str]
     ) -> "Mapping[str, tuple[Array, Array, str]]":
-        """Least and greatest values (n,) of those channels that designs have, and their unit.
-
-        Names are those of channels. The default takes them from :meth:`channels`, so many designs at once as
-        ``sampled`` says.
-        """
+        """Least and greatest values (n,) of channels, and their units; the default takes samples of them."""
         from mechwright.contracts.table_evaluation import extremes_of_samples
 
         return extremes_of_samples(self, table, names)
