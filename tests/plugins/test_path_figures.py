@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from reference_linkages import FIGURES, case
 from test_linkage_catalogue import WIPER
 
+from mechwright.contracts.design_table import with_columns
 from mechwright.mechanics.linkage.kinematics.curves import Curve
+from mechwright.mechanics.linkage.kinematics.figures import figures_of
 from mechwright.mechanics.linkage.kinematics.path_figures import (
     Path,
     extremes,
@@ -26,6 +28,8 @@ from mechwright.mechanics.linkage.kinematics.path_figures import (
 from mechwright.mechanics.planar.input_range import ranges
 from mechwright.mechanics.planar.rigid import PointMotion
 from mechwright_linkage.catalogue.entries import ENTRIES
+from mechwright_linkage.parameters import LinkageParams
+from mechwright_linkage.table import LinkageTable
 
 TURN = np.linspace(0.0, tau, 721)
 EXACT = 1e-9
@@ -190,6 +194,53 @@ def test_swings_of_the_wiper(lever):
     assert same_angle(found.greatest, figures["greatest"])
     assert near(found.extent, figures["swing"])
     assert near(reversals(curve), figures["driver_at"])
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "dimensions"),
+    [
+        ("hoecken", "straight_90_270", {"crank": 10.0}),
+        ("chebyshev", "straight_from_middle_to_over_A0", {"base": 40.0}),
+    ],
+)
+def test_a_straight_line_tells_its_length_and_band(name, key, dimensions):
+    one = LinkageParams(linkage=name, **{name: dimensions})
+    figures = solved_figures(one)
+    for figure in ("band", "length"):
+        assert near(figures[f"straight_{figure}"], FIGURES[name][key][figure])
+    assert same_rows(one, f"{name}.{next(iter(dimensions))}", next(iter(dimensions.values())))
+
+
+def test_a_leg_tells_its_stride_lift_and_stance():
+    one = LinkageParams(linkage="jansen")
+    figures, path_of = solved_figures(one), FIGURES["jansen"]["path"]
+    assert near(figures["stride"], path_of["length"])
+    assert near(figures["lift"], path_of["height"])
+    low = stance(path("jansen"), path_of["height"] / 10)
+    assert near(figures["stance_share"], low.share)
+    assert figures["F_length"] == pytest.approx(path_length(path("jansen")), rel=1e-9)
+    assert same_rows(one, "jansen.m", 15.0)
+
+
+def test_a_lever_draws_its_path_once_along():
+    figures = solved_figures(LinkageParams(linkage="peaucellier"))
+    assert figures["D_length"] == pytest.approx(figures["yD_range"], abs=1e-6)
+    assert figures["straight_band"] < EXACT
+
+
+def solved_figures(params):
+    return {name: float(one()) for name, one in figures_of(LinkageTable.of(params)).items()}
+
+
+def same_rows(params, key, value) -> bool:
+    """Whether a row of a table has the figures of the design alone."""
+    rows = value * np.array([[1.0], [1.01]])
+    found = figures_of(LinkageTable(with_columns(params, {key: rows}), 2))
+    return all(
+        near(np.ravel(found[name]())[0], alone)
+        for name, alone in solved_figures(params).items()
+        if not np.isnan(alone)
+    )
 
 
 def test_a_link_that_turns_fully_has_no_reversals():

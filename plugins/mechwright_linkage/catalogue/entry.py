@@ -45,6 +45,10 @@ class Entry(Parameters):
     """The link whose motion it is for."""
     traces: ClassVar[Mapping[str, tuple[str, str]]] = {}
     """Name of a path to the link and the point that draws it."""
+    straight: ClassVar[tuple[float, float] | None] = None
+    """Angles of the driven link, degrees, between which its first path is meant to be straight."""
+    walks: ClassVar[bool] = False
+    """Whether its first path is that of a foot."""
     start: ClassVar[float] = 0.0
     """Angle of the driven link from X, degrees, at which the linkage is drawn; within its range."""
     swing: ClassVar[tuple[float, float] | None] = None
@@ -89,7 +93,7 @@ class Entry(Parameters):
         machine = Machine(
             tuple(self.joints()), (self.drive(),), self.branches(), self.drawn(), (radians(self.start),)
         )
-        return Linkage(machine, self.points(), output or self.output, self.traces)
+        return Linkage(machine, self.points(), output or self.output, self.traces, self.straight, self.walks)
 
 
 def pins(points: Points, **links: Sequence[str]) -> list[Joint]:

@@ -26,6 +26,7 @@ class Jansen(Entry):
     source = "Theo Jansen's holy numbers"
     output = "foot"
     traces: ClassVar = {"F": ("foot", "F")}
+    walks = True
     signs: ClassVar = {"X": -1, "Z": 1, "W": -1}
     pin_links: ClassVar = {
         "O": (GROUND, "crank"),
@@ -86,6 +87,7 @@ class Klann(Entry):
     source = "US patent 6260862, stride scaled to 100 mm"
     output = "leg"
     traces: ClassVar = {"F": ("leg", "F")}
+    walks = True
     signs: ClassVar = {"J27": -1, "J37": 1}
     pin_links: ClassVar = {
         "J15": (GROUND, "crank"),

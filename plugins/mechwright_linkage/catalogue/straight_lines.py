@@ -27,6 +27,7 @@ class Peaucellier(Entry):
     output = "AD"
     traces: ClassVar = {"D": ("AD", "D")}
     swing = (-60.0, 60.0)
+    straight = (-60.0, 60.0)
     signs: ClassVar = {"A": 1, "C": -1, "D": 1}
     pin_links: ClassVar = {
         "Q": (GROUND, "crank"),
@@ -83,6 +84,7 @@ class Hoecken(Entry):
     output = "coupler"
     traces: ClassVar = {"C": ("coupler", "C")}
     start = 180.0
+    straight = (90.0, 270.0)
     signs: ClassVar = {"B": 1}
     pin_links: ClassVar = _FOUR_BAR
 
@@ -110,6 +112,7 @@ class Chebyshev(Entry):
     traces: ClassVar = {"C": ("coupler", "C")}
     start = 60.0
     swing = (45.0, 83.0)
+    straight = (53.13010235415598, 90.0)
     signs: ClassVar = {"B": -1}
     pin_links: ClassVar = _FOUR_BAR
 
@@ -137,6 +140,7 @@ class Roberts(Entry):
     traces: ClassVar = {"C": ("coupler", "C")}
     start = 65.0
     swing = (49.0, 78.0)
+    straight = (49.0, 78.0)
     signs: ClassVar = {"B": 1}
     pin_links: ClassVar = _FOUR_BAR
 
@@ -177,6 +181,7 @@ class WattLine(Entry):
     output = "coupler"
     traces: ClassVar = {"C": ("coupler", "C")}
     swing = (-15.0, 15.0)
+    straight = (-15.0, 15.0)
     signs: ClassVar = {"B": -1}
     pin_links: ClassVar = _FOUR_BAR
 

@@ -26,9 +26,15 @@ class Linkage:
         The link whose motion the linkage is for.
     traces
         Name of a path to the link and the point that draws it.
+    straight
+        Inputs, degrees, between which the first path is meant to be straight; None for no such path.
+    walks
+        Whether the first path is that of a foot, which walks along X.
     """
 
     machine: Machine
     points: Mapping[str, Mapping[str, Place]]
     output: str
     traces: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    straight: tuple[float, float] | None = None
+    walks: bool = False

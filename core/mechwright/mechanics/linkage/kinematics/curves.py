@@ -59,7 +59,7 @@ class Curve:
     third: Array
 
     @classmethod
-    def of_point(cls, at: Array, point: PointMotion, direction: float = 0.0) -> "Curve":
+    def of_point(cls, at: Array, point: PointMotion, direction: Any = 0.0) -> "Curve":
         """The coordinate of a point along a direction, rad; its rates are those per unit of the input.
 
         >>> turning = np.linspace(0.0, 1.0, 3)

@@ -11,13 +11,25 @@ from mechwright.arrays import Array
 from mechwright.contracts.figure import Figure
 from mechwright.mechanics.linkage.kinematics.channels import transmission_angle
 from mechwright.mechanics.linkage.kinematics.extremes import SAMPLES, Extreme, Quantity, extent, least
-from mechwright.mechanics.linkage.kinematics.path_figures import Stroke, output_curve, stroke
+from mechwright.mechanics.linkage.kinematics.path_figures import (
+    Gait,
+    Path,
+    Straightness,
+    Stroke,
+    gait,
+    output_curve,
+    path_length,
+    stance,
+    straightness,
+    stroke,
+)
 from mechwright.mechanics.linkage.kinematics.period import inputs_at, over_phases, ways_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
 from mechwright.mechanics.planar.assembly_order import Dyad
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 from mechwright.mechanics.planar.positions import Solution
+from mechwright.mechanics.planar.rigid import PointMotion
 
 if TYPE_CHECKING:
     from mechwright.mechanics.planar.compiled_chain import CompiledChain
@@ -51,6 +63,14 @@ def figures_of(table: AnyPlanarTable) -> Mapping[str, Figure]:
     for name in table.linkage.traces:
         for axis, letter in enumerate("xy"):
             found[f"{letter}{name}_range"] = Figure(partial(_path_range, table, name, axis), "mm")
+        found[f"{name}_length"] = Figure(partial(_path_length, table, name), "mm")
+    if table.linkage.straight is not None:
+        found["straight_length"] = Figure(lambda: _of_row(table, _straight(table).length), "mm")
+        found["straight_band"] = Figure(lambda: _of_row(table, _straight(table).band), "mm")
+    if table.linkage.walks:
+        found["stride"] = Figure(lambda: _of_row(table, _gait(table).stride), "mm")
+        found["lift"] = Figure(lambda: _of_row(table, _gait(table).lift), "mm")
+        found["stance_share"] = Figure(lambda: _of_row(table, _stance_share(table)))
     return found
 
 
@@ -93,6 +113,51 @@ def _path_range(table: AnyPlanarTable, name: str, axis: int) -> Array:
         return np.asarray(position.imag if axis else position.real)
 
     return _number(table, _extent(table, Quantity(coordinate, lambda chain: chain.point(link, place) + axis)))
+
+
+def _path_length(table: AnyPlanarTable, name: str) -> Array:
+    """Once along: of an input that goes there and back half of the way over the period."""
+    phases, motion = _motion(table)
+    length = path_length(Path.of(phases, _traced(table, motion, name)))
+    return _of_row(table, np.where(ways_of(table).rocks[:, 0], length / 2, length))
+
+
+def _traced(table: AnyPlanarTable, motion: Solution, name: str) -> PointMotion:
+    link, point = table.linkage.traces[name]
+    return motion.bodies[link].point(table.linkage.points[link][point])
+
+
+def _first_path(table: AnyPlanarTable) -> str:
+    return next(iter(table.linkage.traces))
+
+
+def _straight(table: AnyPlanarTable) -> Straightness:
+    """How straight the path is along its chord, where it is meant to be straight."""
+
+    def found() -> Straightness:
+        begin, end = np.radians(table.linkage.straight or (0.0, 0.0))
+        at = np.linspace(begin, end, SAMPLES)
+        point = _traced(table, table.solved_at(np.atleast_2d(at)), _first_path(table))
+        chord = np.angle(point.position[..., -1:] - point.position[..., :1])
+        return straightness(Path.of(at, point, chord), begin, end)
+
+    return table.once("straight", found)
+
+
+def _foot(table: AnyPlanarTable) -> Path:
+    """The path of the foot over a turn of the driver; NaN of drivers that do not turn."""
+    at = table.drawn_at + np.linspace(0.0, math.tau, 2 * SAMPLES - 1)
+    point = _traced(table, table.solved_at(np.atleast_2d(at)), _first_path(table))
+    return Path.of(at, point)
+
+
+def _gait(table: AnyPlanarTable) -> Gait:
+    return table.once("gait", lambda: gait(_foot(table)))
+
+
+def _stance_share(table: AnyPlanarTable) -> Array:
+    """Share of the turn in which the foot is lower than a tenth of its lift."""
+    return table.once("stance", lambda: stance(_foot(table), _gait(table).lift / 10).share)
 
 
 def _extent(table: AnyPlanarTable, quantity: Quantity, turn: float = 0.0) -> Array:

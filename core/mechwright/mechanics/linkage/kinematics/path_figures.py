@@ -146,7 +146,7 @@ class Path:
     across: Curve
 
     @classmethod
-    def of(cls, at: Array, point: PointMotion, direction: float = 0.0) -> "Path":
+    def of(cls, at: Array, point: PointMotion, direction: Any = 0.0) -> "Path":
         """The path over inputs (n,), rad; rates are those per unit of the input."""
         turned = direction + np.pi / 2
         return cls(Curve.of_point(at, point, direction), Curve.of_point(at, point, turned))
@@ -273,8 +273,8 @@ def gait(path: Path) -> Gait:
     return Gait(extremes(path.along).extent, across.extent, across.least, across.least_at)
 
 
-def stance(path: Path, height: float) -> Stance:
-    """When a foot is below a height over its lowest point, mm.
+def stance(path: Path, height: Any) -> Stance:
+    """When a foot is below a height (...,) over its lowest point, mm.
 
     Raises
     ------
