@@ -22,6 +22,7 @@ from mechwright.mechanics.linkage.kinematics.period import (
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright.tolerances import falls_short
+from mechwright_linkage.rules.closure import closure_finding
 from mechwright_linkage.table import LinkageTable
 
 GOOD_TRANSMISSION = 30.0
@@ -75,13 +76,7 @@ def _no_such_ends(key: str, does: str, others: str) -> Finding:
 def _reach(table: LinkageTable) -> Iterator[Finding]:
     """Whether the links close somewhere, and over all of the way that the input is to go."""
     if not range_of(table).intervals:
-        yield Finding.error(
-            "linkage.closure",
-            table.key,
-            "the links cannot be put together at any position of the input",
-            remedy="make a link longer, or put its ends nearer to each other",
-            stage=Stage.MOTION,
-        )
+        yield closure_finding(table)
     elif ends_of(table) is None and is_lever(table):
         yield _out_of_reach(table)
 
