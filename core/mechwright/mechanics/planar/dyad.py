@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
-from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning
+from mechwright.mechanics.planar.rigid import Plane, Turning
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,33 +69,6 @@ def dyad(
             r = d[3] + c * (3 * w1 * w2 + 1j * w1**3) * s - l * (3 * v1 * v2 + 1j * v1**3) * p
             w3, v3 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
     return Rates(s, w1, w2, w3), Rates(p, v1, v2, v3)
-
-
-def joined(
-    one: PointMotion, two: PointMotion, first: ArrayLike, second: ArrayLike, branch: int
-) -> tuple[BodyMotion, BodyMotion]:
-    """The motion of both links on two points that move: what a six-bar adds to a four-bar.
-
-    Parameters
-    ----------
-    one, two
-        The free ends of the first and of the second link (...), such as a coupler point and a fixed pivot;
-        each link's origin stands there, its x axis to C.
-    first, second, branch
-        As :func:`dyad` takes them.
-
-    NaN where the two do not reach.
-    """
-    d = (
-        two.position - one.position,
-        two.velocity - one.velocity,
-        two.acceleration - one.acceleration,
-        two.jerk - one.jerk,
-    )
-    # Over time itself as the angle of the input: 1 rad/s.
-    time = Turning.of(np.zeros(d[0].shape), 1.0)
-    s, p = dyad(d, first, second, branch)
-    return BodyMotion(one, s.turning(time)), BodyMotion(two, p.turning(time))
 
 
 def directions(d: Plane, first: ArrayLike, second: ArrayLike, branch: int) -> tuple[Plane, Plane]:
