@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.load import Load
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
+    from mechwright.contracts.measure import Measure
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
@@ -99,6 +100,7 @@ _HOMES = {
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
+    "mechwright.contracts.measure": "Measure",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
@@ -168,7 +170,17 @@ __all__ += [
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
-__all__ += ["FittingMark", "Flange", "Foot", "GroundPlate", "Hub", "Mounting", "MountingError", "Spindle"]
+__all__ += [
+    "FittingMark",
+    "Flange",
+    "Foot",
+    "GroundPlate",
+    "Hub",
+    "Measure",
+    "Mounting",
+    "MountingError",
+    "Spindle",
+]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += [
     "Finding",
