@@ -39,13 +39,13 @@ class PartMass:
     Parameters
     ----------
     value
-        The mass of one copy, kg.
+        The mass of one copy, kg; NaN for designs without this part.
     copies
-        The number of copies in the mechanism.
+        The number of copies in the mechanism, a column (n, 1) where the designs differ in it.
     """
 
     value: "float | Callable[[], Any]"
-    copies: int = 1
+    copies: Any = 1
 
     def __call__(self) -> Any:
         """Give the number or the column."""

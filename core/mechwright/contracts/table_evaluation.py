@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.by_arrays import Answer, Designs, by_arrays
-from mechwright.contracts.design_table import DesignTable, column, with_columns
+from mechwright.contracts.design_table import DesignTable, column, rows_of, with_columns
 from mechwright.contracts.evaluation import Batch, Columns, told
 from mechwright.contracts.figure import Figure, PartMass
 from mechwright.contracts.finding import Stage
@@ -115,7 +115,26 @@ def tables(
         values: dict[str, Any] = {name: _same(designs, name, places[0]) for name in names}
         for name in designs.varied.keys() - values.keys():
             values[name] = designs.varied[name][places, None].astype(float)
-        yield places, with_columns(designs.common, values)
+        yield from _alike(places, with_columns(designs.common, values))
+
+
+def _alike(places: NDArray[np.intp], params: Any) -> Iterator[tuple[NDArray[np.intp], Any]]:
+    """Give designs of a table that are alike in the whole numbers that follow from what they leave out."""
+    names = [
+        name
+        for name, value in params.__dict__.items()
+        if isinstance(value, np.ndarray) and value.dtype.kind == "i"
+    ]
+    if not names:
+        yield places, params
+        return
+    rows = np.concatenate([getattr(params, name) for name in names], axis=1)
+    kinds, kind = np.unique(rows, axis=0, return_inverse=True)
+    for number, row in enumerate(kinds.tolist()):
+        some = np.flatnonzero(kind.reshape(-1) == number)
+        alike = rows_of(params, some, places.size)
+        alike.__dict__.update(zip(names, row, strict=True))
+        yield places[some], alike
 
 
 def _same(designs: Designs, name: str, place: int) -> Any:
@@ -234,5 +253,6 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
     if TOTAL in columns:
-        found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
+        every = [np.where(np.equal(one.copies, 0), 0.0, one.copies * one()) for one in weights.values()]
+        found[TOTAL] = column(sum(every), table.size)[:, 0]
     return found

@@ -60,8 +60,13 @@ class PlanarTable(DesignTable[P]):
         return found
 
     def rows(self, places: Rows) -> Self:
-        """Some of the linkages; what was computed of all is computed anew."""
-        return self if self.single else type(self)(rows_of(self.given, places, self.size), places.size)
+        """Some of the linkages; of what was computed of all, arrays that are attributes go along."""
+        if self.single:
+            return self
+        taken = type(self)(rows_of(self.given, places, self.size), places.size)
+        arrays = {name: one for name, one in self.__dict__.items() if isinstance(one, np.ndarray)}
+        taken.__dict__.update({name: rows_of(one, places, self.size) for name, one in arrays.items()})
+        return taken
 
     @property
     @abstractmethod

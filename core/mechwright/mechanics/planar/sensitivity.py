@@ -43,12 +43,15 @@ class Change:
         its guide, of its point in the block. Names that are no joints are for callers, as traced points.
     block_angles
         Slide to the change of its direction in the block, rad.
+    phases
+        Gear pair to the change of its phase, rad.
     input
         Change of the input, rad or mm.
     """
 
     places: Mapping[tuple[str, str], Any] = field(default_factory=dict)
     block_angles: Mapping[str, Any] = field(default_factory=dict)
+    phases: Mapping[str, Any] = field(default_factory=dict)
     input: Any = 0.0
 
     def scaled(self, factor: Any) -> "Change":
@@ -56,6 +59,7 @@ class Change:
         return Change(
             {key: value * factor for key, value in self.places.items()},
             {key: value * factor for key, value in self.block_angles.items()},
+            {key: value * factor for key, value in self.phases.items()},
             self.input * factor,
         )
 
@@ -64,6 +68,7 @@ class Change:
         return Change(
             _sum(self.places, other.places),
             _sum(self.block_angles, other.block_angles),
+            _sum(self.phases, other.phases),
             self.input + other.input,
         )
 
@@ -89,7 +94,7 @@ def _changed(joint: Joint, change: Change) -> Joint:
         line, point = (joint.place(link) + change.place(joint.name, link) for link in joint.links)
         angle = joint.block_angle + change.block_angles.get(joint.name, 0.0)
         return replace(joint, line=line, point=point, block_angle=angle)
-    return joint
+    return replace(joint, phase=joint.phase + change.phases.get(joint.name, 0.0))
 
 
 def sensitivities(
@@ -152,7 +157,7 @@ def _rows(machine: Machine, poses: Mapping[str, Pose], change: Change, count: in
             gap = ends[0] - ends[1]
             rows += [gap.real, gap.imag]
         elif isinstance(joint, GearPair):
-            rows.append(0.0)
+            rows.append(-change.phases.get(joint.name, 0.0))
         else:
             rows += [_on_line(joint, poses, change).imag, change.block_angles.get(joint.name, 0.0)]
     for drive in machine.drives:

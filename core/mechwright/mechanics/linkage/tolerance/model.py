@@ -8,6 +8,7 @@ geared, all links by Newton's method from the nominal pose.
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,10 +19,10 @@ from mechwright.contracts.tolerances import ToleranceModel
 from mechwright.mechanics.linkage.kinematics.channels import PHI, STROKE
 from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
-from mechwright.mechanics.linkage.tolerance.contributors import sources_of
-from mechwright.mechanics.linkage.tolerance.outputs import outputs_of
+from mechwright.mechanics.linkage.tolerance.contributors import Source, sources_of
+from mechwright.mechanics.linkage.tolerance.outputs import Judged, outputs_of
 from mechwright.mechanics.linkage.tolerance.plates import Plates
-from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, assembly_order
+from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Geared, assembly_order
 from mechwright.mechanics.planar.input_range import period_turns
 from mechwright.mechanics.planar.machine import GearPair, Machine
 from mechwright.mechanics.planar.machine import Pose as Drawn
@@ -29,8 +30,8 @@ from mechwright.mechanics.planar.positions import Solution, solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 
-POSITIONS, MOST_POSITIONS = 361, 3601
-"""Positions over a turn or a swing, and at most over all turns of geared links."""
+POSITIONS = 361
+"""Positions over a turn or a swing."""
 
 SINGULAR = 1e-6
 """Smallest singular value over the largest one of links that are followed, below which a first order says
@@ -45,6 +46,11 @@ Poses = dict[str, Pose]
 class LinkageTolerances(ToleranceModel):
     """The model of one design; inputs count as in the motion."""
 
+    most_positions: ClassVar[int] = 3601
+    """At most over all turns of geared links."""
+    judges_gears: ClassVar[bool] = False
+    """Whether errors of gears are among the contributors."""
+
     def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
         course = course_of(table)
         self.machine, self.order = table.machine, table.order
@@ -54,19 +60,27 @@ class LinkageTolerances(ToleranceModel):
         if course.rocks:
             self.positions = np.sort(course.way(POSITIONS))
         else:
-            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
+            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, self.most_positions)
             self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
-        self.sources = sources_of(Plates.of(table), tolerances)
-        self.judged = {one.output.name: one for one in outputs_of(table.linkage, table.tolerance_names)}
+        self.sources = self._sources(table, tolerances)
+        self.judged = {one.output.name: one for one in self._judged(table)}
         self.contributors = tuple(one.contributor for one in self.sources)
         self.outputs = tuple(one.output for one in self.judged.values())
         self._kept: tuple[bytes, Poses, Array] | None = None
-        self.closed_form = all(isinstance(group, Driven | Dyad) for group in self.order)
+        self.closed_form = all(isinstance(group, Driven | Geared | Dyad) for group in self.order)
         self.told = tuple(self._told())
+
+    def _sources(self, table: AnyPlanarTable, tolerances: Tolerances) -> list[Source]:
+        """The contributors and what they change."""
+        return sources_of(Plates.of(table), tolerances)
+
+    def _judged(self, table: AnyPlanarTable) -> list[Judged]:
+        """The outputs."""
+        return outputs_of(table.linkage, table.tolerance_names)
 
     def _told(self) -> list[str]:
         found = []
-        if any(isinstance(joint, GearPair) for joint in self.machine.joints):
+        if not self.judges_gears and any(isinstance(joint, GearPair) for joint in self.machine.joints):
             found.append("errors and play of the gears' teeth are not among the contributors")
         dead = np.logical_not(self._poses(self.positions)[1])
         if dead.any():
@@ -130,6 +144,7 @@ class LinkageTolerances(ToleranceModel):
         column = Change(
             {key: np.reshape(value, (-1, 1)) for key, value in change.places.items()},
             {key: np.reshape(value, (-1, 1)) for key, value in change.block_angles.items()},
+            {key: np.reshape(value, (-1, 1)) for key, value in change.phases.items()},
         )
         machine = changed(self.machine, column)
         return _poses(self._solved(machine, poses, np.reshape(inputs + change.input, (-1, 1))), inputs.size)
