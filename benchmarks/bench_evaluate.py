@@ -185,7 +185,7 @@ def main(size: int) -> int:
         if not path.is_file():
             continue
         study = study_of(tomllib.loads(path.read_text()), path, host())
-        if type(study.family).evaluate is not Family.evaluate:
+        if type(study.family).evaluate is not Family.evaluate or study.family.rules().every:
             kept &= measured(name, study, size)
     return 0 if kept else 1
 

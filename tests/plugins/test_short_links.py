@@ -11,8 +11,8 @@ from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.refusals import refusals
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.sized import SizedParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 from mechwright_geneva.defaults.dimensions import complete
@@ -63,7 +63,7 @@ def test_small_mechanisms_are_built_as_they_are(name):
 
 def test_what_is_given_stays_and_usual_links_have_usual_pins():
     assert FourBarParams().pin_diameter == 6
-    assert SizedParams().web_width == 12
+    assert CompleteParams().web_width == 12
     small = FourBarParams(crank=5, coupler=18, follower=15, ground=20, rim=1)
     assert (small.pin_diameter, small.rim) == (4, 1)
     asked = FourBarParams(crank=5, coupler=18, follower=15, ground=20, pin_diameter=6)
@@ -147,7 +147,7 @@ def test_small_geneva_wheels_have_pins_and_dowels_whose_holes_can_be_made(law, w
     assert sizes.fixing == 0 or sizes.fixing >= 1
 
 
-@pytest.mark.parametrize(("model", "short"), [(FourBarParams, 9.0), (SizedParams, 8.0)])
+@pytest.mark.parametrize(("model", "short"), [(FourBarParams, 9.0), (CompleteParams, 8.0)])
 def test_a_first_design_with_fitted_sizes_does_not_send_all_the_slow_way(model, short):
     assert model(crank=short).rim < model.model_fields["rim"].default
     assert refusals(Batch(model, {}, {"crank": np.array([short, 40.0])})).known.all()

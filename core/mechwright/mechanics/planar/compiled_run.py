@@ -60,40 +60,40 @@ def _move(
 ) -> None:
     """All operations over samples from ``start`` on, of which the rows of the input are filled."""
     turned = 1
-    for op in ops:
-        kind, out, a, b, c, d = op[KIND], op[OUT], op[FIRST], op[SECOND], op[THIRD], op[FOURTH]
-        own = numbers[op[NUMBER] :]
+    for op in range(len(ops)):  # a slice of an array for each would take as long as what is done with it
+        kind, out, a, b = ops[op, KIND], ops[op, OUT], ops[op, FIRST], ops[op, SECOND]
+        c, d, n = ops[op, THIRD], ops[op, FOURTH], ops[op, NUMBER]
         if kind == FIXED_POINT:
             if start == 0:
-                rows[out], rows[out + 1] = own[0], own[1]
+                rows[out], rows[out + 1] = numbers[n], numbers[n + 1]
                 rows[out + 2 : out + 8] = 0.0
         elif kind == FIXED_TURNING:
             if start == 0:
-                rows[out], rows[out + 1] = math.cos(own[0]), math.sin(own[0])
+                rows[out], rows[out + 1] = math.cos(numbers[n]), math.sin(numbers[n])
                 rows[out + 2 : out + 5] = 0.0
         elif kind in (CRANK, GEAR):
-            turn(drive, circles[turned], own[0], own[1], out, start, size, rows)
+            turn(drive, circles[turned], numbers[n], numbers[n + 1], out, start, size, rows)
             turned += 1
         elif kind == ROTATED:
-            rotate(a, own[0], out, size, rows)
+            rotate(a, numbers[n], out, size, rows)
         elif kind == POINT:
-            place_point(a, b, own[0], own[1], out, rates, size, rows)
+            place_point(a, b, numbers[n], numbers[n + 1], out, rates, size, rows)
         elif kind == PINS:
-            close_pins(a, b, own, c, d, out, rates, size, rows)
+            close_pins(a, b, numbers[n:], c, d, out, rates, size, rows)
         elif kind == PIN_AND_SLIDE:
-            close_pin_and_slide(a, b, c, own, d, out, out + 4, rates, size, rows)
+            close_pin_and_slide(a, b, c, numbers[n:], d, out, out + 4, rates, size, rows)
         elif kind == SLIDE_BETWEEN:
-            close_slide_between(a, b, own, c, out, rates, size, rows)
+            close_slide_between(a, b, numbers[n:], c, out, rates, size, rows)
         elif kind == CROSSING:
-            close_crossing(a, b, c, d, own, out, rates, size, rows)
+            close_crossing(a, b, c, d, numbers[n:], out, rates, size, rows)
         elif kind == SLID:
-            place_on_line(a, b, c, own[0], out, rates, size, rows)
+            place_on_line(a, b, c, numbers[n], out, rates, size, rows)
         elif kind == WAY:
             measure_way(a, b, c, out, rates, size, rows)
         elif kind == SMALLER:
             take_smaller(a, b, out, size, rows)
         else:
-            measure_angle(a, own, out, start, size, rows, last)
+            measure_angle(a, numbers[n:], out, start, size, rows, last)
 
 
 @compiled

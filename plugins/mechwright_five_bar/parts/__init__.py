@@ -1,0 +1,1 @@
+"""Positions, rates, loads and figures of Geneva mechanisms, over tables of designs."""
