@@ -1,6 +1,6 @@
 """The family ``five-bar``."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
@@ -11,8 +11,8 @@ from mechwright_five_bar.requirements import AdjustablePathRequirement
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
-        Channel,
         GroundPlate,
         MadePart,
         Motion,
@@ -102,18 +102,20 @@ class FiveBars(Family[FiveBarParams]):
         return FiveBarTolerances(self.table(params), tolerances)
 
     def figures(self, table: "DesignTable[FiveBarParams]") -> "Mapping[str, Figure]":
-        """Transmission, swing or turns, peaks, masses of bodies, and extremes that compiled code finds."""
-        from mechwright_five_bar.kinematics.figures import extremes_of, figures_of
+        """Transmission, swing or turns, peaks, and masses of bodies."""
+        from mechwright_five_bar.kinematics.figures import figures_of
         from mechwright_five_bar.parts.masses import body_masses
 
         m = cast("FiveBarTable", table)
-        return figures_of(m) | extremes_of(m) | body_masses(m)
+        return figures_of(m) | body_masses(m)
 
-    def channels(self, table: "DesignTable[FiveBarParams]", samples: int) -> "Mapping[str, Channel]":
+    def extremes(
+        self, table: "DesignTable[FiveBarParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
         """Angles, rates and the coupler point; forces need the masses of the parts."""
-        from mechwright_five_bar.kinematics.channels import channels_of
+        from mechwright_five_bar.kinematics.channels import extremes_of
 
-        return channels_of(cast("FiveBarTable", table), samples)
+        return extremes_of(cast("FiveBarTable", table), names)
 
     def masses(self, table: "DesignTable[FiveBarParams]") -> "Mapping[str, PartMass] | None":
         """Plates, gears, pins, bushings and posts of designs of one phase."""

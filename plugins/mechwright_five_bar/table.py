@@ -16,6 +16,7 @@ from mechwright.contracts.design_table import column, plain, with_columns
 from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.linkage.planar_table import PlanarTable
 from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.course import Ways
 from mechwright.mechanics.planar.efforts import PointLoad
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_five_bar.kinematics.dimensions import FiveBar, bar_of
@@ -40,6 +41,7 @@ class FiveBarTable(PlanarTable[FiveBarParams]):
     """One five-bar, or five-bars whose gears have the same teeth; see :class:`PlanarTable`."""
 
     code = "five-bar"
+    dead_sine = 1e-6
     unloading: ClassVar[Mapping[str, Any]] = {"load_x": 0.0, "load_y": 0.0, "speed": 1.0}
 
     def row(self, place: int) -> "FiveBarTable":
@@ -181,13 +183,13 @@ class FiveBarTable(PlanarTable[FiveBarParams]):
         return ~np.isnan(self.ends[0])
 
     @property
-    def known_way(self) -> tuple[Any, Any, Any]:
-        """Start and travel of the crank in a period, and whether it goes there and back."""
+    def closed_ways(self) -> Ways:
+        """From 0 on, and of levers from end to end."""
         (one, two), lever = self.ends, self.is_lever
         if self.requested is None and self.sense < 0:
             one, two = two, one
         turn = self.sense * self.bar.turns * math.tau
-        return np.where(lever, one, 0.0), np.where(lever, two - one, turn), lever
+        return Ways(np.where(lever, one, 0.0), np.where(lever, two - one, turn), lever)
 
     @cached_property
     def angles(self) -> Array:

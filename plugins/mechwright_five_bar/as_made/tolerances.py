@@ -36,7 +36,6 @@ class FiveBarTolerances(LinkageTolerances):
     """The model of a design; crank angles count from X, as in the motion."""
 
     most_positions = 1 << 30
-    least_sine = 1e-6
     judges_gears = True
 
     def __init__(self, table: FiveBarTable, tolerances: Tolerances) -> None:

@@ -3,13 +3,14 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from mechwright import Array, Scalar
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.linkage.kinematics.forces import MILLI, carried
-from mechwright.mechanics.linkage.kinematics.period import course_of, period_of
+from mechwright.mechanics.linkage.kinematics.period import period_of
 from mechwright.mechanics.peak import PEAK_SAMPLES
 from mechwright.mechanics.planar import BodyMotion
 from mechwright.mechanics.planar.dynamics import Forces
@@ -52,9 +53,9 @@ class Loads:
     reverses: bool
 
 
-def peak_samples(m: FiveBarTable) -> int:
-    """Positions of a period among which peaks are sought, of one linkage."""
-    return math.ceil(PEAK_SAMPLES * max(1.0, abs(course_of(m).travel) / math.tau))
+def peak_samples(m: FiveBarTable) -> Any:
+    """Positions of a period among which peaks are sought: a whole number or a column."""
+    return np.ceil(PEAK_SAMPLES * np.maximum(1.0, np.abs(m.closed_ways.travel) / math.tau)).astype(int)
 
 
 def loads_of(m: FiveBarTable) -> Loads:
@@ -63,7 +64,7 @@ def loads_of(m: FiveBarTable) -> Loads:
 
 
 def _loads(m: FiveBarTable) -> Loads:
-    motion = period_of(m, peak_samples(m)).solution
+    motion = period_of(m, int(peak_samples(m))).solution
     found = forces_of(m, motion, masses_of(m))
     torque = found["arm_torque"]
     peaks = {

@@ -84,7 +84,8 @@ def _distance(f: Fails) -> tuple[float, float]:
     return gap.distance, gap.walls + f.m.params.rim
 
 
-BUSHINGS: Rule = bushing_rule("five-bar.bushing-wall").but(
+BUSHINGS: Rule = bushing_rule("five-bar").but(
+    code="five-bar.bushing-wall",
     reported=lambda f: (f.m.params.bushing_wall, least_wall(f.m)),
 )
 
