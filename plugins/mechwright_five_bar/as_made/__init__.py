@@ -1,1 +1,1 @@
-"""Positions, rates, loads and figures of Geneva mechanisms, over tables of designs."""
+"""What plates as made do, and what tolerances do."""

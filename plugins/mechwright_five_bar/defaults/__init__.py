@@ -1,1 +1,1 @@
-"""Positions, rates, loads and figures of Geneva mechanisms, over tables of designs."""
+"""Dimensions that a design leaves out."""

@@ -102,8 +102,9 @@ def train_of(params: FiveBarParams) -> Train:
     teeth = {"pinion": params.crank_teeth, "idler": params.idler_teeth, "wheel": params.arm_teeth}
     one, two = (module * (params.idler_teeth + z) / 2 for z in (params.crank_teeth, params.arm_teeth))
     x = (ground**2 + one**2 - two**2) / (2 * ground)
-    aside = 0.0 if params.module is None else np.sqrt(np.maximum(0.0, one**2 - x**2))
-    return Train(module, teeth, {"pinion": 0j, "idler": number(x - 1j * aside), "wheel": ground + 0j})
+    idler = np.array(x, dtype=complex)
+    idler.imag = -0.0 if params.module is None else -np.sqrt(np.maximum(0.0, one**2 - x**2))
+    return Train(module, teeth, {"pinion": 0j, "idler": number(idler), "wheel": ground + 0j})
 
 
 def modules_of(params: FiveBarParams) -> tuple[Any, Any]:

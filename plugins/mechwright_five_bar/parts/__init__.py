@@ -1,1 +1,1 @@
-"""Positions, rates, loads and figures of Geneva mechanisms, over tables of designs."""
+"""Outlines, plates, joints, hardware, mounting."""

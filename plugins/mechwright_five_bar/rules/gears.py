@@ -38,10 +38,25 @@ def _nearest(f: Fails) -> Iterator[Change]:
     yield {"parameters.module": None}
 
 
-IN_A_LINE = Rule(
+LEAST_MODULE = Rule(
     "five-bar.gears",
     "module",
-    lambda f: (
+    lambda f: f"gears of {f.value:g} mm do not reach over the ground of {f.m.params.ground:g} mm",
+    value=lambda m: _train(m).module,
+    limit=lambda m: modules_of(m.params)[0] * (1 - IN_LINE),
+    remedy=lambda f: f"their module is at least {modules_of(f.m.params)[0]:.6g} mm",
+    when=lambda m: bool(m.params.idler_teeth),
+    reported=no_figures,
+    proposed=_nearest,
+)
+MOST_MODULE = LEAST_MODULE.but(
+    message="with {value:.6g} mm the gears of crank and arm meet, which turn the same way",
+    limit=lambda m: modules_of(m.params)[1],
+    remedy="it is at most {limit:.6g} mm, or give the idler more teeth",
+    must_be="at most",
+)
+IN_A_LINE = LEAST_MODULE.but(
+    message=lambda f: (
         f"without an idler the gears fill the ground of {f.m.params.ground:g} mm with a module of "
         f"{modules_of(f.m.params)[0]:g} mm, not {_train(f.m).module:g}"
     ),
@@ -50,31 +65,6 @@ IN_A_LINE = Rule(
     remedy="leave module out, or give an idler",
     must_be="at most",
     when=lambda m: not m.params.idler_teeth,
-    reported=no_figures,
-    proposed=_nearest,
-)
-LEAST_MODULE = Rule(
-    "five-bar.gears",
-    "module",
-    lambda f: f"gears of {_train(f.m).module:g} mm do not reach over the ground of {f.m.params.ground:g} mm",
-    value=lambda m: _train(m).module,
-    limit=lambda m: modules_of(m.params)[0] * (1 - IN_LINE),
-    remedy=lambda f: f"their module is at least {modules_of(f.m.params)[0]:.6g} mm",
-    when=lambda m: bool(m.params.idler_teeth),
-    reported=no_figures,
-    proposed=_nearest,
-)
-MOST_MODULE = Rule(
-    "five-bar.gears",
-    "module",
-    lambda f: f"with {_train(f.m).module:.6g} mm the gears of crank and arm meet, which turn the same way",
-    value=lambda m: _train(m).module,
-    limit=lambda m: modules_of(m.params)[1],
-    remedy=lambda f: f"it is at most {modules_of(f.m.params)[1]:.6g} mm, or give the idler more teeth",
-    must_be="at most",
-    when=lambda m: bool(m.params.idler_teeth),
-    reported=no_figures,
-    proposed=_nearest,
 )
 
 
@@ -84,10 +74,9 @@ def _backlashes(m: AnyPlanarTable) -> Any:
     return np.concatenate(found, axis=1)[0 if m.single else slice(None)]
 
 
-TIPS = Rule(
-    "five-bar.gears",
-    "backlash",
-    lambda f: (
+TIPS = LEAST_MODULE.but(
+    parameter="backlash",
+    message=lambda f: (
         f"{f.m.params.backlash:g} mm take the tips of the {list(_train(f.m).teeth)[f.item]}'s teeth, of a "
         f"module of {_train(f.m).module:.4g} mm"
     ),
@@ -95,8 +84,7 @@ TIPS = Rule(
     limit=_backlashes,
     remedy=lambda f: f"use at most {math.floor(1000 * f.limit) / 1000:g} mm",
     must_be="at most",
-    reported=no_figures,
-    proposed=_nearest,
+    when=None,
     each=False,
 )
 
