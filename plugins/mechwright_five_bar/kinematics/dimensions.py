@@ -102,10 +102,16 @@ class FiveBar(Rowwise):
         """Poses of the links at angles (..., n) of the crank, or at one, rad."""
         return solve(self.machine, [Turning.of(np.atleast_1d(theta))], rates=0)
 
+    def pivots(self, theta: ArrayLike) -> tuple[Any, Any]:
+        """A and B1 (...) with the crank at angles θ (...), mm."""
+        theta = np.asarray(theta, dtype=float)
+        arm = self.arm * np.exp(1j * (self.offset + self.ratio * theta))
+        return self.crank * np.exp(1j * theta), self.pivot + arm
+
     def squared_distance(self, theta: ArrayLike) -> Array:
         """D² (...), mm²."""
-        arm = self.arm * np.exp(1j * (self.offset + self.ratio * np.asarray(theta)))
-        square: Array = np.abs(self.pivot + arm - self.crank * np.exp(1j * np.asarray(theta))) ** 2
+        a, b1 = self.pivots(theta)
+        square: Array = np.abs(b1 - a) ** 2
         return square
 
 

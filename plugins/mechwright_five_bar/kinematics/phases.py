@@ -13,6 +13,7 @@ import numpy as np
 from mechwright import KinematicsError, kept
 from mechwright.contracts.design_table import number
 from mechwright.mechanics.linkage.slots import Setting, setting
+from mechwright.mechanics.planar.dyad import directions
 from mechwright_five_bar.kinematics.dimensions import bar_of
 from mechwright_five_bar.parameters import FiveBarParams, PhaseTable
 from mechwright_five_bar.parts.hardware import clamp_of_design, turning_bore
@@ -111,10 +112,10 @@ def _setting_angle(params: FiveBarParams) -> Any:
 
 def pose(params: FiveBarParams) -> tuple[Any, Any]:
     """B1 and C from A0 in phase 1 in the pose of setting, mm; NaN where the links cannot be joined."""
-    found = bar_of(params).at(np.radians(_setting_angle(params))).bodies
-    b1 = found["arm"].point(params.arm, 0).position
-    c = found["coupler"].point(params.coupler, 0).position
-    return (b1, c) if b1.ndim > 1 else (b1.item(), c.item())
+    bar = bar_of(params)
+    a, b1 = bar.pivots(np.radians(_setting_angle(params)))
+    coupler, _ = directions(np.asarray(b1 - a), bar.coupler, bar.rocker, bar.branch)
+    return number(b1), number(a + bar.coupler * coupler)
 
 
 def _pose(params: FiveBarParams) -> tuple[Any, Any]:
@@ -130,8 +131,9 @@ def _pose(params: FiveBarParams) -> tuple[Any, Any]:
 
 def _pivots(params: FiveBarParams, row: PhaseTable, b1: Any, c: Any) -> tuple[Any, Any]:
     """A and C of a phase from A0 in the pose of setting, mm."""
-    a = params.crank * np.exp(1j * np.radians(_setting_angle(params) + row.crank_turn))
-    return number(a), number(b1 + (c - b1) * np.exp(1j * np.radians(row.rocker_turn)))
+    angles = _setting_angle(params) + row.crank_turn, row.rocker_turn
+    crank, rocker = (number(np.exp(1j * np.radians(angle))) for angle in angles)
+    return params.crank * crank, b1 + (c - b1) * rocker
 
 
 def _unit(z: Any) -> Any:
