@@ -175,6 +175,10 @@ def _with(model: Any, change: Callable[[Any], Any]) -> Any:
             update[name] = inner
         elif type(value) is dict and any(isinstance(one, BaseModel) for one in value.values()):
             update[name] = {key: _with(one, change) for key, one in value.items()}
+        elif type(value) is tuple and any(isinstance(one, BaseModel) for one in value):
+            tables = tuple(_with(one, change) if isinstance(one, BaseModel) else one for one in value)
+            if any(new is not old for new, old in zip(tables, value, strict=True)):
+                update[name] = tables
     if not update:
         return model
     changed = model.model_copy(update=update)
