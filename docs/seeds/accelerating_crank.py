@@ -7,8 +7,8 @@ from signed_distances import of_four_bar, of_slider_crank
 
 from mechwright.mechanics.planar import BodyMotion, Turning, acceleration_pole
 from mechwright.mechanics.planar.poles import circles, ratio_of_pole
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_slider_crank.kinematics import SliderCrank
 
 SLIDER, FOUR = SliderCrank(50.0, 150.0, 20.0), FourBar(40, 120, 80, 100)

@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_slider_crank.kinematics import SliderCrank
 
 

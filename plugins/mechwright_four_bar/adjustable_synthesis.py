@@ -10,10 +10,10 @@ from mechwright.mechanics.adjustable import Moves, PlaneSpace, settings_of
 from mechwright.mechanics.adjustable.designs import Phased, designs_of
 from mechwright.mechanics.adjustable.machine import DIGITS, Machine
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import in_phase
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import in_phase
 from mechwright_four_bar.requirements import LINKS, AdjustablePathRequirement
 
 

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from mechwright import AsMade, MadePart
 from mechwright.mechanics.linkage.made import Hole, MadeLink, joint, link, offset, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors, room_figure
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import slotted
-from mechwright_four_bar.plates import bosses_of, joints_of, posts_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import slotted
+from mechwright_four_bar.parts.plates import bosses_of, joints_of, posts_of
 from mechwright_four_bar.tolerances import FourBarTolerances, lined_up
 
 RULE = "(Σ ρ) / |N| + |Σ (∂/∂l) Δl|, every pin standing off in the worst direction; least: pins centred"

@@ -15,12 +15,12 @@ from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.materials import material
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, SHAFT
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.period_kernels import most_force
 from mechwright_four_bar.masses import MICRO, MILLI
+from mechwright_four_bar.parts.sizes import OF_BORE
+from mechwright_four_bar.parts.usual import bore_about
 from mechwright_four_bar.period import CIRCLE, Period, bars_of
-from mechwright_four_bar.period_kernels import most_force
-from mechwright_four_bar.sizes import OF_BORE
-from mechwright_four_bar.usual import bore_about
 
 MOST_PLATES, MOST_LAYERS = 3, 5
 """Links, and layers of them and two ground plates."""

@@ -10,8 +10,8 @@ from mechwright import Candidate, Rejected, Scalar
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.adjustable.machine import DIGITS
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.parameters import FourBarParams
 
 GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
 """Transmission angle from which a larger one is not worth longer links."""

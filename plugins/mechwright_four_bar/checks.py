@@ -16,14 +16,22 @@ from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION, TURN_BACK
 from mechwright.tolerances import falls_short
-from mechwright_four_bar.dimensions import FourBar, Kind
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.reach import (
+    bar_of,
+    course_of,
+    is_lever,
+    reach,
+    toggles,
+    transmission_of,
+    within,
+)
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import hidden_point, layout_of, layout_or_none
+from mechwright_four_bar.parts.usual import USUAL
 from mechwright_four_bar.phase_checks import clamps_hold, places_apart
-from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none
-from mechwright_four_bar.reach import bar_of, course_of, is_lever, reach, toggles, transmission_of, within
 from mechwright_four_bar.room import above, room_findings
 from mechwright_four_bar.strength_checks import bearing_findings, strength_findings, strength_judged
-from mechwright_four_bar.usual import USUAL
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and

@@ -21,12 +21,12 @@ from mechwright.mechanics.planar.swing import LEAST_TRANSMISSION
 from mechwright.tolerances import falls_short
 from mechwright_four_bar.bounds import bears
 from mechwright_four_bar.checks import LEAST_ROOM
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.many_masses import give_masses
+from mechwright_four_bar.parts.sizes import OF_BORE
+from mechwright_four_bar.parts.usual import bore_about, with_sizes
 from mechwright_four_bar.period import Period, give_extremes
-from mechwright_four_bar.sizes import OF_BORE
 from mechwright_four_bar.swings import courses, toggles, transmission
-from mechwright_four_bar.usual import bore_about, with_sizes
 
 _APART = {"phases", "phase", "setting_angle", "coupler_bend", "frame"}
 """What is not varied here."""

@@ -8,7 +8,7 @@ from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import (
     AdjustablePathRequirement,
     PathRequirement,
@@ -64,23 +64,23 @@ class FourBars(Family[FourBarParams]):
 
     def solve(self, params: FourBarParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed, or its swing there and back."""
-        from mechwright_four_bar.motion import motion_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.kinematics.motion import motion_of
+        from mechwright_four_bar.parts.phases import in_phase
 
         return motion_of(in_phase(params), samples)
 
     def stretches(self, params: FourBarParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_four_bar.motion import motion_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.kinematics.motion import motion_of
+        from mechwright_four_bar.parts.phases import in_phase
 
         return in_stretches(partial(motion_of, in_phase(params)), samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
         """Ground, crank, coupler and follower as plates, their pins and bushings."""
-        from mechwright_four_bar.phases import in_phase
-        from mechwright_four_bar.plates import parts_of
+        from mechwright_four_bar.parts.phases import in_phase
+        from mechwright_four_bar.parts.plates import parts_of
 
         refuse(self.check(params))
         return parts_of(in_phase(params))
@@ -88,13 +88,13 @@ class FourBars(Family[FourBarParams]):
     def mounting(self, params: FourBarParams) -> "GroundPlate":
         """Its one ground plate with the crank's shaft."""
         from mechwright_four_bar.mounting import mounting_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.parts.phases import in_phase
 
         return mounting_of(in_phase(params))
 
     def transmission(self, params: FourBarParams) -> "Transmission":
         """Crank in, follower out."""
-        from mechwright_four_bar.stage import FollowerStage
+        from mechwright_four_bar.kinematics.stage import FollowerStage
 
         return FollowerStage(params)
 
@@ -107,13 +107,13 @@ class FourBars(Family[FourBarParams]):
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
         from mechwright_four_bar.as_made import as_made
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.parts.phases import in_phase
 
         return as_made(in_phase(params), made)
 
     def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the follower's angle and of the coupler point, from links and pins."""
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.parts.phases import in_phase
         from mechwright_four_bar.tolerances import FourBarTolerances
 
         return FourBarTolerances(in_phase(params), tolerances)
@@ -164,8 +164,8 @@ def _with_settings(
     params: FourBarParams, findings: Callable[[FourBarParams], Sequence[Finding]]
 ) -> Sequence[Finding]:
     """What is found of the machine as it is set now, and of how it is set to other phases."""
+    from mechwright_four_bar.parts.phases import in_phase
     from mechwright_four_bar.phase_checks import setting_findings
-    from mechwright_four_bar.phases import in_phase
 
     own = tuple(setting_findings(params))
     if errors(own):

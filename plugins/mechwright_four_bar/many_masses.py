@@ -1,4 +1,4 @@
-"""Masses of the links of many four-bars, as :mod:`mechwright_four_bar.layout` draws them.
+"""Masses of the links of many four-bars, as :mod:`mechwright_four_bar.parts.layout` draws them.
 
 What no layer decides: the plates of crank and coupler, and with ``frame = "two"``, where it has a shaft of
 its own, that of the follower.
@@ -15,8 +15,8 @@ from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.masses import OF_PART
 from mechwright.mechanics.linkage.areas import circle_area, hull_area, straight_area
 from mechwright.mechanics.linkage.outlines import FILLET
-from mechwright_four_bar.sizes import OF_BORE
-from mechwright_four_bar.usual import bore_about
+from mechwright_four_bar.parts.sizes import OF_BORE
+from mechwright_four_bar.parts.usual import bore_about
 
 
 def give_masses(found: Answer, columns: Collection[str], designs: Designs) -> None:

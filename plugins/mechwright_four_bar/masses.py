@@ -16,12 +16,12 @@ from mechwright.mechanics.linkage import (
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar import BodyMotion
 from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import clamp_of_design
-from mechwright_four_bar.plates import bushed, joints_of, outlines_of, pin_length
-from mechwright_four_bar.sizes import turning_bore
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import Loop
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import clamp_of_design
+from mechwright_four_bar.parts.plates import bushed, joints_of, outlines_of, pin_length
+from mechwright_four_bar.parts.sizes import turning_bore
 
 MILLI = 1e-3
 """Forces are computed in mN, from kg, mm and s."""

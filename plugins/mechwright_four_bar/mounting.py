@@ -2,8 +2,8 @@
 
 from mechwright import GroundPlate, MountingError
 from mechwright.contracts.mounting import SCREW_HOLE
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import BOLT, joints_of, layout_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import BOLT, joints_of, layout_of
 
 
 def mounting_of(params: FourBarParams) -> GroundPlate:

@@ -9,11 +9,11 @@ from mechwright import Array, Scalar
 from mechwright.contracts.stretch import Samples
 from mechwright.mechanics.peak import PEAK_SAMPLES
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_four_bar.change_point import close_through
-from mechwright_four_bar.loop import Loop, close
+from mechwright_four_bar.kinematics.change_point import close_through
+from mechwright_four_bar.kinematics.loop import Loop, close
+from mechwright_four_bar.kinematics.reach import bar_of, course_of
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.parameters import FourBarParams
 
 
 @dataclass(frozen=True)

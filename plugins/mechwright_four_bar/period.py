@@ -12,8 +12,8 @@ from mechwright import Array
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.mechanics.peak import PEAK_SAMPLES
-from mechwright_four_bar import period_kernels as kernels
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics import period_kernels as kernels
+from mechwright_four_bar.kinematics.dimensions import FourBar
 
 STEP = (PEAK_SAMPLES - 1) // (SAMPLES - 1)
 """Of so many samples among which peaks are sought, one is a sample of the channels."""

@@ -6,10 +6,10 @@ from mechwright import Finding, Stage, of_stage
 from mechwright.mechanics.linkage.clamp_findings import clamped, no_clamp, too_near
 from mechwright.mechanics.linkage.setting_findings import Places, Turned, setting_order
 from mechwright.tolerances import falls_short
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import clamp_of_design, pose_angles, set_joints
+from mechwright_four_bar.parts.sizes import turning_bore
 from mechwright_four_bar.peaks import peaks_of
-from mechwright_four_bar.phases import clamp_of_design, pose_angles, set_joints
-from mechwright_four_bar.sizes import turning_bore
 
 
 def setting_findings(params: FourBarParams) -> Iterator[Finding]:

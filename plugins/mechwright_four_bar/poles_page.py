@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.pipeline.poles import NAME, Coupler, PolesPage
-from mechwright_four_bar.change_point import close_through
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop, close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.kinematics.change_point import close_through
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import Loop, close
+from mechwright_four_bar.kinematics.reach import bar_of, course_of
+from mechwright_four_bar.parameters import FourBarParams
 
 
 class FourBarPoles(PolesPage):

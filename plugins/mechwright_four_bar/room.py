@@ -7,10 +7,10 @@ from itertools import combinations
 from mechwright import Finding, GeometryError, Stage, of_stage
 from mechwright.mechanics.linkage import Boss
 from mechwright.tolerances import falls_short
-from mechwright_four_bar.joints import bosses
-from mechwright_four_bar.layout import link_outline
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import TRIED, bosses_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.joints import bosses
+from mechwright_four_bar.parts.layout import link_outline
+from mechwright_four_bar.parts.plates import TRIED, bosses_of
 
 
 @of_stage(Stage.PARTS)

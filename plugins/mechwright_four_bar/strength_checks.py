@@ -16,12 +16,12 @@ from mechwright.mechanics.strength.turning_pair import (
     eye_stresses,
     pin_stresses,
 )
+from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import sides_of, stack_of, unloaded
+from mechwright_four_bar.parts.sizes import turning_bore
 from mechwright_four_bar.peaks import peaks_of, period_of
-from mechwright_four_bar.plates import sides_of, stack_of, unloaded
-from mechwright_four_bar.reach import bar_of
-from mechwright_four_bar.sizes import turning_bore
 
 
 @of_stage(Stage.PARTS)

@@ -10,9 +10,9 @@ from mechwright import Array
 from mechwright.contracts.by_arrays import Answer, Designs
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.swing import TURN_BACK
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.reach import reach_cosines
 from mechwright_four_bar.period import Period
-from mechwright_four_bar.reach import reach_cosines
 
 Ways = list[swing.Ways]
 """First and second way of each; NaN where there is none."""
@@ -27,7 +27,7 @@ class Reach(NamedTuple):
 
 
 def reach_of(bar: FourBar, least: float = 0.0) -> Reach:
-    """What :func:`mechwright_four_bar.reach.reach` says of each, and which of them turn fully."""
+    """What :func:`mechwright_four_bar.kinematics.reach.reach` says of each, and which of them turn fully."""
     near, far = map(np.asarray, reach_cosines(bar, least))
     empty = (near <= -1) | (far >= 1) | (far >= near)
     low, high = np.arccos(np.minimum(near, 1.0)), np.arccos(np.maximum(far, -1.0))

@@ -21,9 +21,9 @@ import numpy as np
 from mechwright import Array, DesignError, Output, ToleranceModel, Tolerances
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.planar.dyad import directions
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import joints_of, sides_of
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.kinematics.reach import bar_of, course_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import joints_of, sides_of
 
 FOLLOWER = Output("follower angle", "rad")
 POINT = Output("coupler point", "mm", 2)

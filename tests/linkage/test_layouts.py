@@ -126,10 +126,10 @@ def test_openings_leave_a_rim(name):
 
 @pytest.mark.parametrize("frame", ["one", "two"])
 def test_the_four_bar_stands_as_its_own_family_has_it(frame):
-    from mechwright_four_bar.params import FourBarParams
-    from mechwright_four_bar.plates import joints_of
-    from mechwright_four_bar.plates import layout_of as family_layout
-    from mechwright_four_bar.plates import parts_of as family_parts
+    from mechwright_four_bar.parameters import FourBarParams
+    from mechwright_four_bar.parts.plates import joints_of
+    from mechwright_four_bar.parts.plates import layout_of as family_layout
+    from mechwright_four_bar.parts.plates import parts_of as family_parts
 
     params = FourBarParams(
         crank=40, coupler=120, follower=80, ground=100, coupler_point_x=50, coupler_point_y=30, frame=frame

@@ -23,11 +23,11 @@ from mechwright.designs.design import load
 from mechwright.mechanics.linkage import Boss, Plate, Spindle, hull_link, rectangle, stack
 from mechwright.plugins.host import host
 from mechwright_four_bar.as_made import as_made
-from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bosses_of, layout_of, posts_of, sides_of
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import bosses_of, layout_of, posts_of, sides_of
 from mechwright_four_bar.tolerances import FourBarTolerances
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "double-crank.toml"

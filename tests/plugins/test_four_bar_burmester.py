@@ -19,11 +19,11 @@ from mechwright_four_bar.burmester.dyads import Poses
 from mechwright_four_bar.burmester.kept import Option, driven
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.plates import pivot_of
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of, course_of
+from mechwright_four_bar.parts.plates import pivot_of
 
 FIVE = ((7, -6, -27), (14, -17, -40), (23, -24, -61), (28, -25, -72), (37, -19, -91))
 

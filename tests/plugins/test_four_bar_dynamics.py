@@ -7,12 +7,12 @@ import pytest
 from four_bar_reference import expected
 
 from mechwright.mechanics.linkage import Mass
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.motion import motion_of
 from mechwright_four_bar.masses import force_balance, joint_forces, masses_of
-from mechwright_four_bar.motion import motion_of
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 BAR = FourBar(40, 120, 80, 100)
 MASSES = {

@@ -19,8 +19,8 @@ from signed_distances import of_four_bar
 
 from mechwright.mechanics.planar import PointMotion, Turning, acceleration_pole
 from mechwright.mechanics.planar.dyad import joined
-from mechwright_four_bar.dimensions import FourBar, Kind
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.loop import close
 
 BAR = FourBar(40, 120, 80, 100)
 PHI, OMEGA, POINT = math.radians(120), 10.0, 60 + 30j

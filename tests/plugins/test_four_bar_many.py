@@ -10,7 +10,7 @@ from many import Many
 from mechwright import Stage
 from mechwright.contracts.evaluation import Batch
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 pytestmark = in_ci
 

@@ -11,11 +11,11 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parts.plates import pivot_of
 from mechwright_four_bar.paths.asked import Limits
 from mechwright_four_bar.paths.search import path
 from mechwright_four_bar.paths.starts import link_lengths
-from mechwright_four_bar.plates import pivot_of
-from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.requirements import PathRequirement
 
 LINE = 20 + 1j * np.arange(20.0, 46.0, 5.0)

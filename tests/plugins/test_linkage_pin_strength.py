@@ -16,7 +16,7 @@ from mechwright.mechanics.linkage.rules import strength
 from mechwright.mechanics.strength.allowed import PIN_BENDING
 from mechwright.mechanics.strength.hertz import contact_modulus
 from mechwright_four_bar import strength_checks as four
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable

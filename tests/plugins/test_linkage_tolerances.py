@@ -14,7 +14,7 @@ from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 from mechwright.mechanics.tolerance import analyse
 from mechwright.testing.tolerances import tolerance_faults
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams

@@ -13,10 +13,10 @@ from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors
 from mechwright_cam.pages.as_made.plot import plot
 from mechwright_four_bar.as_made import as_made as bar_as_made
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bosses_of
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import bosses_of
 from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_slider_crank.as_made import as_made as slider_as_made
 from mechwright_slider_crank.params import SliderCrankParams

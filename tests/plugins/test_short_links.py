@@ -14,7 +14,7 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.sized import SizedParams
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.defaults.dimensions import complete
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import filled_in, sizes_of

@@ -15,7 +15,7 @@ from mechwright.mechanics.tolerance.places import place_at
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva

@@ -7,12 +7,12 @@ import numpy as np
 
 from mechwright import Array, DesignError, Motion, Port, Turning
 from mechwright.mechanics.planar.crank_stage import CrankStage
-from mechwright_four_bar.motion import check_moves, motion_over
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.motion import check_moves, motion_over
+from mechwright_four_bar.kinematics.reach import bar_of, is_lever
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import in_phase
+from mechwright_four_bar.parts.plates import pivot_of
 from mechwright_four_bar.peaks import driven_by
-from mechwright_four_bar.phases import in_phase
-from mechwright_four_bar.plates import pivot_of
-from mechwright_four_bar.reach import bar_of, is_lever
 
 
 class FollowerStage(CrankStage):

@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike
 from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.planar.dyad import Rates
-from mechwright_four_bar.dimensions import CHANGE_POINT, FourBar
-from mechwright_four_bar.loop import Loop
+from mechwright_four_bar.kinematics.dimensions import CHANGE_POINT, FourBar
+from mechwright_four_bar.kinematics.loop import Loop
 
 Jet = list[Plane]
 """A quantity (...) and its first three derivatives over the crank angle."""

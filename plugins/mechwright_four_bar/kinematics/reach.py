@@ -5,9 +5,9 @@ import math
 from mechwright import kept
 from mechwright.mechanics.planar import Course, swing
 from mechwright.mechanics.planar.swing import TURN_BACK
-from mechwright_four_bar.change_point import turns_to_close
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.change_point import turns_to_close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.parameters import FourBarParams
 
 Interval = tuple[float, float]
 """Crank angles, rad."""

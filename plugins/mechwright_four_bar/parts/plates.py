@@ -19,20 +19,20 @@ from mechwright.mechanics.linkage.stacking import STACK_SAMPLES
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.standards.parts import GREY
-from mechwright_four_bar.joints import Joint, bosses, joints
-from mechwright_four_bar.layout import Layout, hidden, laid_out
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.marks import scales
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import (
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of, course_of, is_lever, within
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.joints import Joint, bosses, joints
+from mechwright_four_bar.parts.layout import Layout, hidden, laid_out
+from mechwright_four_bar.parts.marks import scales
+from mechwright_four_bar.parts.phases import (
     clamp_of_design,
     phases_of,
     settings_of,
     slotted,
     spare_holes,
 )
-from mechwright_four_bar.reach import bar_of, course_of, is_lever, within
-from mechwright_four_bar.sizes import turning_bore
+from mechwright_four_bar.parts.sizes import turning_bore
 
 BOLT = 1.5
 """Length of a post's bolt under the lower plate, in its diameters: for a nut, or the machine's bed."""

@@ -150,7 +150,7 @@ class FourBarParams(Parameters):
     def fitted(self) -> Mapping[str, Any]:
         """The sizes of the joints, smaller than usual where links are short."""
         from mechwright.mechanics.linkage.usual import of_table
-        from mechwright_four_bar.usual import USUAL, fits
+        from mechwright_four_bar.parts.usual import USUAL, fits
 
         return of_table(USUAL, self, fits(partial(getattr, self)))
 

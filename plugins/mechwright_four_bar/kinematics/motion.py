@@ -18,11 +18,11 @@ from mechwright.mechanics.planar.channels import (
     turning_channels,
 )
 from mechwright_four_bar.checks import findings
+from mechwright_four_bar.kinematics.reach import bar_of, course_of, is_lever, toggles, transmission_of
 from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.plates import frames_of, held_by, pivot_of
 from mechwright_four_bar.peaks import Period, peaks_of, period_of, rate_peaks
-from mechwright_four_bar.plates import frames_of, held_by, pivot_of
-from mechwright_four_bar.reach import bar_of, course_of, is_lever, toggles, transmission_of
 
 
 def motion_of(params: FourBarParams, samples: Samples) -> Motion:

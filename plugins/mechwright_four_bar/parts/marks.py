@@ -5,8 +5,8 @@ from collections.abc import Mapping
 
 from mechwright import Engraving
 from mechwright.mechanics.linkage.scale import scale
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import clamp_of_design, pose_angles, settings_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import clamp_of_design, pose_angles, settings_of
 
 
 def scales(params: FourBarParams) -> Mapping[str, tuple[Engraving, ...]]:

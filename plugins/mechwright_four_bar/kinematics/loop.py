@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mechwright import Array
 from mechwright.mechanics.planar import BodyMotion, Plane, PointMotion, Turning
 from mechwright.mechanics.planar.dyad import Rates, dyad
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,10 +1,10 @@
 """Sizes that plates, pins and phases share."""
 
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.usual import bore_about
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.usual import bore_about
 
 OF_BORE = ("pin_diameter", "bushing_wall", "running_fit")
-"""Parameters of which :func:`mechwright_four_bar.usual.bore_about` makes a turning bore."""
+"""Parameters of which :func:`mechwright_four_bar.parts.usual.bore_about` makes a turning bore."""
 
 
 def turning_bore(params: FourBarParams) -> float:

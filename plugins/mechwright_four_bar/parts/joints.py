@@ -12,9 +12,9 @@ from mechwright.mechanics.linkage import Boss
 from mechwright.mechanics.linkage.scale import WIDTH
 from mechwright.mechanics.linkage.slots import ArcSlot
 from mechwright.mechanics.linkage.turned import HEAD_HEIGHT, SHAFT
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import clamp_of_design, set_joints, slotted, spare_holes
-from mechwright_four_bar.sizes import turning_bore
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import clamp_of_design, set_joints, slotted, spare_holes
+from mechwright_four_bar.parts.sizes import turning_bore
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from mechwright import KinematicsError, kept
 from mechwright.mechanics.linkage.clamp import Clamp, clamps
 from mechwright.mechanics.linkage.slots import Setting, setting
 from mechwright.mechanics.linkage.turned import HEAD_HEIGHT
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams, PhaseTable
-from mechwright_four_bar.sizes import turning_bore
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams, PhaseTable
+from mechwright_four_bar.parts.sizes import turning_bore
 
 
 @kept

@@ -25,9 +25,9 @@ from mechwright.mechanics.linkage import (
 )
 from mechwright.mechanics.linkage.outlines import FILLET
 from mechwright.mechanics.linkage.turned import HEAD
-from mechwright_four_bar.joints import bosses, joints, raised
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import clamp_of_design, set_joints
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.joints import bosses, joints, raised
+from mechwright_four_bar.parts.phases import clamp_of_design, set_joints
 
 BEND = 2.0
 """Radius of the bent coupler's middle line, in web widths: its inner edge keeps 1.5 of them."""
