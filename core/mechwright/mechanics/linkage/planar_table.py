@@ -23,6 +23,7 @@ from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.masses import masses_of
 from mechwright.mechanics.linkage.parts.sizes import Sizes
 from mechwright.mechanics.planar.assembly_order import Group, assembly_order
+from mechwright.mechanics.planar.course import Ways
 from mechwright.mechanics.planar.efforts import PointLoad
 from mechwright.mechanics.planar.machine import Machine, Prismatic
 from mechwright.mechanics.planar.positions import Solution, solve
@@ -45,6 +46,13 @@ class PlanarTable(DesignTable[P]):
     unloading: ClassVar[Mapping[str, Any]] = {}
     """Parameters that plates do not depend on, each with one value: what is kept of the plates serves all."""
 
+    tolerance_names: ClassVar[Mapping[str, str]] = {}
+    """Names of contributors and outputs of the tolerance analysis to those that the family gives them."""
+
+    dead_sine: ClassVar[float] = 0.02
+    """Sine of the transmission angle of a dyad below which a first order says nothing: at a sine s a dead point
+    is s²/2 of a link's length away, with 0.02 as little as the tolerances."""
+
     @classmethod
     def of(cls, params: P, size: int | None = None) -> Self:
         """The linkage of a design, kept with all that is computed of it; or a table of ``size`` designs."""
@@ -64,6 +72,11 @@ class PlanarTable(DesignTable[P]):
     @abstractmethod
     def requested(self) -> tuple[float, float] | None:
         """The ends that a design states for its input: rad, or mm of a driver that slides; None for none."""
+
+    @property
+    def closed_ways(self) -> Ways | None:
+        """How the inputs go, where the family knows it in closed form; None for inputs whose ends are sought."""
+        return None
 
     @abstractmethod
     def laid_out(self) -> Layout:
@@ -97,7 +110,8 @@ class PlanarTable(DesignTable[P]):
     @property
     def sizes(self) -> Sizes:
         """The sizes that a design states."""
-        return Sizes(**{name: getattr(self.params, name) for name in Sizes.__dataclass_fields__})
+        names = [name for name in Sizes.__dataclass_fields__ if hasattr(self.params, name)]
+        return Sizes(**{name: getattr(self.params, name) for name in names})
 
     @property
     def sense(self) -> float:

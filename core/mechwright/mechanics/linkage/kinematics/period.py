@@ -18,6 +18,7 @@ from mechwright.contracts.design_table import column
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
 from mechwright.mechanics.planar import Course
+from mechwright.mechanics.planar.course import Ways
 from mechwright.mechanics.planar.input_range import InputRange, Interval, period_turns, ranges, usable
 from mechwright.mechanics.planar.positions import Solution
 from mechwright.mechanics.planar.rigid import Turning
@@ -57,6 +58,8 @@ def turns_fully(table: AnyPlanarTable) -> bool:
 
 def is_lever(table: AnyPlanarTable) -> bool:
     """Whether the input of one linkage goes there and back."""
+    if table.closed_ways is not None:
+        return table.closed_ways.course.rocks
     return table.driver_slides or table.requested is not None or not turns_fully(table)
 
 
@@ -90,6 +93,8 @@ def course_of(table: AnyPlanarTable) -> Course:
 
 
 def _course(table: AnyPlanarTable) -> Course:
+    if table.closed_ways is not None:
+        return table.closed_ways.course
     if is_lever(table):
         ends = ends_of(table)
         assert ends is not None  # noqa: S101 - the rules come first
@@ -103,18 +108,9 @@ def period_of(table: AnyPlanarTable, samples: Samples) -> Period:
     return Period(time, drive, table.solved(drive))
 
 
-@dataclass(frozen=True)
-class Ways:
-    """Start and travel of the inputs of a table, columns (n, 1), rad or mm, and which go there and back."""
-
-    start: Array
-    travel: Array
-    rocks: Array
-
-
 def ways_of(table: AnyPlanarTable) -> Ways:
     """The way of every input of a table; of those that turn without a doubt it is found at once."""
-    return table.once("ways", lambda: _ways(table))
+    return table.closed_ways or table.once("ways", lambda: _ways(table))
 
 
 def _ways(table: AnyPlanarTable) -> Ways:

@@ -55,6 +55,8 @@ def placed_frames(layout: Layout) -> dict[str, tuple[str, complex]]:
         for link in (pin.body, *(link for _, link in (*pin.turning, *pin.rolling))):
             place = roller_place(layout, pin, link)
             add(frame_of(pin, link, place), link, place)
+    for name, (link, place) in layout.spares.items():
+        add(name, link, place)
     for count, at in enumerate(layout.posts, start=1):
         add(f"{GROUND}-post-{count}", GROUND, at)
     return found

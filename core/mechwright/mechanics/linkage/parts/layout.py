@@ -6,7 +6,7 @@ with as many of the ground's eyes as go; then the same with one link as two plat
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -55,6 +55,11 @@ class Layout:
         The layers.
     screws
         Axes of the holes in the ground plates' corners, x + i y, mm.
+    raised
+        By how much plates stand over their layers' undersides, for the heads of studs below them, mm.
+    spares
+        Frame of a turning bore without a pin, for another phase of the machine, to its link and its place
+        there, mm.
     """
 
     linkage: Linkage
@@ -65,6 +70,12 @@ class Layout:
     outlines: Mapping[str, Outline]
     stack: Stack
     screws: tuple[complex, ...]
+    raised: Mapping[str, float] = field(default_factory=dict)
+    spares: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
+
+    def bottom(self, plate: str) -> float:
+        """Height of a plate's underside, mm."""
+        return self.stack.bottom(plate) + self.raised.get(plate, 0.0)
 
     @property
     def posts(self) -> tuple[complex, ...]:

@@ -49,7 +49,7 @@ def eyes_of(
             found.append(Boss(place, bore / 2 + sizes.rim, bore, tag))
 
     for pin in pins:
-        if plate in pin.pressed:
+        if plate in pin.pressed and pin.clamp is None:
             add(pin.place, sizes.pin_diameter, pin.eye)
         if plate in (one for one, _ in pin.turning):
             add(pin.places[link], sizes.turning_bore, pin.eye)

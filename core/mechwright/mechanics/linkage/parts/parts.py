@@ -1,12 +1,14 @@
 """The parts of a linkage: plates, pins, bushings, and posts between two ground plates."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Colour, Instance, Part
 from mechwright.contracts.turned import Step, Turned
 from mechwright.errors import GeometryError
 from mechwright.mechanics.linkage import PIN_MATERIAL, bushing_part, pin_part
+from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.parts.frames import frame_of, roller_place
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.pins import Pin
@@ -30,8 +32,19 @@ COLOURS: tuple[Colour, ...] = (
 """Of the moving links, in their order; a drawn linkage has at most 15."""
 
 
-def parts_of(layout: Layout) -> tuple[Part, ...]:
+def parts_of(
+    layout: Layout,
+    colours: Mapping[str, Colour] | None = None,
+    details: Mapping[str, tuple[Detail, ...]] | None = None,
+) -> tuple[Part, ...]:
     """All parts, plates first, each standing in the mechanism.
+
+    Parameters
+    ----------
+    colours
+        Links to theirs, where they are not :data:`COLOURS`.
+    details
+        Plates to what is engraved in them.
 
     Raises
     ------
@@ -40,7 +53,13 @@ def parts_of(layout: Layout) -> tuple[Part, ...]:
     DesignError
         The name of a link or point cannot be a file name.
     """
-    found = (*_plates(layout), *_pins(layout), *_bushings(layout), *_posts(layout))
+    found = (
+        *_plates(layout, colours or {}, details or {}),
+        *_pins(layout),
+        *_bushings(layout),
+        *_clamps(layout),
+        *_posts(layout),
+    )
     names = [part.name for part in found]
     if twice := next((name for name in names if names.count(name) > 1), None):
         raise GeometryError(f"two parts are named {twice}; rename a link or a point")
@@ -74,30 +93,44 @@ def part_name(plate: str) -> str:
 
 
 def pin_span(layout: Layout, pin: Pin) -> tuple[float, float]:
-    """Heights of a pin's ends, mm, heads left out."""
+    """Heights of a pin's ends, mm, heads left out; a stud ends under the plate with its slot."""
     low, high = layout.stack.spans[pin.name]
     size = layout.sizes.pin_diameter
+    if pin.clamp is not None:
+        return low + HEAD_HEIGHT * size, layout.bottom(pin.body)
     return low - pin.below * size, high + pin.above * size
 
 
-def bushed(layout: Layout) -> Iterator[tuple[Pin, str, str]]:
-    """Every bushing: its pin, the plate in whose bore or slot it is, and the link that it moves with."""
+def bushed(layout: Layout) -> Iterator[tuple[str, str, str, complex]]:
+    """Every bushing: its frame, the plate in whose bore or slot it is, its link, and its place there, mm."""
     if layout.sizes.bushing_wall > 0:
         for pin in layout.pins:
             for plate, link in (*pin.turning, *pin.rolling):
-                yield pin, plate, link
+                place = roller_place(layout, pin, link)
+                yield frame_of(pin, link, place), plate, link, place
+        for frame, (link, place) in layout.spares.items():
+            yield frame, link, link, place
 
 
-def _plates(layout: Layout) -> Iterator[Part]:
+def _plates(
+    layout: Layout, colours: Mapping[str, Colour], details: Mapping[str, tuple[Detail, ...]]
+) -> Iterator[Part]:
     sizes, links = layout.sizes, layout.linkage.machine.links
     grounds = [plate for plate in GROUND_PLATES if plate in layout.outlines]
     moving = [plate for plate in layout.outlines if plate not in GROUND_PLATES]
     for plate in (*grounds, *moving):
         link = layout.link(plate)
-        colour = GREY if link == GROUND else COLOURS[links.index(link) % len(COLOURS)]
-        at = Instance(link, layout.stack.bottom(plate))
-        thickness = sizes.thickness_of(plate)
-        yield Part(part_name(plate), layout.outlines[plate], thickness, sizes.material, (at,), colour)
+        own = GREY if link == GROUND else COLOURS[links.index(link) % len(COLOURS)]
+        at, thickness = Instance(link, layout.bottom(plate)), sizes.thickness_of(plate)
+        yield Part(
+            part_name(plate),
+            layout.outlines[plate],
+            thickness,
+            sizes.material,
+            (at,),
+            colours.get(link, own),
+            details=details.get(plate, ()),
+        )
 
 
 def _pins(layout: Layout) -> Iterator[Part]:
@@ -106,6 +139,9 @@ def _pins(layout: Layout) -> Iterator[Part]:
     for pin in layout.pins:
         low, high = pin_span(layout, pin)
         frame = frame_of(pin, pin.body, pin.place)
+        if pin.clamp is not None:
+            yield stud_part(pin.name, size, high - low, head, pin.clamp, Instance(frame, low - head[1]))
+            continue
         if pin.foot:
             form = Turned((Step(*head), Step(size, high - low)))
             at = Instance(frame, low - head[1])
@@ -122,15 +158,25 @@ def _bushings(layout: Layout) -> Iterator[Part]:
     thick: list[Instance] = []
     # What rolls in a slot is held by the plates over and under it, with the air of a washer.
     loose = sizes.washer if any(pin.rolling for pin in layout.pins) else 0.0
-    for pin, plate, link in bushed(layout):
-        frame = frame_of(pin, link, roller_place(layout, pin, link))
+    for frame, plate, _, _ in bushed(layout):
         same = sizes.thickness_of(plate) == sizes.thickness
-        (thin if same else thick).append(Instance(frame, layout.stack.bottom(plate)))
+        (thin if same else thick).append(Instance(frame, layout.bottom(plate)))
     if thin:
         yield replace(bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin), play=loose)
     if thick:
         ground = bushing_part("bushing-ground", bore, sizes.roller, sizes.ground_thickness, thick)
         yield replace(ground, play=loose)
+
+
+def _clamps(layout: Layout) -> Iterator[Part]:
+    """Screws and washers on the plates with slots."""
+    studs = [pin for pin in layout.pins if pin.clamp is not None]
+    if studs and (clamp := studs[0].clamp) is not None:
+        thickness = layout.sizes.thickness
+        seats = [
+            Instance(frame_of(pin, pin.body, pin.place), layout.bottom(pin.body) + thickness) for pin in studs
+        ]
+        yield from screw_parts("clamp", clamp, seats)
 
 
 def _posts(layout: Layout) -> Iterator[Part]:

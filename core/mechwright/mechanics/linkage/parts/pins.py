@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from mechwright.errors import GeometryError
 from mechwright.mechanics.linkage import Spindle
+from mechwright.mechanics.linkage.clamp import Clamp
 from mechwright.mechanics.linkage.linkage import Linkage
 from mechwright.mechanics.linkage.parts.axes import Axis
 from mechwright.mechanics.linkage.parts.scheme import UPPER, Scheme
@@ -40,6 +41,9 @@ class Pin:
         How far it goes on under its lowest plate and over its highest one, in pin diameters.
     number
         Of a guide pin, 1 or 2; of others 0.
+    clamp
+        Of a stud that is clamped in a slot of its body and turns in the other plate; None of a pin that is
+        pressed in.
     """
 
     name: str
@@ -54,6 +58,7 @@ class Pin:
     below: float = 0.0
     above: float = 0.0
     number: int = 0
+    clamp: Clamp | None = None
 
     @property
     def place(self) -> complex:
@@ -74,6 +79,8 @@ class Pin:
         """What keeps plates off it; what goes on above its plates covers others as a head does."""
         radius = sizes.pin_diameter / 2
         over = HEAD * radius if self.head else radius if self.above else 0.0
+        if self.clamp is not None:
+            over = self.clamp.reach
         return Spindle(self.name, self.body, self.place, radius, self.plates, over)
 
 

@@ -190,7 +190,8 @@ def _traced(plates: Plates, tolerances: Tolerances, name: str, link: str, place:
     along = plates.along(link)
     seen = (place - plates.datum(link)) / along
     for part, value, way in (("along", seen.real, along), ("across", seen.imag, 1j * along)):
-        size = tolerances.length(f"{name}-{part}".lower(), value)
+        own = f"{name}-{part}".lower()
+        size = tolerances.length(plates.table.tolerance_names.get(own, own), value)
         yield Source(size, (Fixed(Change({(path_eye(name), link): way})),))
 
 

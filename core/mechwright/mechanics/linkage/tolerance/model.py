@@ -32,10 +32,9 @@ from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensi
 POSITIONS, MOST_POSITIONS = 361, 3601
 """Positions over a turn or a swing, and at most over all turns of geared links."""
 
-DEAD, SINGULAR = 0.02, 1e-6
-"""Below these a first order says nothing: the sine of the transmission angle of a dyad, and of links that are
-followed the smallest singular value over the largest one. At a sine s a dead point is s²/2 of a link's length
-away: with 0.02 that is as little as the tolerances."""
+SINGULAR = 1e-6
+"""Smallest singular value over the largest one of links that are followed, below which a first order says
+nothing."""
 
 BLOCK = 4096
 """Mechanisms that are closed at once: their arrays stay in the cache of a core."""
@@ -49,6 +48,7 @@ class LinkageTolerances(ToleranceModel):
     def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
         course = course_of(table)
         self.machine, self.order = table.machine, table.order
+        self.dead_sine = table.dead_sine
         self.turn = 0.0 if course.rocks else abs(course.travel)
         self.input_name, self.input_unit = (STROKE, "mm") if table.driver_slides else (PHI, "rad")
         if course.rocks:
@@ -57,7 +57,7 @@ class LinkageTolerances(ToleranceModel):
             count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
             self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
         self.sources = sources_of(Plates.of(table), tolerances)
-        self.judged = {one.output.name: one for one in outputs_of(table.linkage)}
+        self.judged = {one.output.name: one for one in outputs_of(table.linkage, table.tolerance_names)}
         self.contributors = tuple(one.contributor for one in self.sources)
         self.outputs = tuple(one.output for one in self.judged.values())
         self._kept: tuple[bytes, Poses, Array] | None = None
@@ -167,7 +167,7 @@ class LinkageTolerances(ToleranceModel):
             places = above - (own - self.positions[above - 1] < self.positions[above] - own)
             near = {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
             found = self._solved(self.machine, near, own.reshape(-1, 1))
-            least = DEAD if self.closed_form else SINGULAR
+            least = self.dead_sine if self.closed_form else SINGULAR
             sines = [np.broadcast_to(sine.ravel(), own.shape) for sine in found.sines.values()]
             moves = np.all([sine > least for sine in sines], axis=0) if sines else np.ones(own.shape, bool)
             self._kept = key, _poses(found, own.size), moves

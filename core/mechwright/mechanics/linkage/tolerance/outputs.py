@@ -118,8 +118,9 @@ def _parts(place: Plane) -> Array:
     return np.stack([place.real, place.imag])
 
 
-def outputs_of(linkage: Linkage) -> list[Judged]:
-    """The output first, then the traced points."""
+def outputs_of(linkage: Linkage, names: Mapping[str, str] | None = None) -> list[Judged]:
+    """The output first, then the traced points; ``names`` replace those of outputs."""
+    given = names or {}
     link, machine = linkage.output, linkage.machine
     slides = [one for one in machine.between(link, GROUND) if isinstance(one, Prismatic)]
     found: list[Judged] = []
@@ -131,5 +132,7 @@ def outputs_of(linkage: Linkage) -> list[Judged]:
         found.append(Point(link, 0j, "", Output(f"{link} position".lower(), "mm", 2)))
     for name, (own, point) in linkage.traces.items():
         place = number(linkage.points[own][point])
-        found.append(Point(own, place, path_eye(name), Output(f"point {name}", "mm", 2)))
+        found.append(
+            Point(own, place, path_eye(name), Output(given.get(f"point {name}", f"point {name}"), "mm", 2))
+        )
     return found
