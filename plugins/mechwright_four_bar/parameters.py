@@ -173,4 +173,4 @@ class FourBarParams(Parameters):
         """The coupler point in the coupler's frame, x + i y, mm."""
         if self.coupler_point_x is None or self.coupler_point_y is None:
             return None
-        return complex(self.coupler_point_x, self.coupler_point_y)
+        return self.coupler_point_x + 1j * self.coupler_point_y

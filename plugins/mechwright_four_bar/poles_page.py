@@ -10,8 +10,8 @@ from mechwright.pipeline.poles import NAME, Coupler, PolesPage
 from mechwright_four_bar.kinematics.change_point import close_through
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import Loop, close
-from mechwright_four_bar.kinematics.reach import bar_of, course_of
 from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 
 
 class FourBarPoles(PolesPage):
@@ -22,8 +22,8 @@ class FourBarPoles(PolesPage):
 
     def couplers(self, params: FourBarParams) -> Mapping[str, Coupler]:
         """The coupler, on both branches where it keeps to one."""
-        bar, course = bar_of(params), course_of(params)
-        through = bar.lines_up and not course.rocks
+        table = FourBarTable.of(params)
+        bar, course, through = table.bar, table.closed_ways.course, bool(table.through)
         both = (bar,) if through else (bar, replace(bar, branch=-bar.branch))
 
         def loop(one: FourBar, phi: ArrayLike) -> Loop:

@@ -15,6 +15,7 @@ from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensi
 from mechwright.mechanics.tolerance import analyse
 from mechwright.testing.tolerances import tolerance_faults
 from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
@@ -45,7 +46,10 @@ def same(found, wanted):
 @pytest.mark.parametrize("table", BARS)
 def test_a_drawn_four_bar_has_the_sensitivities_of_its_family(table):
     bar = FourBarParams(**table)
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
+    known, model = (
+        FourBarTolerances(FourBarTable.of(bar), INPUT),
+        LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT),
+    )
     zones = {one.name: one for one in model.contributors}
     for output, own in zip(known.outputs, model.outputs, strict=True):
         assert (own.unit, own.components) == (output.unit, output.components)
@@ -66,7 +70,7 @@ def test_a_drawn_four_bar_has_the_sensitivities_of_its_family(table):
 def test_worst_case_and_sigma_of_a_drawn_four_bar_are_those_of_its_family(contact):
     bar = FourBarParams(**BARS[0])
     asked = Tolerances(ToleranceSettings(contact=contact, samples=100))
-    known = analyse(FourBarTolerances(bar, asked), asked)
+    known = analyse(FourBarTolerances(FourBarTable.of(bar), asked), asked)
     found = analyse(Linkages().tolerances(four_bar(bar), asked), asked)
     for one, two in zip(known.results, found.results, strict=True):
         assert two.band.sigma == pytest.approx(one.band.sigma, rel=1e-9)
@@ -75,7 +79,10 @@ def test_worst_case_and_sigma_of_a_drawn_four_bar_are_those_of_its_family(contac
 
 def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
     bar = FourBarParams(**BARS[0])
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
+    known, model = (
+        FourBarTolerances(FourBarTable.of(bar), INPUT),
+        LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT),
+    )
     rng = np.random.default_rng(7)
     sizes = {one.name: rng.uniform(-0.3, 0.3, (one.components, 9)) for one in known.contributors}
     sizes["input"] *= 0.1

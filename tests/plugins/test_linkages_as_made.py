@@ -12,12 +12,12 @@ from mechwright.contracts.made_part import MadeHole
 from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors
 from mechwright_cam.pages.as_made.plot import plot
-from mechwright_four_bar.as_made import as_made as bar_as_made
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams
-from mechwright_four_bar.parts.plates import bosses_of
+from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
+from mechwright_four_bar.tolerances import as_made as bar_as_made
 from mechwright_slider_crank.as_made import as_made as slider_as_made
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.tolerances import SliderCrankTolerances
@@ -38,7 +38,7 @@ H2 = dict(zip(ARCS, (90.0, 25.0, 80.0, 75.0), strict=True))
 
 
 def four_bar(sizes):
-    return FourBarTolerances(FourBarParams(**sizes), EXACT)
+    return FourBarTolerances(FourBarTable.of(FourBarParams(**sizes)), EXACT)
 
 
 def slider(sizes):
@@ -87,7 +87,7 @@ def test_errors_of_a_coupler_point_are_differences_of_positions():
         loop = close(FourBar(*sizes.values()), phi)
         return loop.joint_a + point * loop.coupler.direction
 
-    model = FourBarTolerances(FourBarParams(**F1, coupler_point_x=30, coupler_point_y=20), EXACT)
+    model = four_bar(F1 | {"coupler_point_x": 30, "coupler_point_y": 20})
     model.positions = phi
     both = {"crank": MadeLink(off, 0.0), "follower": MadeLink(-2 * off, 0.0)}
     _, error = made_errors(model, both, {}, {})
@@ -118,9 +118,6 @@ class Bored:
 
 
 def test_where_links_line_up_the_play_alone_is_told(monkeypatch):
-    bar = FourBarParams(crank=40, coupler=80, follower=40, ground=80, bushing_wall=0)
-    plates = {name: [Bored()] for name in bosses_of(bar)}
-    assert [one.name for one in bar_as_made(bar, plates).figures] == ["pin.room"]
     slide = SliderCrankParams(crank=40, rod=40, offset=0, bushing=0)
     plates = {name: [Bored()] for name in ("base", "rail", "crank", "rod", "slider")}
     monkeypatch.setattr("mechwright_slider_crank.as_made._guide", lambda *_: (0.05, 0.0))

@@ -40,6 +40,7 @@ class Evaluated(Asked, Protocol):
     counts: ClassVar[frozenset[str]]
     block: ClassVar[int]
     sampled: ClassVar[int]
+    every_mass: ClassVar[bool]
 
     def rules(self) -> Rules[Any]:
         """What forbids designs."""
@@ -233,6 +234,6 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         for name in columns
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
-    if TOTAL in columns:
+    if TOTAL in columns and family.every_mass:
         found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
     return found

@@ -21,8 +21,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import reduce
+from typing import Any
 
 import numpy as np
+
+from mechwright.contracts.design_table import number
 
 CHANGE_POINT = 1e-9
 """Part of the sum of all links by which Grashof's condition may miss equality and still be taken for it: the
@@ -200,17 +203,19 @@ class FourBar:
         """Largest acute transmission angle of a turn, rad: a right angle where the turn goes through one."""
         return self.transmission_range()[1]
 
-    def transmission_range(self, one: float = 0.0, two: float = math.tau) -> tuple[float, float]:
+    def transmission_range(self, one: Any = 0.0, two: Any = math.tau) -> tuple[float, float]:
         """Smallest and largest acute transmission angle, rad, while the crank goes from one angle to another.
 
         Both are counted from the ground line; the angle at B changes one way between crank in line and
         crank against it.
         """
         a, f = self.crank, self.ground
-        low, high = min(one, two), max(one, two)
-        through = range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)
-        squares = [a * a + f * f - 2 * a * f * math.cos(x) for x in (low, high)]
-        squares += [(f + (a if k % 2 else -a)) ** 2 for k in through]
-        cosines = [self.cosine_over(square) for square in squares]
-        angles = [math.acos(min(1.0, abs(cosine))) for cosine in cosines]
-        return min(angles), math.pi / 2 if min(cosines) * max(cosines) <= 0 else max(angles)
+        low, high = np.minimum(one, two), np.maximum(one, two)
+        cosines = [np.asarray(self.cosine_over(a * a + f * f - 2 * a * f * np.cos(x))) for x in (low, high)]
+        for off, square in ((0.0, (f - a) ** 2), (math.pi, (f + a) ** 2)):
+            passed = np.ceil((low - off) / math.tau) <= np.floor((high - off) / math.tau)
+            cosines.append(np.where(passed, self.cosine_over(square), cosines[0]))
+        angles = [np.arccos(np.minimum(1.0, np.abs(value))) for value in cosines]
+        square = reduce(np.minimum, cosines) * reduce(np.maximum, cosines) <= 0
+        greatest = np.where(square, math.pi / 2, reduce(np.maximum, angles))
+        return number(reduce(np.minimum, angles)), number(greatest)

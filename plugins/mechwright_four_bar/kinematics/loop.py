@@ -39,25 +39,25 @@ class Loop:
     coupler: Rates
     follower: Rates
 
-    def bodies(self, bar: FourBar, drive: Turning | float) -> dict[str, BodyMotion]:
+    def bodies(self, bar: FourBar, drive: Turning | float, pivot: complex = 0j) -> dict[str, BodyMotion]:
         """Motion over time of ``crank`` (origin A0), ``coupler`` (A, x to B) and ``follower`` (B0).
 
-        ``drive`` is the crank at the same samples, or its constant speed, rad/s.
+        ``drive`` is the crank at the same samples, or its constant speed, rad/s; ``pivot`` is A0, mm.
         """
         if not isinstance(drive, Turning):
             drive = Turning.of(self.phi, drive)
         lever = bar.crank * np.exp(1j * self.phi)
         origin = PointMotion.of(
-            self.joint_a,
+            self.joint_a + pivot,
             drive.velocity_factor * lever,
             drive.acceleration_factor * lever,
             drive.jerk_factor * lever,
         )
-        pivot = complex(bar.ground * np.exp(1j * bar.ground_angle))
+        end = pivot + complex(bar.ground * np.exp(1j * bar.ground_angle))
         return {
-            "crank": BodyMotion.about(0j, drive),
+            "crank": BodyMotion.about(pivot, drive),
             "coupler": BodyMotion(origin, self.coupler.turning(drive)),
-            "follower": BodyMotion.about(pivot, self.follower.turning(drive)),
+            "follower": BodyMotion.about(end, self.follower.turning(drive)),
         }
 
 

@@ -1,9 +1,16 @@
-"""How far the crank of a four-bar can go, and how it goes over one period."""
+"""How far the crank of a four-bar can go, and how it goes over one period; of one, or of a table of them.
+
+Numbers of a four-bar may be columns (n, 1); NaN stands for a way that a four-bar has not.
+"""
 
 import math
+from typing import Any, NamedTuple
 
-from mechwright import kept
-from mechwright.mechanics.planar import Course, swing
+import numpy as np
+
+from mechwright.contracts.design_table import number
+from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.course import Ways
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_four_bar.kinematics.change_point import turns_to_close
 from mechwright_four_bar.kinematics.dimensions import FourBar
@@ -13,13 +20,40 @@ Interval = tuple[float, float]
 """Crank angles, rad."""
 
 
+class Reach(NamedTuple):
+    """First and second way of the crank from the ground line, rad, whether it has none, whether it turns."""
+
+    ways: list[swing.Ways]
+    empty: Any
+    turns: Any
+
+
+def reach_of(bar: FourBar, least: float = 0.0) -> Reach:
+    """Crank angles between which the transmission angle is at least ``least``, rad: a whole turn is 0 to 2π.
+
+    D² = a² + f² - 2 a f cos x lies between b² + c² ∓ 2 b c cos μ. Two ways are mirror images in the ground
+    line.
+    """
+    a, c, b, f = bar.lengths
+    less = 4 * b * c * math.sin(least / 2) ** 2
+    near, far = (
+        np.asarray((a * a + f * f - square) / (2 * a * f))
+        for square in ((b - c) ** 2 + less, (b + c) ** 2 - less)
+    )
+    empty = (near <= -1) | (far >= 1) | (far >= near)
+    low, high = np.arccos(np.clip(near, -1.0, 1.0)), np.arccos(np.clip(far, -1.0, 1.0))
+    begin = np.where(near >= 1, -high, low)
+    end = np.where((near < 1) & (far <= -1), math.tau - low, high)
+    turns = (near >= 1) & (far <= -1)
+    first = np.where(turns, 0.0, begin), np.where(turns, math.tau, end)
+    two = (near < 1) & (far > -1)
+    second = np.where(two, -high, math.nan), np.where(two, -low, math.nan)
+    ways = [(np.where(empty, math.nan, one), np.where(empty, math.nan, two)) for one, two in (first, second)]
+    return Reach(ways, empty, turns)
+
+
 def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
-    """Crank angles from the ground line between which the transmission angle is at least ``least``, rad.
-
-    A whole turn is from 0 to 2π. With no interval the links cannot be joined so, with two they are mirror
-    images in the ground line.
-
-    D² = a² + f² - 2 a f cos x lies between b² + c² ∓ 2 b c cos μ.
+    """The ways of one four-bar from the ground line, rad; none where its links cannot be joined so.
 
     Examples
     --------
@@ -28,22 +62,9 @@ def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
     >>> reach(FourBar(30, 80, 70, 90)) == ((0.0, math.tau),)
     True
     """
-    near, far = reach_cosines(bar, least)
-    if near <= -1 or far >= 1 or far >= near:
-        return ()
-    low = math.acos(near) if near < 1 else 0.0
-    high = math.acos(far) if far > -1 else math.pi
-    if near >= 1:
-        return ((0.0, math.tau),) if far <= -1 else ((-high, high),)
-    return ((low, math.tau - low),) if far <= -1 else ((low, high), (-high, -low))
-
-
-def reach_cosines(bar: FourBar, least: float = 0.0) -> tuple[float, float]:
-    """Cosines of the crank angles at which the diagonal is as short, and as long, as :func:`reach` allows."""
-    a, c, b, f = bar.lengths
-    less = 4 * b * c * math.sin(least / 2) ** 2
-    near = (a * a + f * f - (b - c) ** 2 - less) / (2 * a * f)
-    return near, (a * a + f * f - (b + c) ** 2 + less) / (2 * a * f)
+    return tuple(
+        (float(low), float(high)) for low, high in reach_of(bar, least).ways if not math.isnan(float(low))
+    )
 
 
 def bar_of(params: FourBarParams) -> FourBar:
@@ -53,53 +74,56 @@ def bar_of(params: FourBarParams) -> FourBar:
         params.coupler,
         params.follower,
         params.ground,
-        math.radians(params.ground_angle),
+        number(np.radians(params.ground_angle)),
         1 if params.branch == "open" else -1,
     )
 
 
-def is_lever(params: FourBarParams) -> bool:
-    """Whether the crank swings, because it cannot turn fully or because the design says between where."""
-    return params.swing_from is not None or bar_of(params).rocks
+def ways_of(bar: FourBar, requested: Interval | None, sense: float, ratio: float) -> Ways:
+    """One period of the crank: its turns, or as a lever the way there of which it comes back.
 
+    Parameters
+    ----------
+    requested
+        The ends of the swing that a design states, rad from X; None for a crank that turns, or a lever that
+        goes as far as it can, on the left of the ground line where there are two ways.
+    sense
+        +1 counter-clockwise, -1 clockwise.
+    ratio
+        Acceleration ratio of a crank that turns.
 
-def within(params: FourBarParams) -> Interval | None:
-    """The swing of a lever, rad from X, its first end first; None where the links cannot reach it.
-
-    Left to itself a lever goes as far as it can, on the left of the ground line where there are two ways.
+    Start and travel of a lever are NaN where its links cannot reach what is requested.
     """
-    bar = bar_of(params)
-    ways = reach(bar, TURN_BACK) if bar.rocks or bar.lines_up else reach(bar)
-    if params.swing_from is None or params.swing_to is None:
-        return (ways[0][0] + bar.ground_angle, ways[0][1] + bar.ground_angle) if ways else None
-    turned = [(low + bar.ground_angle, high + bar.ground_angle) for low, high in ways]
-    return swing.within(turned, math.radians(params.swing_from), math.radians(params.swing_to))
+    tight = np.asarray(bar.rocks) | np.asarray(bar.lines_up)
+    both = zip(reach_of(bar, TURN_BACK).ways, reach_of(bar).ways, strict=True)
+    ways = [_turned(bar, *(np.where(tight, *ends) for ends in zip(*one, strict=True))) for one in both]
+    rocks = np.asarray(bar.rocks) if requested is None else np.ones(tight.shape, bool)
+    begin, end = ways[0] if sense > 0 else ways[0][::-1]
+    if requested is not None:
+        begin, end = swing.within_many(ways, *(np.asarray(one) for one in requested))
+        rocks = np.ones(np.broadcast_shapes(begin.shape, rocks.shape), bool)
+    turns = np.ones(rocks.shape)
+    for place in np.argwhere(np.broadcast_to(tight, rocks.shape) & ~rocks):
+        at = tuple(place)
+        turns[at] = turns_to_close(_at(bar, rocks.shape, at))
+    return Ways(
+        np.where(rocks, begin, 0.0), np.where(rocks, end - begin, sense * math.tau * turns), rocks, ratio
+    )
 
 
-def toggles(params: FourBarParams) -> Interval | None:
-    """Crank angles, rad from X, at which coupler and follower are in line, about the swing; None for none."""
-    bar, course = bar_of(params), course_of(params)
-    ways = [(low + bar.ground_angle, high + bar.ground_angle) for low, high in reach(bar)]
-    if not bar.rocks or not ways:
-        return None
-    return swing.nearest(ways, course.start + course.travel / 2, math.tau)
+def toggles(bar: FourBar, ways: Ways) -> swing.Ways:
+    """Crank angles, rad from X, at which coupler and follower are in line, about the swing; NaN for none."""
+    rocks = np.asarray(bar.rocks)
+    found = [_turned(bar, *(np.where(rocks, end, math.nan) for end in way)) for way in reach_of(bar).ways]
+    return swing.nearest_many(found, ways.start + ways.travel / 2, math.tau)
 
 
-def transmission_of(params: FourBarParams) -> Interval:
-    """Smallest and largest acute transmission angle over a period, rad."""
-    bar, course = bar_of(params), course_of(params)
-    one = course.start - bar.ground_angle
-    return bar.transmission_range(one, one + course.travel) if course.rocks else bar.transmission_range()
+def _at(bar: FourBar, shape: tuple[int, ...], place: tuple[int, ...]) -> FourBar:
+    """One of some four-bars, with plain numbers."""
+    parts = (*bar.lengths, bar.ground_angle)
+    return FourBar(*(float(np.broadcast_to(one, shape)[place]) for one in parts), bar.branch)
 
 
-@kept
-def course_of(params: FourBarParams) -> Course:
-    """One period of the crank; its links can be joined, and reach what the design says."""
-    bar = bar_of(params)
-    sense = 1.0 if params.direction == "ccw" else -1.0
-    if is_lever(params):
-        ends = within(params)
-        assert ends is not None  # noqa: S101 - the checks come first
-        return Course.between(*(ends if params.swing_from is not None or sense > 0 else ends[::-1]))
-    turns = turns_to_close(bar) if bar.lines_up else 1
-    return Course(0.0, sense * turns * math.tau, acceleration_ratio=params.acceleration_ratio)
+def _turned(bar: FourBar, low: Any, high: Any) -> swing.Ways:
+    """Angles from the ground line as angles from X."""
+    return low + bar.ground_angle, high + bar.ground_angle

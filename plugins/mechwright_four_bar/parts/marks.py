@@ -3,10 +3,16 @@
 import math
 from collections.abc import Mapping
 
-from mechwright import Engraving
+from mechwright import Colour, Engraving
 from mechwright.mechanics.linkage.scale import scale
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.parts.phases import clamp_of_design, pose_angles, settings_of
+
+COLOURS: Mapping[str, Colour] = {
+    "crank": (0.78, 0.36, 0.30),
+    "coupler": (0.45, 0.58, 0.70),
+    "follower": (0.80, 0.68, 0.42),
+}
 
 
 def scales(params: FourBarParams) -> Mapping[str, tuple[Engraving, ...]]:

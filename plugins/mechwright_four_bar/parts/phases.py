@@ -16,7 +16,7 @@ from mechwright.mechanics.linkage.turned import HEAD_HEIGHT
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams, PhaseTable
-from mechwright_four_bar.parts.sizes import turning_bore
+from mechwright_four_bar.parts.usual import turning_bore
 
 
 @kept

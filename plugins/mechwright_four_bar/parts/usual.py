@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.by_arrays import Designs
-from mechwright.mechanics.linkage.usual import Fits, JointSizes, sized
+from mechwright.contracts.design_table import number
+from mechwright.mechanics.linkage.usual import Fits, JointSizes
 from mechwright.tolerances import falls_short
 
 USUAL = JointSizes(6.0, 4.0, 1.0, 10.0)
 """mm: the defaults of the table."""
-
-BY = ("crank", "coupler", "follower", "coupler_point_x", "coupler_point_y", "running_fit")
 
 
 def bore_about(pin: Any, wall: Any, fit: Any) -> Any:
@@ -38,6 +36,6 @@ def fits(table: Callable[[str], Any]) -> Fits:
     return answer
 
 
-def with_sizes(designs: Designs) -> Designs:
-    """Designs with the sizes that each has by itself where they are left out."""
-    return sized(designs, USUAL, lambda some: fits(some.__getitem__), BY)
+def turning_bore(params: Any) -> Any:
+    """Diameter of a plate's bore in which a pin turns, mm; a number, or a column of a table."""
+    return number(bore_about(params.pin_diameter, params.bushing_wall, params.running_fit))

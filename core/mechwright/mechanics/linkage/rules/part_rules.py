@@ -29,7 +29,8 @@ def _layers(table: AnyPlanarTable) -> Iterator[Finding]:
         )
 
 
-def _least_wall(m: AnyPlanarTable) -> float:
+def least_wall(m: AnyPlanarTable) -> float:
+    """The least wall that the running fit leaves enough of, mm."""
     return round(float(LEAST_WALL + m.given.running_fit / 2), 6)
 
 
@@ -49,23 +50,28 @@ def _height(m: AnyPlanarTable) -> float:
     return max(high for _, high in m.layout.stack.spans.values())
 
 
-def part_rules(code: str) -> Rules[Any]:
-    """What plates and pins need, in order."""
-    bushings = DesignRule[AnyPlanarTable](
+def bushing_rule(code: str) -> DesignRule[Any]:
+    """Walls of bushings that can be turned."""
+    return DesignRule[AnyPlanarTable](
         f"{code}.bushing-wall",
         "bushing_wall",
         "the running fit of {m.given.running_fit:g} mm leaves {value:.3g} mm of the bushing's wall",
         value=lambda m: m.given.bushing_wall - m.given.running_fit / 2,
         limit=LEAST_WALL,
         unit="mm",
-        remedy=lambda f: f"make bushing_wall at least {_least_wall(f.m):g}, or 0 for no bushings",
+        remedy=lambda f: f"make bushing_wall at least {least_wall(f.m):g}, or 0 for no bushings",
         when=lambda m: m.given.bushing_wall > 0,
         proposed=lambda f: (
-            {"parameters.bushing_wall": _least_wall(f.m)},
+            {"parameters.bushing_wall": least_wall(f.m)},
             {"parameters.bushing_wall": 0.0},
         ),
     )
-    return in_turn(bushings, Procedure[AnyPlanarTable]((f"{code}.layers",), _layers, stage=Stage.PARTS))
+
+
+def part_rules(code: str) -> Rules[Any]:
+    """What plates and pins need, in order."""
+    layers = Procedure[AnyPlanarTable]((f"{code}.layers",), _layers, stage=Stage.PARTS)
+    return in_turn(bushing_rule(code), layers)
 
 
 def part_notes(code: str) -> Rules[Any]:

@@ -38,15 +38,27 @@ Fails = Failure[AnyPlanarTable]
 
 @dataclass(frozen=True)
 class RowStressRule(StressRule[AnyPlanarTable]):
-    """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
+    """A rule of stresses that are those of one design.
+
+    Parameters
+    ----------
+    breaks
+        Whether one of them breaks a part.
+    bears
+        Which designs (n,) of a table bear their loads without a doubt, found cheaply.
+    """
 
     breaks: bool = False
+    bears: Callable[[Any], NDArray[np.bool_]] | None = None
 
     def forbids(self, table: AnyPlanarTable, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
         if not self.breaks or self.stage.is_after(stage):
             return None
-        return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
+        wrong = np.ones(table.size, bool) if self.bears is None else ~self.bears(table)
+        for place in np.flatnonzero(wrong).tolist():
+            wrong[place] = self._fails(table.row(place))
+        return wrong
 
     def _fails(self, m: AnyPlanarTable) -> bool:
         found = self.stresses(m)
@@ -163,9 +175,12 @@ def _pressed_message(f: Fails) -> str:
     return f"{pair.name} carries up to {pair.greatest:.4g} N, {pressure:.4g} N/mm² on its bearing"
 
 
-def _larger(f: Fails) -> Iterator[Change]:
-    """Larger bearings, or less inertia; larger ones make heavier plates, so that more may be needed."""
-    given, over = f.m.given, f.value / f.limit
+def larger_bearings(given: Any, over: float, load: str = "") -> Iterator[Change]:
+    """Larger bearings, or less of what they carry, which is so many times ``over`` its limit.
+
+    Larger ones make heavier plates, so that more than the first may be needed. ``load`` is the parameter of
+    the load, where one is enough.
+    """
     for share in (1.05, 1.2, 1.5):
         much = over * share
         pin, plate = (_half(much * one) for one in (given.pin_diameter, given.thickness))
@@ -177,6 +192,8 @@ def _larger(f: Fails) -> Iterator[Change]:
             "parameters.thickness": _half(root * given.thickness),
         }
     for share in (1.05, 1.2):
+        if load and (carried := getattr(given, load)) != 0:
+            yield {f"parameters.{load}": float(f"{carried / over / share:.2g}")}
         if (speed := given.speed / math.sqrt(over) / share) >= SLOWEST:
             yield {"parameters.speed": float(f"{speed:.2g}")}
 
@@ -244,7 +261,7 @@ def strength_rules(kind: type[AnyPlanarTable]) -> Rules[Any]:
         remedy="take thicker pins or plates, a smaller load or a lower speed",
         must_be="at most",
         severity=Severity.WARNING,
-        proposed=_larger,
+        proposed=lambda f: larger_bearings(f.m.given, f.value / f.limit),
     )
     return all_of(
         pin, eye, bushing, guide, bearing, *(_note(code, unit, slides=unit == "N") for unit in ("N*m", "N"))

@@ -152,6 +152,12 @@ class LinkageTolerances(ToleranceModel):
             solve(self.machine, [Turning.of(self.positions, 1.0)], self.order, 0), self.positions.size
         )
 
+    def _near(self, at: Array) -> Poses:
+        """The poses of the period that are nearest to inputs (d,)."""
+        above = np.clip(np.searchsorted(self.positions, at), 1, self.positions.size - 1)
+        places = above - (at - self.positions[above - 1] < self.positions[above] - at)
+        return {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
+
     def _counted(self, at: Array) -> Array:
         """Inputs, flat (d,), within the period: whole turns make no difference."""
         flat, low = np.ravel(np.asarray(at, float)), self.positions[0]
@@ -163,9 +169,7 @@ class LinkageTolerances(ToleranceModel):
         key = flat.tobytes()
         if self._kept is None or self._kept[0] != key:
             own = self._counted(flat)
-            above = np.clip(np.searchsorted(self.positions, own), 1, self.positions.size - 1)
-            places = above - (own - self.positions[above - 1] < self.positions[above] - own)
-            near = {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
+            near = {} if self.closed_form else self._near(own)
             found = self._solved(self.machine, near, own.reshape(-1, 1))
             least = self.dead_sine if self.closed_form else SINGULAR
             sines = [np.broadcast_to(sine.ravel(), own.shape) for sine in found.sines.values()]

@@ -10,52 +10,47 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array
-from mechwright.contracts.by_arrays import Designs
-from mechwright.contracts.materials import material
+from mechwright import Array, material
+from mechwright.contracts.design_table import column
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, SHAFT
-from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.extremes import CIRCLE, NEAR_TOGGLE, bars_of, drives_of
 from mechwright_four_bar.kinematics.period_kernels import most_force
-from mechwright_four_bar.masses import MICRO, MILLI
-from mechwright_four_bar.parts.sizes import OF_BORE
-from mechwright_four_bar.parts.usual import bore_about
-from mechwright_four_bar.period import CIRCLE, Period, bars_of
+from mechwright_four_bar.parts.usual import turning_bore
+from mechwright_four_bar.table import FourBarTable
+
+MILLI, MICRO = 1e-3, 1e-6
+"""Forces are computed in mN, and moments in mN mm."""
 
 MOST_PLATES, MOST_LAYERS = 3, 5
 """Links, and layers of them and two ground plates."""
 
 
-def bears(designs: Designs, bar: FourBar, period: Period, least: Array) -> NDArray[np.bool_]:
-    """Which designs (n,) certainly tear at no bore.
-
-    ``least`` is the least transmission angle (n,), rad; above 0.
-    """
-    strength = designs.figures("material", lambda name: material(name).strength)
-    limit = strength * 2 * designs["rim"] * designs["thickness"]
-    inertias = _inertias(designs, bar)
-    sure = _rough(bar, period, inertias, np.sin(least)) * MILLI <= limit
-    near = np.flatnonzero(~sure)
+def bears(table: FourBarTable) -> NDArray[np.bool_]:
+    """Which designs (n,) certainly tear at no bore."""
+    params, inertias = table.params, _inertias(table)
+    limit = column(material(params.material).strength * 2 * params.rim * params.thickness, table.size)[:, 0]
+    least = column(table.transmission[0], table.size)[:, 0]
+    doubtful = (least < NEAR_TOGGLE) | (column(params.coupler_bend, table.size)[:, 0] != 0)
+    sure = ~doubtful & (_rough(table, inertias, np.sin(least)) * MILLI <= limit)
+    near = np.flatnonzero(~sure & ~doubtful)
     if near.size:
-        bars, drives = bars_of(bar, sure.size)[near], period.rows[near]
-        sure[near] = (
-            most_force(bars, drives, inertias[near], CIRCLE) * MILLI
-            <= np.broadcast_to(limit, sure.shape)[near]
-        )
+        bars, drives = bars_of(table)[near], drives_of(table)[near]
+        sure[near] = most_force(bars, drives, inertias[near], CIRCLE) * MILLI <= limit[near]
     return np.asarray(sure)
 
 
-def _inertias(designs: Designs, bar: FourBar) -> Array:
+def _inertias(table: FourBarTable) -> Array:
     """Bounds (n, 9) as :func:`most_force` wants them."""
-    pin, thickness = designs["pin_diameter"], designs["thickness"]
-    turning = bore_about(*(designs[name] for name in OF_BORE))
-    radius = turning / 2 + designs["rim"]
-    high = 2 * designs["ground_thickness"] + MOST_PLATES * thickness + (MOST_LAYERS - 1) * designs["washer"]
+    params, bar = table.params, table.bar
+    pin, thickness, turning = params.pin_diameter, params.thickness, turning_bore(params)
+    radius = turning / 2 + params.rim
+    high = 2 * params.ground_thickness + MOST_PLATES * thickness + (MOST_LAYERS - 1) * params.washer
     heavy = material(PIN_MATERIAL).density * 1e-6 * math.pi / 4
     pinned = heavy * (pin**2 * (high + HEAD_HEIGHT * pin) + (HEAD * pin) ** 2 * HEAD_HEIGHT * pin)
     shaft = pinned + heavy * pin**2 * SHAFT * pin
     bush = material(BUSHING_MATERIAL).density * 1e-6 * math.pi / 4 * turning**2 * thickness
-    sheet = designs.figures("material", lambda name: material(name).density) * 1e-6 * thickness
+    sheet = material(params.material).density * 1e-6 * thickness
     half, turned = math.pi / 2 * radius**2, (HEAD * pin + turning) ** 2 / 8
 
     def link(length: Any, first: Any, last: Any) -> tuple[Array, Array, Array]:
@@ -67,28 +62,23 @@ def _inertias(designs: Designs, bar: FourBar) -> Array:
 
     crank, follower = link(bar.crank, shaft, pinned), link(bar.follower, shaft + bush, pinned)
     coupler = link(bar.coupler, bush, bush)
-    if designs.common.coupler_point is not None:
-        x, y = designs["coupler_point_x"], designs["coupler_point_y"]
-        away, there = np.hypot(x, y), np.hypot(x - bar.coupler, y)
+    if params.coupler_point is not None:
+        away, there = np.abs(params.coupler_point), np.abs(params.coupler_point - bar.coupler)
         far = np.maximum(bar.coupler, away) + radius
-        mass = (
-            sheet * (bar.coupler * np.abs(y) / 2 + (bar.coupler + away + there) * radius + 2 * half)
-            + 2 * bush
-        )
+        inside, around = bar.coupler * np.abs(params.coupler_point_y) / 2, bar.coupler + away + there
+        mass = sheet * (inside + around * radius + 2 * half) + 2 * bush
         coupler = mass, far, mass * far**2
-    load = np.abs(designs.full("load_torque")) / MICRO
-    parts = [*coupler, *follower, *crank[:2], load]
-    return np.stack([np.broadcast_to(part, len(designs)) for part in parts], axis=1).astype(float)
+    parts = [*coupler, *follower, *crank[:2], np.abs(params.load_torque) / MICRO]
+    return np.concatenate([column(part, table.size) for part in parts], axis=1)
 
 
-def _rough(bar: FourBar, period: Period, inertias: Array, sine: Array) -> Array:
+def _rough(table: FourBarTable, inertias: Array, sine: Array) -> Array:
     """The same bound from the greatest rates that the sine of the least transmission angle allows, mN."""
-    a, c, b, _ = bar.lengths
-    grown = np.exp(np.maximum(period.ratio * period.travel, 0.0))
-    speed = np.where(period.rocks, np.abs(period.travel) / 2, grown) * period.speed
-    gain = np.where(
-        period.rocks, np.abs(period.travel) / 2 * period.speed**2, np.abs(period.ratio) * speed**2
-    )
+    a, c, b = (column(one, table.size)[:, 0] for one in table.bar.lengths[:3])
+    _, travel, rocks, ratio, begins = drives_of(table).T
+    grown = np.exp(np.maximum(ratio * travel, 0.0))
+    speed = np.where(rocks > 0, np.abs(travel) / 2, grown) * begins
+    gain = np.where(rocks > 0, np.abs(travel) / 2 * begins**2, np.abs(ratio) * speed**2)
     w, v = a / (c * sine), a / (b * sine)
     bend = (a + c * w * w + b * v * v) / sine
     alpha_c, alpha_b = bend / c * speed**2 + w * gain, bend / b * speed**2 + v * gain
