@@ -20,6 +20,7 @@ from mechwright_four_bar.requirements import (
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -122,10 +123,18 @@ class FourBars(Family[FourBarParams]):
         return FourBarTolerances(self.table(params), tolerances)
 
     def figures(self, table: "DesignTable[FourBarParams]") -> "Mapping[str, Figure]":
-        """Transmission angles, limits, swings, and the extremes of links and point."""
+        """Transmission angles, limits, swings, peaks of the follower."""
         from mechwright_four_bar.kinematics.study import study_figures
 
         return study_figures(cast("FourBarTable", table))
+
+    def extremes(
+        self, table: "DesignTable[FourBarParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Those of links and point, by compiled chains."""
+        from mechwright_four_bar.kinematics.study import extremes
+
+        return extremes(cast("FourBarTable", table), names)
 
     def masses(self, table: "DesignTable[FourBarParams]") -> "Mapping[str, PartMass]":
         """Those of the plates that no layer decides."""

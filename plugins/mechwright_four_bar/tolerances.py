@@ -31,7 +31,9 @@ def as_made(table: FourBarTable, made: Mapping[str, Sequence[MadePart]]) -> AsMa
     found = of_linkages.as_made(table, made)
     named = {"output.error": "follower.error"}
     figures = (
-        replace(one, name=named.get(one.name, one.name), rule=RULE if one.name.endswith("error") else one.rule)
+        replace(
+            one, name=named.get(one.name, one.name), rule=RULE if one.name.endswith("error") else one.rule
+        )
         for one in found.figures
     )
     return replace(found, figures=tuple(figures))

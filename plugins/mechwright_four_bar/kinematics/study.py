@@ -1,7 +1,7 @@
 """Figures of a table of four-bars for a study: those of one design, and the extremes of its channels."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from typing import Any
 
@@ -14,8 +14,8 @@ from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.mechanics.linkage.areas import circle_area, hull_area, straight_area
 from mechwright.mechanics.linkage.outlines import FILLET
-from mechwright_four_bar.kinematics import period_kernels as kernels
-from mechwright_four_bar.kinematics.extremes import CHANNELS, NEAR_TOGGLE, OF_POINT, STEP, extremes
+from mechwright.mechanics.peak import PEAK_SAMPLES
+from mechwright_four_bar.kinematics.compiled import NEAR_TOGGLE, compiled, rows_of
 from mechwright_four_bar.kinematics.figures import figures_of
 from mechwright_four_bar.kinematics.motion import motion_of
 from mechwright_four_bar.parts.usual import turning_bore
@@ -23,33 +23,65 @@ from mechwright_four_bar.table import FourBarTable
 
 
 def study_figures(table: FourBarTable) -> Mapping[str, Figure]:
-    """Figures, and the extremes of the channels of links and point, as the motion of each design has them."""
-
-    def greatest_size(least: Array, greatest: Array) -> Array:
-        return np.maximum(np.abs(least), np.abs(greatest))
-
-    def one(name: str, row: int, unit: str, way: Callable[[Array, Array], Array], step: int = STEP) -> None:
-        found[name] = Figure(partial(_sampled, table, name, row, step, way), unit)
-
+    """Figures as the motion of each design has them."""
     found = dict(figures_of(table))
     found["swing"] = Figure(partial(_swing, table, found["swing"]), "rad")
-    found["time.least"] = Figure(0.0, "s")
-    found["time.greatest"] = Figure(lambda: _time(table), "s")
-    pointed = table.params.coupler_point is not None
-    for name, (row, unit) in (CHANNELS | (OF_POINT if pointed else {})).items():
-        if name not in {"alpha_a", "jerk_a"} or np.any(_varies(table)):
-            one(f"{name}.least", row, unit, lambda least, _: least)
-            one(f"{name}.greatest", row, unit, lambda _, greatest: greatest)
-    one("transmission_angle.least", kernels.COSINE, "rad", lambda _, most: np.arccos(np.minimum(1.0, most)))
-    one(
-        "transmission_angle.greatest",
-        kernels.COSINE,
-        "rad",
-        lambda least, _: np.arccos(np.minimum(1.0, least)),
-    )
-    one("omega_b_max", kernels.OMEGA_B, "rad/s", greatest_size, 1)
-    one("alpha_b_max", kernels.ALPHA_B, "rad/s^2", greatest_size, 1)
+    for name, unit in (("omega_b", "rad/s"), ("alpha_b", "rad/s^2")):
+        found[f"{name}_max"] = Figure(partial(_peak, table, name), unit)
     return found
+
+
+def extremes(table: FourBarTable, names: Collection[str]) -> dict[str, tuple[Array, Array, str]]:
+    """Least and greatest values (n,) of channels of links, point and crank, with their units."""
+    found: dict[str, tuple[Array, Array, str]] = {}
+    if "time" in names:
+        found["time"] = np.zeros(table.size), column(_time(table), table.size)[:, 0], "s"
+    rows = rows_of(table)
+    chosen = [name for name in names if name in rows]
+    if not chosen:
+        return found
+    ends = _sampled(table, chosen, SAMPLES, _of_channel)
+    for place, name in enumerate(chosen):
+        low, high = ends[:, place].T
+        if name in {"alpha_a", "jerk_a"}:  # a channel of cranks whose speed varies
+            varies = column(_varies(table), table.size)[:, 0] > 0
+            low, high = np.where(varies, low, math.nan), np.where(varies, high, math.nan)
+        found[name] = low, high, rows[name][1]
+    return found
+
+
+def _sampled(
+    table: FourBarTable, names: list[str], samples: int, own: Callable[[Motion, str], tuple[float, float]]
+) -> Array:
+    """Least and greatest values (n, k, 2) of channels; of doubtful designs by their own motions."""
+    doubtful = column(np.asarray(table.transmission[0] < NEAR_TOGGLE) | table.through, table.size)[:, 0] > 0
+    found = np.empty((table.size, len(names), 2))
+    if not doubtful.any():
+        found[:] = compiled(table, names, samples)
+    elif not doubtful.all():
+        found[~doubtful] = compiled(table.rows(np.flatnonzero(~doubtful)), names, samples)
+    for place in np.flatnonzero(doubtful).tolist():
+        motion = table.once(("motion", place), lambda one=place: motion_of(table.row(one), SAMPLES))
+        found[place] = [own(motion, name) for name in names]
+    return found
+
+
+def _of_channel(motion: Motion, name: str) -> tuple[float, float]:
+    if name not in motion.channels:
+        return math.nan, math.nan
+    values = motion.channels[name].values
+    return float(values.min()), float(values.max())
+
+
+def _of_peak(motion: Motion, name: str) -> tuple[float, float]:
+    """Of a rate its greatest size; of the follower's angle its swing."""
+    return 0.0, motion.scalars["swing" if name == "psi" else f"{name}_max"].value
+
+
+def _peak(table: FourBarTable, name: str) -> Array:
+    names = ["omega_b", "alpha_b"]
+    found = table.once("peaks", lambda: _sampled(table, names, PEAK_SAMPLES, _of_peak))
+    return np.abs(found[:, names.index(name)]).max(axis=1)[:, None]
 
 
 def _swing(table: FourBarTable, of_rockers: Figure) -> Array:
@@ -57,7 +89,7 @@ def _swing(table: FourBarTable, of_rockers: Figure) -> Array:
     found, lever = column(of_rockers(), table.size).copy(), column(table.lever, table.size)[:, 0] > 0
     if lever.any():
         some = table.rows(np.flatnonzero(lever))
-        found[lever] = _sampled(some, "swing", kernels.PSI, 1, lambda least, greatest: greatest - least)
+        found[lever] = np.diff(_sampled(some, ["psi"], PEAK_SAMPLES, _of_peak)[:, 0])
     return found
 
 
@@ -71,33 +103,6 @@ def _time(table: FourBarTable) -> Any:
     ways, k = table.closed_ways, np.asarray(table.params.acceleration_ratio)
     spent = np.where(k == 0, ways.travel, -np.expm1(-k * ways.travel) / np.where(k == 0, 1.0, k))
     return np.where(ways.rocks, math.tau, np.abs(spent)) / table.omega
-
-
-def _sampled(
-    table: FourBarTable, name: str, row: int, step: int, way: Callable[[Array, Array], Array]
-) -> Array:
-    """A figure (n, 1) by the kernels; of designs in which these round too much by their own motions."""
-    found = way(*extremes(table, row, step))[:, None]
-    if name.startswith(("alpha_a.", "jerk_a.")):
-        found = np.where(_varies(table), found, math.nan)
-    doubtful = np.asarray(table.transmission[0]) < NEAR_TOGGLE
-    for place in np.flatnonzero(column(doubtful | table.through, table.size)).tolist():
-        found[place] = _of_motion(_own_motion(table, place), name)
-    return found
-
-
-def _own_motion(table: FourBarTable, place: int) -> Motion:
-    return table.once(("motion", place), lambda: motion_of(table.row(place), SAMPLES))
-
-
-def _of_motion(motion: Motion, name: str) -> float:
-    if name in motion.scalars:
-        return motion.scalars[name].value
-    channel, _, end = name.rpartition(".")
-    if channel not in motion.channels:
-        return math.nan
-    values = motion.channels[channel].values
-    return float(values.min() if end == "least" else values.max())
 
 
 def masses_of(table: FourBarTable) -> dict[str, PartMass]:

@@ -5,7 +5,7 @@ the hull of its bosses. What a bound leaves open is checked by itself.
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from mechwright import Array, material
 from mechwright.contracts.design_table import column
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
+from mechwright.mechanics.linkage.kinematics.channel_extremes import drives_of
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, SHAFT
-from mechwright_four_bar.kinematics.extremes import CIRCLE, NEAR_TOGGLE, bars_of, drives_of
-from mechwright_four_bar.kinematics.period_kernels import most_force
+from mechwright.mechanics.peak import PEAK_SAMPLES
+from mechwright_four_bar.kinematics.compiled import NEAR_TOGGLE, compiled
 from mechwright_four_bar.parts.usual import turning_bore
 from mechwright_four_bar.table import FourBarTable
 
@@ -32,16 +33,21 @@ def bears(table: FourBarTable) -> NDArray[np.bool_]:
     limit = column(material(params.material).strength * 2 * params.rim * params.thickness, table.size)[:, 0]
     least = column(table.transmission[0], table.size)[:, 0]
     doubtful = (least < NEAR_TOGGLE) | (column(params.coupler_bend, table.size)[:, 0] != 0)
-    sure = ~doubtful & (_rough(table, inertias, np.sin(least)) * MILLI <= limit)
+    sure = ~doubtful & (_most_force(table, inertias, _bounded(table, np.sin(least))) <= limit)
     near = np.flatnonzero(~sure & ~doubtful)
     if near.size:
-        bars, drives = bars_of(table)[near], drives_of(table)[near]
-        sure[near] = most_force(bars, drives, inertias[near], CIRCLE) * MILLI <= limit[near]
+        some = table.rows(near)
+        sure[near] = _most_force(some, inertias[near], _sampled(some)) <= limit[near]
     return np.asarray(sure)
 
 
 def _inertias(table: FourBarTable) -> Array:
-    """Bounds (n, 9) as :func:`most_force` wants them."""
+    """Bounds (n, 9).
+
+    Of coupler and follower mass, the farthest that any of it lies from the first joint, and moment of inertia
+    about that, kg, mm, kg mm², each of them or more; the crank's mass and farthest place; and the size of the
+    follower's load, mN mm.
+    """
     params, bar = table.params, table.bar
     pin, thickness, turning = params.pin_diameter, params.thickness, turning_bore(params)
     radius = turning / 2 + params.rim
@@ -72,8 +78,20 @@ def _inertias(table: FourBarTable) -> Array:
     return np.concatenate([column(part, table.size) for part in parts], axis=1)
 
 
-def _rough(table: FourBarTable, inertias: Array, sine: Array) -> Array:
-    """The same bound from the greatest rates that the sine of the least transmission angle allows, mN."""
+class Rates(NamedTuple):
+    """What speeds, rad/s, and accelerations of crank, coupler and follower do not exceed; the sine at B."""
+
+    omega_a: Array
+    alpha_a: Array
+    omega_c: Array
+    alpha_c: Array
+    omega_b: Array
+    alpha_b: Array
+    sine: Array
+
+
+def _bounded(table: FourBarTable, sine: Array) -> Rates:
+    """What the sine of the least transmission angle allows."""
     a, c, b = (column(one, table.size)[:, 0] for one in table.bar.lengths[:3])
     _, travel, rocks, ratio, begins = drives_of(table).T
     grown = np.exp(np.maximum(ratio * travel, 0.0))
@@ -82,9 +100,27 @@ def _rough(table: FourBarTable, inertias: Array, sine: Array) -> Array:
     w, v = a / (c * sine), a / (b * sine)
     bend = (a + c * w * w + b * v * v) / sine
     alpha_c, alpha_b = bend / c * speed**2 + w * gain, bend / b * speed**2 + v * gain
+    return Rates(speed, gain, w * speed, alpha_c, v * speed, alpha_b, sine)
+
+
+def _sampled(table: FourBarTable) -> Rates:
+    """The greatest over a period."""
+    found = np.abs(compiled(table, Rates._fields[:6], PEAK_SAMPLES)).max(axis=2)
+    return Rates(*found.T, np.sin(column(table.transmission[0], table.size)[:, 0]))
+
+
+def _most_force(table: FourBarTable, inertias: Array, rates: Rates) -> Array:
+    """What no joint force exceeds (n,), N.
+
+    Moments of the follower about B0 and of the coupler about A give the components p and q of the force in B
+    across both, so that it is at most (|p| + |q|) over the sine of the angle between them; the other joints
+    add what accelerates the links.
+    """
+    a, c, b = (column(one, table.size)[:, 0] for one in table.bar.lengths[:3])
     m3, e3, j3, m4, e4, j4, m2, e2, load = inertias.T
-    at_a = a * (speed**2 + gain)
-    in_b = ((j4 * alpha_b + load) / b + (j3 * alpha_c + m3 * e3 * at_a) / c) / sine
-    in_a = in_b + m3 * (at_a + e3 * (alpha_c + (w * speed) ** 2))
-    in_b0 = in_b + m4 * e4 * (alpha_b + (v * speed) ** 2)
-    return np.asarray(np.maximum(in_a + m2 * e2 * (speed**2 + gain), in_b0))
+    centripetal = rates.omega_a**2 + rates.alpha_a
+    at_a = a * centripetal
+    in_b = ((j4 * rates.alpha_b + load) / b + (j3 * rates.alpha_c + m3 * e3 * at_a) / c) / rates.sine
+    in_a = in_b + m3 * (at_a + e3 * (rates.alpha_c + rates.omega_c**2))
+    in_b0 = in_b + m4 * e4 * (rates.alpha_b + rates.omega_b**2)
+    return np.asarray(np.maximum(in_a + m2 * e2 * centripetal, in_b0)) * MILLI
