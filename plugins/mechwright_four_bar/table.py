@@ -121,7 +121,7 @@ class FourBarTable(PlanarTable[FourBarParams]):
 
 
 def linkage_of(bar: FourBar, pivot: Any, angle: Any, params: FourBarParams) -> Linkage:
-    """Links and joints with A0 at the pivot, mm, and the ground line at an angle, rad, in the ground's frame."""
+    """Links and joints with A0 at the pivot, mm, and the ground line at an angle, rad, in the ground."""
     end = number(pivot + bar.ground * np.exp(1j * np.asarray(angle)))
     joints = (
         Revolute("A0", GROUND, "crank", number(pivot), 0j),

@@ -17,7 +17,6 @@ from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
-from mechwright_four_bar.tolerances import as_made as bar_as_made
 from mechwright_slider_crank.as_made import as_made as slider_as_made
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.tolerances import SliderCrankTolerances

@@ -49,8 +49,8 @@ CLOSURE = Rule(
     "four-bar.closure",
     _longest,
     lambda f: (
-        f"the links cannot be joined: the {_longest(f)} of {f.value:g} mm is longer than the others together, "
-        f"{f.limit:g} mm"
+        f"the links cannot be joined: the {_longest(f)} of {f.value:g} mm is longer than the others "
+        f"together, {f.limit:g} mm"
     ),
     value=lambda t: t.bar.longest,
     limit=lambda t: sum(t.bar.lengths) - t.bar.longest,
@@ -220,8 +220,8 @@ def _motion_message(m: FourBarTable) -> str:
     if limits is None:
         return f"{m.bar.kind.value}, the follower turns fully; {said}"
     return (
-        f"{m.bar.kind.value}, the follower swings by {math.degrees(limits.swing):.4f} degrees with a time ratio "
-        f"of {limits.time_ratio:.5f}; {said}"
+        f"{m.bar.kind.value}, the follower swings by {math.degrees(limits.swing):.4f} degrees with a time "
+        f"ratio of {limits.time_ratio:.5f}; {said}"
     )
 
 

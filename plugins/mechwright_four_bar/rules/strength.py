@@ -1,4 +1,4 @@
-"""Strength of the joints: pins, the plates beside their bores, bushings and clamps, from forces over a period."""
+"""Strength of the joints: pins, plates beside their bores, bushings and clamps, from forces over a period."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -102,8 +102,8 @@ def _drive(m: FourBarTable) -> float:
 def _forces_message(m: FourBarTable) -> str:
     joint, pair = _most_pressed(m)
     return (
-        f"the drive needs up to {_drive(m):.4g} N m; joint {joint} carries up to {pair.greatest:.4g} N, and the "
-        f"moving masses shake the ground with up to {np.abs(period_forces(m)[1].shaking).max():.4g} N"
+        f"the drive needs up to {_drive(m):.4g} N m; joint {joint} carries up to {pair.greatest:.4g} N, and "
+        f"the moving masses shake the ground with up to {np.abs(period_forces(m)[1].shaking).max():.4g} N"
     )
 
 
