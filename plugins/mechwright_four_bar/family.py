@@ -47,7 +47,6 @@ class FourBars(Family[FourBarParams]):
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
     Params = FourBarParams
     batch = 1 << 16
-    every_mass = False
     requirements: ClassVar = {
         "path": PathRequirement,
         "nine-points": NinePointsRequirement,

@@ -68,8 +68,6 @@ class Family(Plugin, Generic[P]):
     """Dotted keys of whole numbers in which they may differ."""
     block: ClassVar[int] = 4096
     """Designs of a table that are evaluated at once."""
-    every_mass: ClassVar[bool] = True
-    """Whether :meth:`masses` has those of all parts; else their total is that of ``parts``."""
     sampled: ClassVar[int] = 64
     """Designs of it whose channels are evaluated at once."""
 

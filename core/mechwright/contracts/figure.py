@@ -52,6 +52,10 @@ class PartMass:
         return self.value() if callable(self.value) else self.value
 
 
+class SomeMasses(dict[str, PartMass]):
+    """Masses of some of the parts of designs by their names: the total is that of their ``parts``."""
+
+
 def scalars(figures: Mapping[str, Figure]) -> dict[str, Scalar]:
     """Give the figures of one design for its motion, without those that it has not."""
     values = {name: (float(np.asarray(one()).item()), one.unit) for name, one in figures.items()}

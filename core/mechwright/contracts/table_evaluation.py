@@ -16,7 +16,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.by_arrays import Answer, Designs, by_arrays
 from mechwright.contracts.design_table import DesignTable, column, with_columns
 from mechwright.contracts.evaluation import Batch, Columns, told
-from mechwright.contracts.figure import Figure, PartMass
+from mechwright.contracts.figure import Figure, PartMass, SomeMasses
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.contracts.motion import Channel
@@ -40,7 +40,6 @@ class Evaluated(Asked, Protocol):
     counts: ClassVar[frozenset[str]]
     block: ClassVar[int]
     sampled: ClassVar[int]
-    every_mass: ClassVar[bool]
 
     def rules(self) -> Rules[Any]:
         """What forbids designs."""
@@ -234,6 +233,6 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         for name in columns
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
-    if TOTAL in columns and family.every_mass:
+    if TOTAL in columns and not isinstance(weights, SomeMasses):
         found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
     return found

@@ -9,7 +9,7 @@ import numpy as np
 
 from mechwright import Array, Motion, material
 from mechwright.contracts.design_table import column
-from mechwright.contracts.figure import Figure, PartMass
+from mechwright.contracts.figure import Figure, PartMass, SomeMasses
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.mechanics.linkage.areas import circle_area, hull_area, straight_area
@@ -105,7 +105,7 @@ def _time(table: FourBarTable) -> Any:
     return np.where(ways.rocks, math.tau, np.abs(spent)) / table.omega
 
 
-def masses_of(table: FourBarTable) -> dict[str, PartMass]:
+def masses_of(table: FourBarTable) -> SomeMasses:
     """Masses of the plates that no layer decides, kg: of the follower where it has a shaft of its own."""
     params = table.params
     pin, turning = params.pin_diameter, turning_bore(params)
@@ -123,7 +123,7 @@ def masses_of(table: FourBarTable) -> dict[str, PartMass]:
         area = hull_area([0j, flat[0], flat[1]], [flat[2], flat[2], flat[3]], table.size)
         return sheet * (area[:, None] - 2 * circle_area(turning) - circle_area(pin))
 
-    found = {"crank": PartMass(lambda: straight(params.crank, small, pin))}
+    found = SomeMasses(crank=PartMass(lambda: straight(params.crank, small, pin)))
     if np.all(np.asarray(params.coupler_bend) == 0):
         found["coupler"] = PartMass(coupler)
     if params.frame == "two":

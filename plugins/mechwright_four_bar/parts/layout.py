@@ -36,6 +36,7 @@ from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.machine import FourBarMachine, linkage_of
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.parts.phases import (
     clamp_of_design,
@@ -45,7 +46,6 @@ from mechwright_four_bar.parts.phases import (
     slotted,
     spare_holes,
 )
-from mechwright_four_bar.table import FourBarTable, linkage_of
 
 BEND = 2.0
 """Radius of the bent coupler's middle line, in web widths: its inner edge keeps 1.5 of them."""
@@ -54,7 +54,7 @@ MOVING = ("crank", "follower", "coupler")
 """Of several orders of layers that of the first of them is taken."""
 
 
-def laid_out(table: FourBarTable) -> Layout:
+def laid_out(table: FourBarMachine) -> Layout:
     """Plates and layers, on one ground plate where that goes or is asked for, else between two.
 
     Raises
@@ -72,7 +72,7 @@ def laid_out(table: FourBarTable) -> Layout:
     raise faults[0]
 
 
-def bare(table: FourBarTable, sides: int) -> Layout:
+def bare(table: FourBarMachine, sides: int) -> Layout:
     """Links and pins with ground plates on that many sides, without outlines and layers."""
     params, clamp, scheme = table.params, clamp_of_design(table.params), Scheme(sides)
     if sides == 2:
@@ -90,12 +90,12 @@ def bare(table: FourBarTable, sides: int) -> Layout:
     return Layout(linkage, table.sizes, scheme, tuple(pins), (), {}, Stack({}, (), {}), (), raised, spares)
 
 
-def layout_or_bare(table: FourBarTable) -> Layout:
+def layout_or_bare(table: FourBarMachine) -> Layout:
     """The layout; without one the pins on as many sides as are tried first."""
     return table.layout_or_none or bare(table, TRIED[table.params.frame][0])
 
 
-def bosses(table: FourBarTable, layout: Layout) -> dict[str, tuple[Boss, ...]]:
+def bosses(table: FourBarMachine, layout: Layout) -> dict[str, tuple[Boss, ...]]:
     """The bosses of every plate, in its body's frame."""
     found = {}
     for plate in (*GROUND_PLATES[: layout.scheme.sides], "crank", "coupler", "follower"):
@@ -116,7 +116,7 @@ def _land(params: FourBarParams, slot: ArcSlot) -> float:
     return max(slot.width / 2 + params.rim, 0.0 if clamp is None else clamp.reach + WIDTH)
 
 
-def _phases(table: FourBarTable) -> list[dict[str, Poses]]:
+def _phases(table: FourBarMachine) -> list[dict[str, Poses]]:
     """Poses of all plates in each phase, that of the design first; phases that do not move are left out."""
     found, params = [_poses(table)], table.params
     if not params.phases:
@@ -125,7 +125,7 @@ def _phases(table: FourBarTable) -> list[dict[str, Poses]]:
         shown, (a, b) = phases_of(params), (places for _, places in settings_of(params))
     except KinematicsError:
         return found
-    for number, other in enumerate(map(FourBarTable.of, shown[1:]), start=1):
+    for number, other in enumerate(map(table.of, shown[1:]), start=1):
         if not other.bar.closes or math.isnan(other.closed_ways.course.travel) or other.through:
             continue
         poses = _poses(other)
@@ -139,7 +139,7 @@ def _phases(table: FourBarTable) -> list[dict[str, Poses]]:
     return found
 
 
-def _poses(table: FourBarTable) -> dict[str, Poses]:
+def _poses(table: FourBarMachine) -> dict[str, Poses]:
     """Poses of all bodies over the motion, seen from the ground."""
     if table.through:
         raise GeometryError("ground: all links line up, and nothing decides which way they go on")
@@ -150,7 +150,7 @@ def _poses(table: FourBarTable) -> dict[str, Poses]:
     return {name: body.poses() for name, body in {"ground": ground, **bodies}.items()}
 
 
-def _laid_out(table: FourBarTable, phases: Sequence[Mapping[str, Poses]], layout: Layout) -> Layout:
+def _laid_out(table: FourBarMachine, phases: Sequence[Mapping[str, Poses]], layout: Layout) -> Layout:
     sizes, sides, own = layout.sizes, layout.scheme.sides, bosses(table, layout)
     if sides == 2 and layout.raised:
         raise GeometryError("clamps of the coupler are set from above, where a second ground plate would lie")
@@ -208,7 +208,7 @@ def _dealt(
     raise faults[-1]
 
 
-def hidden_point(table: FourBarTable) -> tuple[str, str] | None:
+def hidden_point(table: FourBarMachine) -> tuple[str, str] | None:
     """What stands over and under the coupler point at some time, between two ground plates.
 
     None where one way out is always free.
@@ -229,7 +229,7 @@ def hidden_point(table: FourBarTable) -> tuple[str, str] | None:
     return (over, under) if over and under else None
 
 
-def _outline(table: FourBarTable, name: str, own: tuple[Boss, ...]) -> Outline:
+def _outline(table: FourBarMachine, name: str, own: tuple[Boss, ...]) -> Outline:
     """Crank and follower straight, the coupler straight, bent or about its point."""
     params = table.params
     if name == "coupler" and params.coupler_bend != 0:
@@ -242,7 +242,7 @@ def _outline(table: FourBarTable, name: str, own: tuple[Boss, ...]) -> Outline:
     return Outline(plain.outer, (*plain.inner, *slots))
 
 
-def bend_fault(table: FourBarTable) -> str:
+def bend_fault(table: FourBarMachine) -> str:
     """Why the bent coupler cannot be drawn; nothing where it can."""
     try:
         _outline(table, "coupler", bosses(table, bare(table, 1))["coupler"])
