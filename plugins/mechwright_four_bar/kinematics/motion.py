@@ -1,5 +1,7 @@
 """The motion of a design: channels, poses and figures over one period of the crank."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from mechwright import Channel, KinematicsError, Load, Motion, Scalar, Stage, Trace
@@ -77,8 +79,8 @@ def motion_over(table: FourBarTable, period: Period, *, varies: bool = True) -> 
         figures |= moving_figures(masses, force_balance(table.bar, masses))
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
     layout = layout_or_bare(table)
-    angle = np.full_like(drive.theta, table.bar.ground_angle)
-    ground = BodyMotion.about(complex(table.pivot), Turning.of(angle))
+    still = Turning.of(np.full_like(drive.theta, table.bar.ground_angle))
+    ground = BodyMotion.about(complex(table.pivot), still)
     loads = {"load_torque": Load("follower", torque=(0.0, 0.0, table.params.load_torque))}
     frames = frames_of(layout, {**bodies, GROUND: ground})
     return Motion("phi", channels, frames, figures, traces, joints_of(layout), loads=loads)
@@ -102,7 +104,7 @@ def _most(values: np.ndarray, unit: str) -> Scalar:
     return Scalar(float(np.abs(values).max()), unit)
 
 
-def force_balance(bar: FourBar, masses: dict[str, Mass]) -> dict[str, complex]:
+def force_balance(bar: FourBar, masses: Mapping[str, Mass]) -> dict[str, complex]:
     """Counterweights on crank and follower for full force balance at any speed (Berkof and Lowen 1969).
 
     What is to be added to each is mass times place in its own frame, kg mm, x + i y.

@@ -120,8 +120,10 @@ def toggles(bar: FourBar, ways: Ways) -> swing.Ways:
 
 def _at(bar: FourBar, shape: tuple[int, ...], place: tuple[int, ...]) -> FourBar:
     """One of some four-bars, with plain numbers."""
-    parts = (*bar.lengths, bar.ground_angle)
-    return FourBar(*(float(np.broadcast_to(one, shape)[place]) for one in parts), bar.branch)
+    a, c, b, f, angle = (
+        float(np.broadcast_to(one, shape)[place]) for one in (*bar.lengths, bar.ground_angle)
+    )
+    return FourBar(a, c, b, f, angle, bar.branch)
 
 
 def _turned(bar: FourBar, low: Any, high: Any) -> swing.Ways:

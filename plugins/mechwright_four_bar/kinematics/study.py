@@ -61,7 +61,7 @@ def _sampled(
     elif not doubtful.all():
         found[~doubtful] = compiled(table.rows(np.flatnonzero(~doubtful)), names, samples)
     for place in np.flatnonzero(doubtful).tolist():
-        motion = table.once(("motion", place), lambda one=place: motion_of(table.row(one), SAMPLES))
+        motion = table.once(("motion", place), partial(motion_of, table.row(place), SAMPLES))
         found[place] = [own(motion, name) for name in names]
     return found
 
@@ -81,7 +81,7 @@ def _of_peak(motion: Motion, name: str) -> tuple[float, float]:
 def _peak(table: FourBarTable, name: str) -> Array:
     names = ["omega_b", "alpha_b"]
     found = table.once("peaks", lambda: _sampled(table, names, PEAK_SAMPLES, _of_peak))
-    return np.abs(found[:, names.index(name)]).max(axis=1)[:, None]
+    return np.asarray(np.abs(found[:, names.index(name)]).max(axis=1)[:, None])
 
 
 def _swing(table: FourBarTable, of_rockers: Figure) -> Array:

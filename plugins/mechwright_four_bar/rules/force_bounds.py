@@ -71,7 +71,7 @@ def _inertias(table: FourBarTable) -> Array:
     if params.coupler_point is not None:
         away, there = np.abs(params.coupler_point), np.abs(params.coupler_point - bar.coupler)
         far = np.maximum(bar.coupler, away) + radius
-        inside, around = bar.coupler * np.abs(params.coupler_point_y) / 2, bar.coupler + away + there
+        inside, around = bar.coupler * np.abs(np.imag(params.coupler_point)) / 2, bar.coupler + away + there
         mass = sheet * (inside + around * radius + 2 * half) + 2 * bush
         coupler = mass, far, mass * far**2
     parts = [*coupler, *follower, *crank[:2], np.abs(params.load_torque) / MICRO]
@@ -106,7 +106,7 @@ def _bounded(table: FourBarTable, sine: Array) -> Rates:
 def _sampled(table: FourBarTable) -> Rates:
     """The greatest over a period."""
     found = np.abs(compiled(table, Rates._fields[:6], PEAK_SAMPLES)).max(axis=2)
-    return Rates(*found.T, np.sin(column(table.transmission[0], table.size)[:, 0]))
+    return Rates._make([*found.T, np.sin(column(table.transmission[0], table.size)[:, 0])])
 
 
 def _most_force(table: FourBarTable, inertias: Array, rates: Rates) -> Array:

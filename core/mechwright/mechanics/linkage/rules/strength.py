@@ -10,7 +10,7 @@ module forbid nothing, and cost a table nothing.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,12 +32,13 @@ from mechwright.mechanics.strength.turning_pair import TurningPair, bush_stresse
 
 MILLI = 1e-3
 
+T = TypeVar("T", bound=AnyPlanarTable)
 Rule = DesignRule[AnyPlanarTable]
 Fails = Failure[AnyPlanarTable]
 
 
 @dataclass(frozen=True)
-class RowStressRule(StressRule[AnyPlanarTable]):
+class RowStressRule(StressRule[T]):
     """A rule of stresses that are those of one design.
 
     Parameters
@@ -49,9 +50,9 @@ class RowStressRule(StressRule[AnyPlanarTable]):
     """
 
     breaks: bool = False
-    bears: Callable[[Any], NDArray[np.bool_]] | None = None
+    bears: Callable[[T], NDArray[np.bool_]] | None = None
 
-    def forbids(self, table: AnyPlanarTable, stage: Stage) -> NDArray[np.bool_] | None:
+    def forbids(self, table: T, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
         if not self.breaks or self.stage.is_after(stage):
             return None
@@ -60,7 +61,7 @@ class RowStressRule(StressRule[AnyPlanarTable]):
             wrong[place] = self._fails(table.row(place))
         return wrong
 
-    def _fails(self, m: AnyPlanarTable) -> bool:
+    def _fails(self, m: T) -> bool:
         found = self.stresses(m)
         return bool(found) and worst(found).severity is Severity.ERROR
 
@@ -239,7 +240,7 @@ def strength_rules(kind: type[AnyPlanarTable]) -> Rules[Any]:
         ways: Callable[[AnyPlanarTable], list[Way]],
         *,
         breaks: bool = False,
-    ) -> RowStressRule:
+    ) -> RowStressRule[AnyPlanarTable]:
         return RowStressRule(f"{code}.{name}", stresses, ways, kind.of, _load, breaks=breaks)
 
     pin = rule("pin", pin_stresses, lambda m: [_pin(m), _slower(m)])
