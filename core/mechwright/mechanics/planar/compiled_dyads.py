@@ -102,14 +102,23 @@ def place_point(
         cos, sin = rows[turning, i], rows[turning + 1, i]
         qx, qy = x * cos - y * sin, x * sin + y * cos
         rows[out, i], rows[out + 1, i] = rows[origin, i] + qx, rows[origin + 1, i] + qy
-        if rates > 0:
-            w = rows[turning + 2, i]
+    if rates > 0:
+        for i in range(size):
+            cos, sin, w = rows[turning, i], rows[turning + 1, i], rows[turning + 2, i]
+            qx, qy = x * cos - y * sin, x * sin + y * cos
             rows[out + 2, i], rows[out + 3, i] = rows[origin + 2, i] - w * qy, rows[origin + 3, i] + w * qx
-        if rates > 1:
+    if rates > 1:
+        for i in range(size):
+            cos, sin, w = rows[turning, i], rows[turning + 1, i], rows[turning + 2, i]
+            qx, qy = x * cos - y * sin, x * sin + y * cos
             g, square = rows[turning + 3, i], w * w
             rows[out + 4, i] = rows[origin + 4, i] - g * qy - square * qx
             rows[out + 5, i] = rows[origin + 5, i] + g * qx - square * qy
-        if rates > 2:
+    if rates > 2:
+        for i in range(size):
+            cos, sin, w = rows[turning, i], rows[turning + 1, i], rows[turning + 2, i]
+            qx, qy = x * cos - y * sin, x * sin + y * cos
+            g, square = rows[turning + 3, i], w * w
             n, more = rows[turning + 4, i] - w * square, 3 * w * g
             rows[out + 6, i] = rows[origin + 6, i] - n * qy - more * qx
             rows[out + 7, i] = rows[origin + 7, i] + n * qx - more * qy
@@ -151,24 +160,37 @@ def _pin_rates(
     p: int, q: int, c: float, l: float, s: int, t: int, out: int, rates: int, size: int, rows: Array
 ) -> None:
     """Rates of two bars in the directions ``s`` and ``t``, with the sine ``out``: see :func:`close_pins`."""
+    by_c, by_l = 1 / c, 1 / l
     for i in range(size):
         sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
         n = 1 / rows[out, i]
-        one, two = n * (1 / c), n * (1 / l)
         rx, ry = rows[q + 2, i] - rows[p + 2, i], rows[q + 3, i] - rows[p + 3, i]
-        w1, v1 = one * (rx * tx + ry * ty), two * (rx * sx + ry * sy)
-        rows[s + 2, i], rows[t + 2, i] = w1, v1
-        if rates > 1:
+        rows[s + 2, i] = n * by_c * (rx * tx + ry * ty)
+        rows[t + 2, i] = n * by_l * (rx * sx + ry * sy)
+    if rates > 1:
+        for i in range(size):
+            sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
+            n, w1, v1 = 1 / rows[out, i], rows[s + 2, i], rows[t + 2, i]
             f, g = c * w1 * w1, l * v1 * v1
             rx = rows[q + 4, i] - rows[p + 4, i] + f * sx - g * tx
             ry = rows[q + 5, i] - rows[p + 5, i] + f * sy - g * ty
-            w2, v2 = one * (rx * tx + ry * ty), two * (rx * sx + ry * sy)
-            rows[s + 3, i], rows[t + 3, i] = w2, v2
-        if rates > 2:
+            rows[s + 3, i] = n * by_c * (rx * tx + ry * ty)
+            rows[t + 3, i] = n * by_l * (rx * sx + ry * sy)
+    if rates > 2:
+        for i in range(size):
+            sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
+            n, w1, v1, w2, v2 = (
+                1 / rows[out, i],
+                rows[s + 2, i],
+                rows[t + 2, i],
+                rows[s + 3, i],
+                rows[t + 3, i],
+            )
             f, g, h, k = 3 * c * w1 * w2, 3 * l * v1 * v2, c * w1**3, l * v1**3
             rx = rows[q + 6, i] - rows[p + 6, i] + f * sx - h * sy - g * tx + k * ty
             ry = rows[q + 7, i] - rows[p + 7, i] + f * sy + h * sx - g * ty - k * tx
-            rows[s + 4, i], rows[t + 4, i] = one * (rx * tx + ry * ty), two * (rx * sx + ry * sy)
+            rows[s + 4, i] = n * by_c * (rx * tx + ry * ty)
+            rows[t + 4, i] = n * by_l * (rx * sx + ry * sy)
 
 
 @compiled
