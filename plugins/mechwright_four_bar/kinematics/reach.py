@@ -95,7 +95,8 @@ def ways_of(bar: FourBar, requested: Interval | None, sense: float, ratio: float
     Start and travel of a lever are NaN where its links cannot reach what is requested.
     """
     tight = np.asarray(bar.rocks) | np.asarray(bar.lines_up)
-    both = zip(reach_of(bar, TURN_BACK).ways, reach_of(bar).ways, strict=True)
+    close = reach_of(bar, TURN_BACK).ways
+    both = zip(close, close if requested is None else reach_of(bar).ways, strict=True)
     ways = [_turned(bar, *(np.where(tight, *ends) for ends in zip(*one, strict=True))) for one in both]
     rocks = np.asarray(bar.rocks) if requested is None else np.ones(tight.shape, bool)
     begin, end = ways[0] if sense > 0 else ways[0][::-1]

@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright import Array, Motion, material
 from mechwright.contracts.design_table import column
@@ -26,8 +27,8 @@ def study_figures(table: FourBarTable) -> Mapping[str, Figure]:
     """Figures as the motion of each design has them."""
     found = dict(figures_of(table))
     found["swing"] = Figure(partial(_swing, table, found["swing"]), "rad")
-    for name, unit in (("omega_b", "rad/s"), ("alpha_b", "rad/s^2")):
-        found[f"{name}_max"] = Figure(partial(_peak, table, name), unit)
+    found["omega_b_max"] = Figure(partial(_peak, table, 0), "rad/s")
+    found["alpha_b_max"] = Figure(partial(_peak, table, 1), "rad/s^2")
     return found
 
 
@@ -78,18 +79,33 @@ def _of_peak(motion: Motion, name: str) -> tuple[float, float]:
     return 0.0, motion.scalars["swing" if name == "psi" else f"{name}_max"].value
 
 
-def _peak(table: FourBarTable, name: str) -> Array:
-    names = ["omega_b", "alpha_b"]
-    found = table.once("peaks", lambda: _sampled(table, names, PEAK_SAMPLES, _of_peak))
-    return np.asarray(np.abs(found[:, names.index(name)]).max(axis=1)[:, None])
+def _peaks(table: FourBarTable, *, lever: bool) -> tuple[NDArray[np.bool_], Array]:
+    """Which designs (n,) are levers, or are not, and the extremes (m, k, 2) of the follower of these."""
+
+    def found() -> tuple[NDArray[np.bool_], Array]:
+        own = (column(table.lever, table.size)[:, 0] > 0) == lever
+        names = ["omega_b", "alpha_b", "psi"] if lever else ["omega_b", "alpha_b"]
+        if not own.any():
+            return own, np.empty((0, len(names), 2))
+        some = table if own.all() else table.rows(np.flatnonzero(own))
+        return own, _sampled(some, names, PEAK_SAMPLES, _of_peak)
+
+    return table.once(("peaks", lever), found)
+
+
+def _peak(table: FourBarTable, place: int) -> Array:
+    found = np.empty((table.size, 1))
+    for lever in (False, True):
+        own, ends = _peaks(table, lever=lever)
+        found[own] = np.abs(ends[:, place]).max(axis=1)[:, None]
+    return found
 
 
 def _swing(table: FourBarTable, of_rockers: Figure) -> Array:
     """With that of levers."""
-    found, lever = column(of_rockers(), table.size).copy(), column(table.lever, table.size)[:, 0] > 0
-    if lever.any():
-        some = table.rows(np.flatnonzero(lever))
-        found[lever] = np.diff(_sampled(some, ["psi"], PEAK_SAMPLES, _of_peak)[:, 0])
+    found = column(of_rockers(), table.size).copy()
+    own, ends = _peaks(table, lever=True)
+    found[own] = np.diff(ends[:, 2])
     return found
 
 
