@@ -47,6 +47,7 @@ class FourBars(Family[FourBarParams]):
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
     Params = FourBarParams
     batch = 1 << 16
+    block = 1 << 14
     requirements: ClassVar = {
         "path": PathRequirement,
         "nine-points": NinePointsRequirement,
