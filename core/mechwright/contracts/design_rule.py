@@ -248,6 +248,8 @@ class Procedure(Generic[D]):
         Whether it takes long: the quick judge does not ask it.
     stage
         The earliest stage of what it finds: studies up to an earlier one do not ask it.
+    warns
+        Whether it finds no errors, and so forbids nothing.
     """
 
     codes: Sequence[str]
@@ -256,10 +258,11 @@ class Procedure(Generic[D]):
     when: Callable[[D], Any] | None = None
     slow: bool = False
     stage: Stage = Stage.MOTION
+    warns: bool = False
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
-        if self.slow or not table.size or self.stage.is_after(stage):
+        if self.slow or self.warns or not table.size or self.stage.is_after(stage):
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
         if self.common:

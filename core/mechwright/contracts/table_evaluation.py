@@ -234,5 +234,7 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
     if TOTAL in columns:
-        found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
+        found[TOTAL] = column(sum(one.copies * np.nan_to_num(one()) for one in weights.values()), table.size)[
+            :, 0
+        ]
     return found

@@ -10,12 +10,13 @@ module forbid nothing, and cost a table nothing.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_table import column
 from mechwright.contracts.finding import Change, Severity, Stage
 from mechwright.contracts.materials import material
 from mechwright.contracts.rule_list import Rules, all_of
@@ -32,23 +33,37 @@ from mechwright.mechanics.strength.turning_pair import TurningPair, bush_stresse
 
 MILLI = 1e-3
 
+T = TypeVar("T", bound=AnyPlanarTable)
 Rule = DesignRule[AnyPlanarTable]
 Fails = Failure[AnyPlanarTable]
 
 
 @dataclass(frozen=True)
-class RowStressRule(StressRule[AnyPlanarTable]):
-    """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
+class RowStressRule(StressRule[T]):
+    """A rule of stresses that are those of one design.
+
+    Parameters
+    ----------
+    breaks
+        Whether one of them breaks a part.
+    bears
+        Which designs (n, 1) of a table certainly bear their loads; the others are asked row by row.
+    """
 
     breaks: bool = False
+    bears: Callable[[Any], Any] | None = None
 
-    def forbids(self, table: AnyPlanarTable, stage: Stage) -> NDArray[np.bool_] | None:
+    def forbids(self, table: T, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
         if not self.breaks or self.stage.is_after(stage):
             return None
-        return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
+        wrong = np.zeros(table.size, bool)
+        sure = False if self.bears is None or table.single else self.bears(table)
+        for place in np.flatnonzero(~column(sure, table.size).astype(bool)).tolist():
+            wrong[place] = self._fails(table.row(place))
+        return wrong
 
-    def _fails(self, m: AnyPlanarTable) -> bool:
+    def _fails(self, m: T) -> bool:
         found = self.stresses(m)
         return bool(found) and worst(found).severity is Severity.ERROR
 
@@ -222,7 +237,7 @@ def strength_rules(kind: type[AnyPlanarTable]) -> Rules[Any]:
         ways: Callable[[AnyPlanarTable], list[Way]],
         *,
         breaks: bool = False,
-    ) -> RowStressRule:
+    ) -> RowStressRule[AnyPlanarTable]:
         return RowStressRule(f"{code}.{name}", stresses, ways, kind.of, _load, breaks=breaks)
 
     pin = rule("pin", pin_stresses, lambda m: [_pin(m), _slower(m)])

@@ -18,8 +18,8 @@ from mechwright.contracts.tolerances import ToleranceModel
 from mechwright.mechanics.linkage.kinematics.channels import PHI, STROKE
 from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
-from mechwright.mechanics.linkage.tolerance.contributors import sources_of
-from mechwright.mechanics.linkage.tolerance.outputs import outputs_of
+from mechwright.mechanics.linkage.tolerance.contributors import Source, sources_of
+from mechwright.mechanics.linkage.tolerance.outputs import Judged, outputs_of
 from mechwright.mechanics.linkage.tolerance.plates import Plates
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, assembly_order
 from mechwright.mechanics.planar.input_range import period_turns
@@ -43,21 +43,37 @@ BLOCK = 4096
 Poses = dict[str, Pose]
 
 
-class LinkageTolerances(ToleranceModel):
-    """The model of one design; inputs count as in the motion."""
+class MachineTolerances(ToleranceModel):
+    """The model of one design, whose contributors and outputs a family lists; inputs count as in the motion.
 
-    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
-        course = course_of(table)
+    Parameters
+    ----------
+    table
+        The design.
+    positions
+        Inputs over a period, upwards, rad or mm.
+    turn
+        The period of an input that turns, rad; 0 of one that goes there and back.
+    sources, outputs
+        What varies, and what is judged.
+    """
+
+    dead = DEAD
+    """Sine of the transmission angle of a dyad below which a first order says nothing."""
+
+    def __init__(
+        self,
+        table: AnyPlanarTable,
+        positions: Array,
+        turn: float,
+        sources: Sequence[Source],
+        outputs: Sequence[Judged],
+    ) -> None:
         self.machine, self.order = table.machine, table.order
-        self.turn = 0.0 if course.rocks else abs(course.travel)
+        self.positions, self.turn, self._grid = positions, turn, positions
         self.input_name, self.input_unit = (STROKE, "mm") if table.driver_slides else (PHI, "rad")
-        if course.rocks:
-            self.positions = np.sort(course.way(POSITIONS))
-        else:
-            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
-            self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
-        self.sources = sources_of(Plates.of(table), tolerances)
-        self.judged = {one.output.name: one for one in outputs_of(table.linkage)}
+        self.sources = sources
+        self.judged = {one.output.name: one for one in outputs}
         self.contributors = tuple(one.contributor for one in self.sources)
         self.outputs = tuple(one.output for one in self.judged.values())
         self._kept: tuple[bytes, Poses, Array] | None = None
@@ -148,13 +164,11 @@ class LinkageTolerances(ToleranceModel):
     @cached_property
     def _course(self) -> Poses:
         """Poses at the positions of the period, along which links are followed and angles run on."""
-        return _poses(
-            solve(self.machine, [Turning.of(self.positions, 1.0)], self.order, 0), self.positions.size
-        )
+        return _poses(solve(self.machine, [Turning.of(self._grid, 1.0)], self.order, 0), self._grid.size)
 
     def _counted(self, at: Array) -> Array:
         """Inputs, flat (d,), within the period: whole turns make no difference."""
-        flat, low = np.ravel(np.asarray(at, float)), self.positions[0]
+        flat, low = np.ravel(np.asarray(at, float)), self._grid[0]
         return np.asarray(low + (flat - low) % self.turn if self.turn else flat)
 
     def _poses(self, at: Array) -> tuple[Poses, Array]:
@@ -163,15 +177,29 @@ class LinkageTolerances(ToleranceModel):
         key = flat.tobytes()
         if self._kept is None or self._kept[0] != key:
             own = self._counted(flat)
-            above = np.clip(np.searchsorted(self.positions, own), 1, self.positions.size - 1)
-            places = above - (own - self.positions[above - 1] < self.positions[above] - own)
+            above = np.clip(np.searchsorted(self._grid, own), 1, self._grid.size - 1)
+            places = above - (own - self._grid[above - 1] < self._grid[above] - own)
             near = {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
             found = self._solved(self.machine, near, own.reshape(-1, 1))
-            least = DEAD if self.closed_form else SINGULAR
+            least = self.dead if self.closed_form else SINGULAR
             sines = [np.broadcast_to(sine.ravel(), own.shape) for sine in found.sines.values()]
             moves = np.all([sine > least for sine in sines], axis=0) if sines else np.ones(own.shape, bool)
             self._kept = key, _poses(found, own.size), moves
         return self._kept[1], self._kept[2]
+
+
+class LinkageTolerances(MachineTolerances):
+    """The model of one linkage of plates; its contributors are all that varies in a plate."""
+
+    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
+        course = course_of(table)
+        turn = 0.0 if course.rocks else abs(course.travel)
+        count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
+        positions = (
+            np.sort(course.way(POSITIONS)) if course.rocks else table.drawn_at + np.linspace(0.0, turn, count)
+        )
+        sources = sources_of(Plates.of(table), tolerances)
+        super().__init__(table, positions, turn, sources, outputs_of(table.linkage))
 
 
 def _poses(found: Solution, count: int) -> Poses:
