@@ -1,27 +1,22 @@
-"""Compiled extremes of a period, and rooms between plates, for many slider-cranks one after the other.
+"""Compiled peaks of a period, and bounds of its forces, of a table of slider-cranks one after the other.
 
-Formulas are those of :mod:`mechwright_slider_crank.kinematics`, in the slide frame, one sample after the
-other. A linkage is a row (5,): crank a, rod c and offset e, mm, direction of the slide, rad, and the branch.
+Formulas are in the slide frame, one sample after the other. A linkage is a row (5,): crank a, rod c and
+offset e, mm, direction of the slide, rad, and the branch.
 A drive is a row (5,): start and travel, rad, whether it rocks, acceleration ratio, and speed, rad/s.
 """
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright import Array
+from mechwright.contracts.design_table import column
 from mechwright.mechanics.compiled import compiled
-from mechwright.mechanics.compiled_point import point_rates
-
-(
-    S, V, A, JERK, SIGMA, OMEGA_C, ALPHA_C, JERK_C, COSINE, OMEGA_A, ALPHA_A, JERK_A,
-    X, Y, VX, VY, AX, AY, JX, JY, LEAN, ROWS,
-) = range(22)  # fmt: skip
-"""Rows of a table over the samples; LEAN is the size of the rod's extent along the slide over its length."""
+from mechwright_slider_crank.kinematics.course import drives, is_lever
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
 
 GRID, ROUNDS, NEAR = 720, 5, 17
-"""Peaks are sought as :func:`mechwright_slider_crank.motion.peaks` does."""
+"""Peaks are sought as :func:`mechwright_slider_crank.kinematics.figures.peaks` does."""
 
 
 def circle_of(samples: int) -> Array:
@@ -30,77 +25,18 @@ def circle_of(samples: int) -> Array:
     return np.ascontiguousarray([np.cos(math.tau * share), np.sin(math.tau * share), share])
 
 
-@compiled
-def _moved(bar: Array, theta: float, omega: float, alpha: float, jerk: float, rows: Array, i: int) -> None:
-    a, c, e, branch = bar[0], bar[1], bar[2], bar[4]
-    x, y = a * math.cos(theta - bar[3]), a * math.sin(theta - bar[3])
-    t = e - y
-    w = branch * math.sqrt(c * c - t * t)
-    s1 = -x / w
-    s2 = (y + t * s1 * s1) / w
-    s3 = (x + 3 * t * s1 * s2 + w * s1**3) / w
-    v1, v2 = -y - t * s1, -x - w * s1 * s1 - t * s2
-    v3 = y + t * s1**3 - 3 * w * s1 * s2 - t * s3
-    rows[S, i], rows[COSINE, i], rows[LEAN, i] = x + w, abs(t) / c, abs(w) / c
-    rows[SIGMA, i] = math.atan(t / w) + (0.0 if branch > 0 else math.pi) + bar[3]
-    rows[OMEGA_A, i], rows[ALPHA_A, i], rows[JERK_A, i] = omega, alpha, jerk
-    square, cube = omega * omega, omega**3
-    rows[V, i], rows[OMEGA_C, i] = v1 * omega, s1 * omega
-    rows[A, i], rows[ALPHA_C, i] = v2 * square + v1 * alpha, s2 * square + s1 * alpha
-    rows[JERK, i] = v3 * cube + 3 * v2 * omega * alpha + v1 * jerk
-    rows[JERK_C, i] = s3 * cube + 3 * s2 * omega * alpha + s1 * jerk
+def bars_of(table: Mechanism) -> Array:
+    """The linkages of a table (n, 5)."""
+    one = table.closed
+    sizes = (one.crank, one.rod, one.offset, one.direction, one.branch)
+    return np.concatenate([column(size, table.size) for size in sizes], axis=1)
 
 
-@compiled
-def _turning(drive: Array, share: float, rows: Array, i: int, bar: Array) -> None:
-    """The linkage at a share of its period."""
-    start, travel, rocks, ratio, speed = drive[0], drive[1], drive[2], drive[3], drive[4]
-    if rocks > 0:
-        cos, sin, half = math.cos(math.tau * share), math.sin(math.tau * share), travel / 2
-        theta = start + half * (1 - cos)
-        _moved(bar, theta, half * speed * sin, half * speed**2 * cos, -half * speed**3 * sin, rows, i)
-    else:
-        omega = math.copysign(speed, travel) * (math.exp(ratio * travel * share) if ratio != 0 else 1.0)
-        _moved(bar, travel * share, omega, ratio * omega**2, 2 * ratio**2 * omega**3, rows, i)
-
-
-@compiled
-def _traced(bar: Array, point: Array, rows: Array, i: int, theta: float) -> None:
-    """The coupler point in space, up to its jerk."""
-    x, y = bar[0] * math.cos(theta), bar[0] * math.sin(theta)
-    cos, sin = math.cos(rows[SIGMA, i]), math.sin(rows[SIGMA, i])
-    qx, qy = point[0] * cos - point[1] * sin, point[0] * sin + point[1] * cos
-    rows[X, i], rows[Y, i] = x + qx, y + qy
-    crank = rows[OMEGA_A, i], rows[ALPHA_A, i], rows[JERK_A, i]
-    coupler = rows[OMEGA_C, i], rows[ALPHA_C, i], rows[JERK_C, i]
-    rates = point_rates(x, y, qx, qy, crank, coupler)
-    rows[VX, i], rows[VY, i], rows[AX, i], rows[AY, i], rows[JX, i], rows[JY, i] = rates
-
-
-@compiled
-def extremes(
-    bars: Array,
-    drives: Array,
-    points: Array,
-    samples: int,
-    wanted: NDArray[np.int64],
-    traced: bool,
-) -> Array:
-    """Least and greatest values (n, k, 2) of wanted rows (k,) over a period of so many samples."""
-    found = np.empty((len(bars), len(wanted), 2))
-    rows = np.empty((ROWS, samples))
-    for one in range(len(bars)):
-        drive = drives[one]
-        for i in range(samples):
-            share = i / (samples - 1)
-            _turning(drive, share, rows, i, bars[one])
-            if traced:
-                swung = drive[0] + drive[1] / 2 * (1 - math.cos(math.tau * share))
-                _traced(bars[one], points[one], rows, i, swung if drive[2] > 0 else drive[1] * share)
-        for place in range(len(wanted)):
-            row = rows[wanted[place]]
-            found[one, place, 0], found[one, place, 1] = row.min(), row.max()
-    return found
+def drives_of(table: Mechanism) -> Array:
+    """Their drives (n, 5)."""
+    start, travel = drives(table)
+    parts = (start, travel, is_lever(table), table.given.acceleration_ratio, table.omega)
+    return np.concatenate([column(part, table.size) for part in parts], axis=1)
 
 
 @compiled
