@@ -1,6 +1,6 @@
 """The family ``slider-crank``."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
@@ -14,6 +14,7 @@ from mechwright_slider_crank.requirements import (
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -115,6 +116,16 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.kinematics.motion import channels_over
 
         return channels_over(cast("Mechanism", table), samples)
+
+    def extremes(
+        self, table: "DesignTable[SliderCrankParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Those of compiled motion; of linkages at their limits those of samples."""
+        from mechwright_slider_crank.kinematics.extremes import extremes
+
+        found = extremes(cast("Mechanism", table), names)
+        rest = [name for name in names if name not in found]
+        return {**found, **super().extremes(table, rest)} if rest else found
 
     def masses(self, table: "DesignTable[SliderCrankParams]") -> "Mapping[str, PartMass] | None":
         """Of designs with a disc and a straight rod."""

@@ -23,7 +23,7 @@ from mechwright_slider_crank.kinematics.limits import (
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
 from mechwright_slider_crank.kinematics.slider_crank import Bodies
 
-SAMPLES = 1441
+LEVER_SAMPLES = 1441
 """Positions among which the ends of a slider's way are sought where there is no formula: four a degree."""
 
 
@@ -119,7 +119,7 @@ def drive_at(table: Mechanism, share: Array) -> tuple[Array, Turning]:
     )
 
 
-def period_of(table: Mechanism, samples: int = SAMPLES) -> tuple[Array, Array, Bodies]:
+def period_of(table: Mechanism, samples: int = LEVER_SAMPLES) -> tuple[Array, Array, Bodies]:
     """Times (n,), s, crank angles (n,), rad, and the bodies over one period of one design."""
     time, drive = course_of(table).period(samples, table.omega)
     return time, drive.theta, table.closed.bodies(drive.theta, drive)
@@ -149,9 +149,10 @@ def _ends(table: Mechanism) -> Limits:
 
 def _swept(table: Mechanism) -> Limits:
     """Ends of the ways of levers, and of linkages at their limits, from samples."""
-    _, drive = drive_at(table, np.linspace(0.0, 1.0, SAMPLES))
-    phi = np.atleast_2d(drive.theta)
-    s = np.atleast_2d(table.closed.course(drive.theta))
+    (start, travel), share = drives(table), np.linspace(0.0, 1.0, LEVER_SAMPLES)
+    swung = start + travel / 2 * (1 - np.cos(math.tau * share))
+    phi = np.atleast_2d(np.where(is_lever(table), swung, travel * share))
+    s = np.atleast_2d(table.closed.course(phi))
     each = np.arange(len(s))[:, None]
     least, most = s.argmin(axis=-1)[:, None], s.argmax(axis=-1)[:, None]
     out = np.abs(s[each, least]) >= np.abs(s[each, most])

@@ -12,9 +12,8 @@ from mechwright.contracts.design_table import column, number
 from mechwright.contracts.figure import Figure
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar.dynamics import Forces
-from mechwright_slider_crank.kinematics import period_kernels as kernels
 from mechwright_slider_crank.kinematics.course import (
-    SAMPLES,
+    LEVER_SAMPLES,
     course_of,
     drives,
     ends_of,
@@ -23,17 +22,16 @@ from mechwright_slider_crank.kinematics.course import (
     some,
     toggles,
 )
+from mechwright_slider_crank.kinematics.extremes import rate_peak
 from mechwright_slider_crank.kinematics.forces import MILLI, Balance, balance, joint_forces
 from mechwright_slider_crank.kinematics.limits import limits
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.kinematics.peak_kernel import GRID, NEAR, ROUNDS
 from mechwright_slider_crank.parts.layers import has_bounds
 from mechwright_slider_crank.parts.masses import bodies_of
 from mechwright_slider_crank.rules.rule_table import buildable
 
-_CIRCLE = kernels.circle_of(2 * kernels.GRID + 1)
-
-_FINER = np.linspace(-1, 1, kernels.NEAR)
-"""Eight times closer points about a peak: after some rounds its value is found to 1e-9 of a turn."""
+_NEAR = np.linspace(-1, 1, NEAR)
 
 
 def figures(table: Mechanism) -> dict[str, Figure]:
@@ -55,8 +53,8 @@ def figures(table: Mechanism) -> dict[str, Figure]:
         clamped = limits(table.closed)
         found["assembly_stroke"] = Figure(clamped.stroke, "mm")
         found["assembly_time_ratio"] = Figure(clamped.time_ratio)
-    found["v_max"] = Figure(partial(_rate_peak, table, 0), "mm/s")
-    found["a_max"] = Figure(partial(_rate_peak, table, 1), "mm/s^2")
+    found["v_max"] = Figure(partial(_rate_peak, table, 1), "mm/s")
+    found["a_max"] = Figure(partial(_rate_peak, table, 2), "mm/s^2")
     if table.single and buildable(table):
         peaks = force_peaks(table)
         found |= {name: Figure(value, _UNITS.get(name, "N")) for name, value in peaks.items()}
@@ -105,17 +103,18 @@ def _mass(table: Mechanism, value: Callable[[dict[str, Mass], Balance], Any]) ->
     return found
 
 
-def _rate_peak(table: Mechanism, which: int) -> Any:
-    """The greatest size of the slider's velocity, ``which`` 0, or acceleration, 1, over a period."""
-    found = kernels.peaks(kernels.bars_of(table), kernels.drives_of(table), _CIRCLE, which)[:, None]
-    for place in some(table, table.closed.at_limit).tolist():
-        found[place] = most(table.row(place), _rates)[("v_max", "a_max")[which]]
+def _rate_peak(table: Mechanism, rate: int) -> Any:
+    """The greatest size of the slider's velocity or acceleration, at the limit through both assemblies."""
+    limit = some(table, table.closed.at_limit)
+    if not limit.size:
+        return rate_peak(table, rate)
+    others = some(table, ~np.asarray(table.closed.at_limit))
+    found = np.zeros((table.size, 1))
+    if others.size:
+        found[others] = rate_peak(table.rows(others), rate)
+    for place in limit.tolist():
+        found[place] = most(table.row(place), lambda bodies: {"": np.abs(bodies.along[rate])})[""]
     return found.item() if table.single else found
-
-
-def _rates(bodies: Any) -> dict[str, Array]:
-    slider = bodies.slider.origin
-    return {"v_max": np.abs(slider.velocity), "a_max": np.abs(slider.acceleration)}
 
 
 def force_peaks(table: Mechanism) -> dict[str, float]:
@@ -140,7 +139,7 @@ def most(table: Mechanism, sizes: Callable[[Any], dict[str, Array]]) -> dict[str
     """Greatest values over a period; of a lever among as many samples as its ends are sought in."""
     course, speed, link = course_of(table), table.omega, table.closed
     if course.rocks:
-        _, drive = course.period(SAMPLES, speed)
+        _, drive = course.period(LEVER_SAMPLES, speed)
         return {name: float(size.max()) for name, size in sizes(link.bodies(drive.theta, drive)).items()}
     turned = course.travel / math.tau
 
@@ -161,14 +160,14 @@ def peaks(functions: Callable[[Array], dict[str, Array]], end: float = math.inf)
     >>> round(found["sine"], 12), round(found["cosine"], 12)
     (4.0, 1.0)
     """
-    grid = np.linspace(0, math.tau, kernels.GRID + 1)
+    grid = np.linspace(0, math.tau, GRID + 1)
     begin = -math.inf if math.isinf(end) else 0.0
     found = {}
     for name, values in functions(grid).items():
-        centre, half = float(grid[np.argmax(values)]), math.tau / kernels.GRID
+        centre, half = float(grid[np.argmax(values)]), math.tau / GRID
         best = float(values.max())
-        for _ in range(kernels.ROUNDS):
-            at = np.clip(centre + half * _FINER, begin, end)
+        for _ in range(ROUNDS):
+            at = np.clip(centre + half * _NEAR, begin, end)
             near = functions(at)[name]
             best, centre = max(best, float(near.max())), float(at[np.argmax(near)])
             half /= 8

@@ -21,8 +21,8 @@ class Mechanism(PlanarTable[SliderCrankParams]):
     def rows(self, places: Rows) -> Self:
         """Some of the linkages, with what was computed of them."""
         taken = DesignTable.rows(self, places)
-        taken.__dict__.pop("order", None)
-        taken.__dict__.pop("closed", None)
+        for name in ("closed", "order", "chain"):
+            taken.__dict__.pop(name, None)
         return taken
 
     @cached_property

@@ -105,6 +105,11 @@ class SliderCrank:
         x, y = self.crank * np.cos(angle), self.crank * np.sin(angle)
         return np.asarray(-y + (self.offset - y) * x / self._coupler_x(np.sin(angle)))
 
+    def counted(self, sigma: Array) -> Array:
+        """Angles of the rod (..., n), rad, as they count: within ±90° of the slide, or of its opposite."""
+        middle = self.direction + np.where(np.asarray(self.branch) > 0, 0.0, math.pi)
+        return np.asarray(sigma + math.tau * np.round((middle - sigma) / math.tau))
+
     def bodies(self, phi: ArrayLike, omega: float | Turning = 1.0) -> "Bodies":
         """Motion of crank, coupler and slider at crank angles (..., n), rad.
 
@@ -130,12 +135,8 @@ class SliderCrank:
                 f"{rods[worst]:g} mm has to be longer than {np.abs(t).ravel()[worst]:.6g} mm"
             )
         found = solve(self.machine, [drive], self.order)
-        # The coupler never turns past ±90° of the slide, or of its opposite: its angle has no jumps.
-        middle = self.direction + np.where(np.asarray(self.branch) > 0, 0.0, math.pi)
         crank, own = found.bodies["crank"], found.bodies["rod"].turning
-        turning = Turning(
-            own.theta + math.tau * np.round((middle - own.theta) / math.tau), own.omega, own.alpha, own.jerk
-        )
+        turning = Turning(self.counted(own.theta), own.omega, own.alpha, own.jerk)
         rod = BodyMotion(crank.point(self.crank), turning)
         with np.errstate(invalid="ignore"):  # infinite rates at a change point
             pin = rod.point(self.rod)

@@ -11,6 +11,7 @@ one with the shortest spindles. A head on a pin asks for more room under what st
 dealing has that, pins have none.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -22,8 +23,8 @@ from numpy.typing import NDArray
 from mechwright.contracts.design_table import Rowwise, column, rows_of
 from mechwright.mechanics.linkage.closeness import PLAN_CHORD, Closeness
 from mechwright_slider_crank.kinematics.course import ends_of
+from mechwright_slider_crank.kinematics.extremes import bars_of, drives_of
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
-from mechwright_slider_crank.kinematics.period_kernels import bars_of, circle_of, drives_of
 from mechwright_slider_crank.parts import room_kernels as kernels
 from mechwright_slider_crank.parts.dimensions import HEAD_SHARE, Dimensions, clear_overhang, corner_of
 from mechwright_slider_crank.parts.plates import TURN_SAMPLES, layout_of, standing
@@ -51,7 +52,9 @@ Bools = NDArray[np.bool_]
 _SURE = 1e-6
 """mm by which a bound has to be past its limit: more than rounding."""
 
-_CIRCLE = circle_of(TURN_SAMPLES)
+_SHARES = np.linspace(0.0, 1.0, TURN_SAMPLES)
+_CIRCLE = np.ascontiguousarray([np.cos(math.tau * _SHARES), np.sin(math.tau * _SHARES), _SHARES])
+"""Cosine and sine of shares of a turn, and the shares."""
 
 DOWELS = 4
 """Two in each rail."""

@@ -9,16 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Array
 from mechwright.contracts.design_table import column
 from mechwright.contracts.materials import material
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright.mechanics.strength.turning_pair import TurningPair
-from mechwright_slider_crank.kinematics.course import period_of
+from mechwright_slider_crank.kinematics.course import drives, is_lever, least_of, period_of, some
+from mechwright_slider_crank.kinematics.extremes import chain_of, drives_of
 from mechwright_slider_crank.kinematics.forces import MILLI, joint_forces
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
-from mechwright_slider_crank.kinematics.period_kernels import bars_of, circle_of, drives_of, most_force
 from mechwright_slider_crank.kinematics.slider_crank import Bodies
 from mechwright_slider_crank.parts.base import TAIL_SHARE
 from mechwright_slider_crank.parts.layers import has_bounds
@@ -27,8 +26,6 @@ from mechwright_slider_crank.parts.plates import TURN_SAMPLES, layout_of
 
 MOST_LAYERS = 4
 """Base, crank, rod, and slider with its rails."""
-
-_CIRCLE = circle_of(TURN_SAMPLES)
 
 
 def carried(m: Mechanism) -> tuple[Bodies, Forces]:
@@ -76,32 +73,62 @@ def pairs_of(m: Mechanism) -> tuple[TurningPair, ...]:
 
 
 def bears(m: Mechanism) -> Any:
-    """Which designs (n, 1) of a table certainly tear at no bore."""
+    """Which designs (n, 1) of a table certainly tear at no bore.
+
+    Per crank radian the rod turns with at most ω = a / (c sin μ), and its rate changes by at most
+    (a + c ω²) / (c sin μ). Where these leave it open, the rates over a period tell.
+    """
     if not has_bounds(m):
         return False
-    limit = 2 * m.dimensions.wall * m.given.thickness * material(m.given.material).strength
-    force = most_force(bars_of(m), drives_of(m), _inertias(m), _CIRCLE) * MILLI
-    return force[:, None] <= limit
+    (_, travel), a, c, k = drives(m), m.given.crank, m.given.rod, m.given.acceleration_ratio
+    lean, fastest = np.sin(least_of(m)), m.omega * np.maximum(1.0, np.exp(k * travel))
+    driven = np.where(is_lever(m), (travel**2 / 4 + abs(travel) / 2) * m.omega**2, (1 + abs(k)) * fastest**2)
+    first = a / (c * lean)
+    omega, alpha = first**2 * driven, ((a / c + first**2) / lean + first) * driven
+    sure = _holds(m, driven, omega, alpha, a * driven + c * (omega + alpha))
+    if (left := some(m, ~sure)).size:
+        rest = m.rows(left)
+        chain = chain_of(rest)
+        way, rod = chain.way(rest.closed.joints[-1]), chain.turning("rod")
+        rows = [(row, 1) for row in (way + 2, rod + 2, rod + 3, chain.drive + 1, chain.drive + 2)]
+        found = np.abs(chain.extremes(drives_of(rest), rows, TURN_SAMPLES)).max(axis=2)
+        slid, turn, alpha, speed, gain = found.T[:, :, None]
+        sure = np.array(sure)
+        sure[left] = _holds(rest, speed**2 + gain, turn**2, alpha, slid)
+    return sure
 
 
-def _inertias(m: Mechanism) -> Array:
-    """Bounds (n, 6) as :func:`most_force` wants them."""
+def _holds(m: Mechanism, driven: Any, omega: Any, alpha: Any, slid: Any) -> Any:
+    """Whether no bore tears with such rates at most.
+
+    ``driven`` is the square of the crank's speed and its change, ``omega`` the square of the rod's, rad²/s²;
+    ``alpha`` of the rod, rad/s², and ``slid`` of the slider, mm/s², are accelerations. The force in the
+    wrist pin has the component p along the slide, which moves the slider, and q across the rod, which turns
+    the rod; both directions are as far from each other as the rod from the slide's normal.
+    """
+    given, sizes, a, c = m.given, m.dimensions, m.given.crank, m.given.rod
+    slider, rod, crank = _most_masses(m)
+    reach = c + sizes.rod_boss
+    p = slider * slid + np.abs(given.load) / MILLI
+    q = rod * reach * (reach * alpha + a * driven) / c
+    force = (p + q) / np.sin(least_of(m)) + rod * (a * driven + reach * (alpha + omega)) + crank * a * driven
+    limit = 2 * sizes.wall * given.thickness * material(given.material).strength
+    return column(force * MILLI <= limit, m.size) > 0
+
+
+def _most_masses(m: Mechanism) -> tuple[Any, Any, Any]:
+    """What slider, rod and crank weigh at most, kg."""
     given, sizes = m.given, m.dimensions
-    a, c = given.crank, given.rod
     sheet = material(given.material).density * 1e-6 * given.thickness
     turned = material(PIN_MATERIAL).density * 1e-6 * math.pi / 4
     high = MOST_LAYERS * (given.thickness + given.gap)
     wide, tall = sizes.head
     pin = turned * (sizes.pin**2 * high + wide**2 * tall)
-    disc = np.maximum(a + sizes.pin_boss, sizes.shaft / 2 + sizes.wall)
+    disc = np.maximum(given.crank + sizes.pin_boss, sizes.shaft / 2 + sizes.wall)
     shaft = turned * sizes.shaft**2 * (high + TAIL_SHARE * sizes.shaft)
     bush = material(BUSHING_MATERIAL).density * 1e-6 * math.pi / 4 * sizes.rod_bore**2 * given.thickness
-    parts = [
+    return (
         sheet * sizes.slider_length * sizes.slider_width + pin,
-        sheet * (2 * c * sizes.rod_boss + math.pi * sizes.rod_boss**2) + 2 * bush,
-        c + sizes.rod_boss,
+        sheet * (2 * given.rod * sizes.rod_boss + math.pi * sizes.rod_boss**2) + 2 * bush,
         sheet * math.pi * disc**2 + shaft + pin,
-        a,
-        np.abs(given.load) / MILLI,
-    ]
-    return np.concatenate([column(part, m.size) for part in parts], axis=1)
+    )
