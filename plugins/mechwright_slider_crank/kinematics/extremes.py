@@ -76,7 +76,7 @@ def _rows(table: Mechanism, chain: CompiledChain) -> dict[str, tuple[int, str]]:
     for k, rate in enumerate(("", "v", "a", "j")):
         for axis, letter in enumerate("xy"):
             found[f"{rate}{letter}P"] = point + 2 * k + axis, lengths[k]
-    return found | {"phi": (chain.drive, "rad"), "sigma": (chain.angle("rod"), "rad")}
+    return found | {"sigma": (chain.angle("rod"), "rad")}
 
 
 def rate_peak(table: Mechanism, rate: int) -> Any:

@@ -71,6 +71,7 @@ def channels_over(table: Mechanism, samples: int) -> dict[str, Channel]:
     time, drive = drive_at(table, np.linspace(0.0, 1.0, samples))
     varies = np.asarray(is_lever(table)) | (np.asarray(table.given.acceleration_ratio) != 0)
     found = _channels(table, time, drive, table.closed.bodies(drive.theta, drive), varies=True)
+    del found["phi"]  # the input has no extremes of its own
     for name in ("alpha_a", "jerk_a"):
         found[name] = Channel(np.where(varies, found[name].values, math.nan), found[name].unit)
     return found
