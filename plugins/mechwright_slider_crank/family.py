@@ -95,13 +95,13 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""
-        from mechwright_slider_crank.as_made import as_made
+        from mechwright_slider_crank.as_made.plates import as_made
 
         return as_made(self.table(params), made)
 
     def tolerances(self, params: SliderCrankParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the slider's position and of the coupler point, from links, pins and guide."""
-        from mechwright_slider_crank.tolerances import SliderCrankTolerances
+        from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 
         return SliderCrankTolerances(self.table(params), tolerances)
 

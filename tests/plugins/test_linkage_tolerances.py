@@ -19,9 +19,9 @@ from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.table import SliderCrankTable
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
 
 INPUT = Tolerances(ToleranceSettings(input=0.1))
 AT = np.linspace(0.1, 6.2, 41)

@@ -18,10 +18,10 @@ from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import bosses_of
 from mechwright_four_bar.tolerances import FourBarTolerances
-from mechwright_slider_crank.as_made import as_made as slider_as_made
+from mechwright_slider_crank.as_made.plates import as_made as slider_as_made
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.table import SliderCrankTable
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.tolerances import SphericalTolerances
 
@@ -124,7 +124,7 @@ def test_where_links_line_up_the_play_alone_is_told(monkeypatch):
     assert [one.name for one in bar_as_made(bar, plates).figures] == ["pin.room"]
     slide = SliderCrankParams(crank=40, rod=40, offset=0, bushing=0)
     plates = {name: [Bored()] for name in ("base", "rail", "crank", "rod", "slider")}
-    monkeypatch.setattr("mechwright_slider_crank.as_made._guide", lambda *_: (0.05, 0.0))
+    monkeypatch.setattr("mechwright_slider_crank.as_made.plates._guide", lambda *_: (0.05, 0.0))
     assert [one.name for one in slider_as_made(SliderCrankTable.of(slide), plates).figures] == ["slider.play"]
 
 

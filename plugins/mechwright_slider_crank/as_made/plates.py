@@ -8,9 +8,9 @@ import shapely
 from mechwright import AsMade, Finding, MadeFigure, MadePart, Severity, Stage
 from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
 from mechwright_slider_crank.parts.plates import layout_of
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
 
 RULE = "Σ ρ/|cos β| + play |tan β| + |Σ (∂x/∂l) Δl|; least: all centred"
 
