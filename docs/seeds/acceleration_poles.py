@@ -21,7 +21,7 @@ from mechwright_four_bar.kinematics.locus import locus as four_bar_locus
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import search
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.locus import Plane, locus
 from mechwright_slider_crank.poles_synthesis import through_poles
 

@@ -24,7 +24,7 @@ from mechwright.arrays import Array
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 
 @dataclass(frozen=True, slots=True)

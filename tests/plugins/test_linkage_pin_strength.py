@@ -21,8 +21,9 @@ from mechwright_four_bar.table import FourBarTable
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable
-from mechwright_slider_crank import strength_checks as slider
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.rules.loads import pairs_of
+from mechwright_slider_crank.table import SliderCrankTable
 
 CODES = {"linkage.pin", "linkage.eye", "linkage.bushing", "linkage.guide", "linkage.bearing-pressure"}
 
@@ -80,7 +81,7 @@ def slow_slider(force, **table):
 def test_a_slow_slider_crank_carries_its_load():
     params, drawn = slow_slider(-500.0)
     pairs = {pair.name: pair for pair in strength.pairs_of(LinkageTable.of(drawn))}
-    wanted = {pair.name: pair.greatest for pair in slider.pairs_of(params)}
+    wanted = {pair.name: pair.greatest for pair in pairs_of(SliderCrankTable.of(params))}
     for mine, theirs in (("shaft A0", "the shaft"), ("pin A", "the crank pin"), ("pin B", "the wrist pin")):
         assert pairs[mine].greatest == pytest.approx(wanted[theirs], rel=1e-4)
 

@@ -20,8 +20,9 @@ from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.table import SliderCrankTable
 
 INPUT = Tolerances(ToleranceSettings(input=0.1))
 AT = np.linspace(0.1, 6.2, 41)
@@ -100,7 +101,7 @@ def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
 def test_a_drawn_slider_crank_has_the_sensitivities_of_its_family(sizes):
     params = SliderCrankParams(coupler_x=40, coupler_y=15, **sizes)
     known, model = (
-        SliderCrankTolerances(params, INPUT),
+        SliderCrankTolerances(SliderCrankTable.of(params), INPUT),
         LinkageTolerances(LinkageTable.of(slider_crank(params)), INPUT),
     )
     named = {

@@ -17,9 +17,10 @@ from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
-from mechwright_slider_crank.as_made import as_made as slider_as_made
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.as_made.plates import as_made as slider_as_made
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.table import SliderCrankTable
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.tolerances import SphericalTolerances
 
@@ -41,7 +42,7 @@ def four_bar(sizes):
 
 
 def slider(sizes):
-    return SliderCrankTolerances(SliderCrankParams(**sizes), EXACT)
+    return SliderCrankTolerances(SliderCrankTable.of(SliderCrankParams(**sizes)), EXACT)
 
 
 def spherical(arcs):
@@ -119,8 +120,8 @@ class Bored:
 def test_where_links_line_up_the_play_alone_is_told(monkeypatch):
     slide = SliderCrankParams(crank=40, rod=40, offset=0, bushing=0)
     plates = {name: [Bored()] for name in ("base", "rail", "crank", "rod", "slider")}
-    monkeypatch.setattr("mechwright_slider_crank.as_made._guide", lambda *_: (0.05, 0.0))
-    assert [one.name for one in slider_as_made(slide, plates).figures] == ["slider.play"]
+    monkeypatch.setattr("mechwright_slider_crank.as_made.plates._guide", lambda *_: (0.05, 0.0))
+    assert [one.name for one in slider_as_made(SliderCrankTable.of(slide), plates).figures] == ["slider.play"]
 
 
 @pytest.mark.parametrize(
@@ -149,11 +150,11 @@ def test_the_plates_of_the_examples_are_judged(name, figures):
 def test_a_slider_and_pins_that_do_not_fit_are_refused():
     parts, _, params = example("slider-crank-quick-return")
     made = {part.name: [replace(part, corridor=0.03)] for part in parts}
-    (jammed,) = slider_as_made(params, made).findings
+    (jammed,) = slider_as_made(SliderCrankTable.of(params), made).findings
     assert (jammed.severity, jammed.parameter) == (Severity.ERROR, "play")
     better = params.model_copy(update={"play": float(jammed.remedy.split()[2].rstrip(":"))})
     rail = {name: [replace(part, corridor=0.03)] for name, (part,) in made.items()}
-    assert not slider_as_made(better, rail).findings
+    assert not slider_as_made(SliderCrankTable.of(better), rail).findings
 
 
 def test_pins_that_do_not_turn_in_reamed_bores_are_refused(tmp_path):

@@ -21,7 +21,7 @@ from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.params import SphericalParams

@@ -250,6 +250,8 @@ class Procedure(Generic[D]):
         The earliest stage of what it finds: studies up to an earlier one do not ask it.
     certain
         Whether it finds an error of that stage in every design that is asked: tables are not inspected.
+    warns
+        Whether it finds no errors, and so forbids nothing.
     """
 
     codes: Sequence[str]
@@ -259,10 +261,11 @@ class Procedure(Generic[D]):
     slow: bool = False
     stage: Stage = Stage.MOTION
     certain: bool = False
+    warns: bool = False
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
-        if self.slow or not table.size or self.stage.is_after(stage):
+        if self.slow or self.warns or not table.size or self.stage.is_after(stage):
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
         if self.certain:

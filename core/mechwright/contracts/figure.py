@@ -39,7 +39,7 @@ class PartMass:
     Parameters
     ----------
     value
-        The mass of one copy, kg.
+        The mass of one copy, kg; NaN for designs without it.
     copies
         The number of copies in the mechanism.
     """

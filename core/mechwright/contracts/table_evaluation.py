@@ -234,5 +234,6 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
     if TOTAL in columns and not isinstance(weights, SomeMasses):
-        found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
+        every = sum(one.copies * np.nan_to_num(one()) for one in weights.values())
+        found[TOTAL] = column(every, table.size)[:, 0]
     return found

@@ -28,7 +28,7 @@ MOST_PLATES, MOST_LAYERS = 3, 5
 
 
 def bears(table: FourBarTable) -> NDArray[np.bool_]:
-    """Which designs (n,) certainly tear at no bore."""
+    """Which designs (n, 1) certainly tear at no bore."""
     params, inertias = table.params, _inertias(table)
     limit = column(material(params.material).strength * 2 * params.rim * params.thickness, table.size)[:, 0]
     least = column(table.transmission[0], table.size)[:, 0]
@@ -38,7 +38,7 @@ def bears(table: FourBarTable) -> NDArray[np.bool_]:
     if near.size:
         some = table.rows(near)
         sure[near] = _most_force(some, inertias[near], _sampled(some)) <= limit[near]
-    return np.asarray(sure)
+    return np.asarray(sure)[:, None]
 
 
 def _inertias(table: FourBarTable) -> Array:

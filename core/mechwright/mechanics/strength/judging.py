@@ -178,6 +178,9 @@ class StressRule(Generic[D]):
         What loads the parts.
     stage
         Of the finding.
+    bears
+        Which designs of a table certainly bear their loads, a truth value or a column found cheaply: no
+        stresses are asked of them.
     """
 
     code: str
@@ -186,6 +189,7 @@ class StressRule(Generic[D]):
     again: Callable[[Any], D]
     load: Callable[[D], str] | None = None
     stage: Stage = Stage.PARTS
+    bears: Callable[[D], Any] | None = None
 
     @property
     def codes(self) -> Sequence[str]:
@@ -196,6 +200,14 @@ class StressRule(Generic[D]):
         """Give the designs (n,) in which a stress breaks a part; None if the stage is an earlier one."""
         if self.stage.is_after(stage):
             return None
+        if self.bears is None or table.single:
+            return self._breaks(table)
+        wrong: NDArray[np.bool_] = column(self.bears(table), table.size)[:, 0] == 0
+        if wrong.any():
+            wrong[wrong] = self._breaks(table.rows(np.flatnonzero(wrong)))
+        return wrong
+
+    def _breaks(self, table: D) -> NDArray[np.bool_]:
         wrong = np.zeros(table.size, bool)
         for one in self.stresses(table):
             if one.breaks is not None:

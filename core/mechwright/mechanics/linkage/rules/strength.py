@@ -39,27 +39,16 @@ Fails = Failure[AnyPlanarTable]
 
 @dataclass(frozen=True)
 class RowStressRule(StressRule[T]):
-    """A rule of stresses that are those of one design.
-
-    Parameters
-    ----------
-    breaks
-        Whether one of them breaks a part.
-    bears
-        Which designs (n,) of a table bear their loads without a doubt, found cheaply.
-    """
+    """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
 
     breaks: bool = False
-    bears: Callable[[T], NDArray[np.bool_]] | None = None
 
     def forbids(self, table: T, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
-        if not self.breaks or self.stage.is_after(stage):
-            return None
-        wrong = np.ones(table.size, bool) if self.bears is None else ~self.bears(table)
-        for place in np.flatnonzero(wrong).tolist():
-            wrong[place] = self._fails(table.row(place))
-        return wrong
+        return super().forbids(table, stage) if self.breaks else None
+
+    def _breaks(self, table: T) -> NDArray[np.bool_]:
+        return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
 
     def _fails(self, m: T) -> bool:
         found = self.stresses(m)

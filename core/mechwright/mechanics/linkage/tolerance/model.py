@@ -8,6 +8,7 @@ geared, all links by Newton's method from the nominal pose.
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +19,10 @@ from mechwright.contracts.tolerances import ToleranceModel
 from mechwright.mechanics.linkage.kinematics.channels import PHI, STROKE
 from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
-from mechwright.mechanics.linkage.tolerance.contributors import sources_of
-from mechwright.mechanics.linkage.tolerance.outputs import outputs_of
+from mechwright.mechanics.linkage.tolerance.contributors import Source, sources_of
+from mechwright.mechanics.linkage.tolerance.outputs import Judged, outputs_of
 from mechwright.mechanics.linkage.tolerance.plates import Plates
+from mechwright.mechanics.planar import Course
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, assembly_order
 from mechwright.mechanics.planar.input_range import period_turns
 from mechwright.mechanics.planar.machine import GearPair, Machine
@@ -29,8 +31,8 @@ from mechwright.mechanics.planar.positions import Solution, solve
 from mechwright.mechanics.planar.rigid import Turning
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 
-POSITIONS, MOST_POSITIONS = 361, 3601
-"""Positions over a turn or a swing, and at most over all turns of geared links."""
+POSITIONS = 361
+"""Positions over a turn or a swing."""
 
 SINGULAR = 1e-6
 """Smallest singular value over the largest one of links that are followed, below which a first order says
@@ -42,22 +44,37 @@ BLOCK = 4096
 Poses = dict[str, Pose]
 
 
-class LinkageTolerances(ToleranceModel):
-    """The model of one design; inputs count as in the motion."""
+class MachineTolerances(ToleranceModel):
+    """The model of one design, whose contributors and outputs a family lists; inputs count as in the motion.
 
-    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
-        course = course_of(table)
-        self.machine, self.order = table.machine, table.order
-        self.dead_sine = table.dead_sine
-        self.turn = 0.0 if course.rocks else abs(course.travel)
+    Parameters
+    ----------
+    table
+        The design.
+    course
+        The way of its input.
+    sources, outputs
+        What varies, and what is judged.
+    """
+
+    most_positions: ClassVar[int] = 3601
+    """At most over all turns of geared links."""
+    judges_gears: ClassVar[bool] = False
+    """Whether errors of gears are among the contributors."""
+
+    def __init__(
+        self, table: AnyPlanarTable, course: Course, sources: Sequence[Source], outputs: Sequence[Judged]
+    ) -> None:
+        self.machine, self.order, self.dead_sine = table.machine, table.order, table.dead_sine
         self.input_name, self.input_unit = (STROKE, "mm") if table.driver_slides else (PHI, "rad")
+        self.turn = 0.0 if course.rocks else abs(course.travel)
         if course.rocks:
             self.positions = np.sort(course.way(POSITIONS))
         else:
-            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, MOST_POSITIONS)
+            count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, self.most_positions)
             self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
-        self.sources = sources_of(Plates.of(table), tolerances)
-        self.judged = {one.output.name: one for one in outputs_of(table.linkage, table.tolerance_names)}
+        self.sources = sources
+        self.judged = {one.output.name: one for one in outputs}
         self.contributors = tuple(one.contributor for one in self.sources)
         self.outputs = tuple(one.output for one in self.judged.values())
         self._kept: tuple[bytes, Poses, Array] | None = None
@@ -66,7 +83,7 @@ class LinkageTolerances(ToleranceModel):
 
     def _told(self) -> list[str]:
         found = []
-        if any(isinstance(joint, GearPair) for joint in self.machine.joints):
+        if not self.judges_gears and any(isinstance(joint, GearPair) for joint in self.machine.joints):
             found.append("errors and play of the gears' teeth are not among the contributors")
         dead = np.logical_not(self._poses(self.positions)[1])
         if dead.any():
@@ -176,6 +193,14 @@ class LinkageTolerances(ToleranceModel):
             moves = np.all([sine > least for sine in sines], axis=0) if sines else np.ones(own.shape, bool)
             self._kept = key, _poses(found, own.size), moves
         return self._kept[1], self._kept[2]
+
+
+class LinkageTolerances(MachineTolerances):
+    """The model of one linkage of plates; its contributors are all that varies in a plate."""
+
+    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
+        sources = sources_of(Plates.of(table), tolerances)
+        super().__init__(table, course_of(table), sources, outputs_of(table.linkage, table.tolerance_names))
 
 
 def _poses(found: Solution, count: int) -> Poses:

@@ -75,7 +75,7 @@ def rooms(bars: Array, ways: Array, sizes: Array, circle: Array, chord: float, r
     Parameters
     ----------
     bars
-        (n, 5), as of :mod:`mechwright_slider_crank.period_kernels`.
+        (n, 5): crank a, rod c and offset e, mm, direction of the slide, rad, and the branch.
     ways
         (n, 2): start and travel of the crank, rad.
     sizes

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.units import Degrees, Millimetres, Newtons, Ratio, RevPerMin, Unit
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 LONGEST = 2000.0
 """mm. Longer links are structures, not plates."""
@@ -168,15 +168,10 @@ class SliderCrankParams(Parameters):
     def linkage(self) -> SliderCrank:
         """The linkage, angles in rad."""
         branch = 1 if self.assembly == "ahead" else -1
-        return SliderCrank(self.crank, self.rod, self.offset, math.radians(self.slide_direction), branch)
-
-    @property
-    def omega(self) -> float:
-        """Speed of the crank, rad/s, counter-clockwise positive."""
-        return (-1 if self.clockwise else 1) * self.speed * math.tau / 60
+        direction = self.slide_direction * (math.pi / 180)
+        return SliderCrank(self.crank, self.rod, self.offset, direction, branch)
 
     @property
     def coupler_point(self) -> complex:
         """The coupler point in the rod's coordinates, mm."""
-        x = self.rod / 2 if self.coupler_x is None else self.coupler_x
-        return complex(x, self.coupler_y)
+        return (self.rod / 2 if self.coupler_x is None else self.coupler_x) + 1j * self.coupler_y

@@ -2,9 +2,9 @@
 
 from mechwright import Array, DesignError, KinematicsError, Motion, Port, Turning
 from mechwright.mechanics.planar.crank_stage import CrankStage
-from mechwright_slider_crank.course import is_lever
-from mechwright_slider_crank.motion import check_moves, driven_by
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.kinematics.course import is_lever
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.kinematics.motion import driven_by, moving
 
 
 class SliderStage(CrankStage):
@@ -15,16 +15,15 @@ class SliderStage(CrankStage):
 
     own_drive = ("speed", "acceleration_ratio", "clockwise")
 
-    def __init__(self, params: SliderCrankParams) -> None:
-        check_moves(params)
-        if is_lever(params) or params.linkage.at_limit:
+    def __init__(self, table: Mechanism) -> None:
+        if is_lever(moving(table)) or table.closed.at_limit:
             raise DesignError(
                 "crank: it swings, or only just turns, and a stage of a chain follows a shaft that turns all "
                 "the way; make the rod longer than crank and offset, and leave swing_from and swing_to out"
             )
-        self.params = params
+        self.table = table
         self.input = Port("crank", (0.0, 0.0))
-        self.speed = params.omega
+        self.speed = table.sense * table.omega
 
     def move(self, drive: Turning) -> Turning:  # noqa: ARG002 - there is none
         """There is none; raises KinematicsError."""
@@ -32,9 +31,9 @@ class SliderStage(CrankStage):
 
     def motion(self, drive: Turning, time: Array) -> Motion:
         """All bodies, and forces with the masses of the real parts."""
-        return driven_by(self.params, drive, time)
+        return driven_by(self.table, drive, time)
 
     @property
     def acceleration_ratio(self) -> float:
         """As the design says it."""
-        return self.params.acceleration_ratio
+        return self.table.given.acceleration_ratio

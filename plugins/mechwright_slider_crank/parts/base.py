@@ -8,6 +8,7 @@ one of its diameter.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from mechwright import DesignError, Outline
 from mechwright.contracts.turned import Groove, Step, Turned
@@ -20,8 +21,8 @@ from mechwright.mechanics.linkage import (
 )
 from mechwright.standards.circlips import Circlip, shaft_circlip
 from mechwright.standards.couplings import BORES, couplings
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parts.dimensions import CORNER, Dimensions
 
 TAIL_SHARE = 1.5
 """How far the shaft sticks out under a base without screw holes, over its diameter: room for a handle."""
@@ -61,10 +62,10 @@ class ShaftEnd:
         return self.neck + self.length
 
 
-def shaft_end(params: SliderCrankParams) -> ShaftEnd:
+def shaft_end(table: Mechanism) -> ShaftEnd:
     """As long as the longest coupling needs, where the base has holes for the screws of legs."""
-    shaft = sizes_of(params).shaft
-    if params.screw_hole is None:
+    shaft = table.dimensions.shaft
+    if table.given.screw_hole is None:
         return ShaftEnd(shaft, TAIL_SHARE * shaft)
     diameter = max((bore for bore in BORES if bore <= shaft), default=shaft)
     length = UNDER + max(one.length for one in couplings()) / 2
@@ -72,12 +73,12 @@ def shaft_end(params: SliderCrankParams) -> ShaftEnd:
         ring = shaft_circlip(shaft)
     except DesignError:
         return ShaftEnd(diameter, length)
-    return ShaftEnd(diameter, length, params.gap + ring.width + ring.edge, ring)
+    return ShaftEnd(diameter, length, table.given.gap + ring.width + ring.edge, ring)
 
 
-def shaft_form(params: SliderCrankParams, length: float) -> Turned:
+def shaft_form(table: Mechanism, length: float) -> Turned:
     """The shaft, ``length`` mm from the base's underside upwards."""
-    shaft, end = sizes_of(params).shaft, shaft_end(params)
+    shaft, end = table.dimensions.shaft, shaft_end(table)
     if end.diameter == shaft:
         steps: tuple[Step, ...] = (Step(shaft, length + end.whole),)
     else:
@@ -86,13 +87,16 @@ def shaft_form(params: SliderCrankParams, length: float) -> Turned:
         return Turned(steps)
     ring = end.ring
     # Its lower side is the ring's seat: the upper one has the base's air above it.
-    groove = Groove(end.whole - params.gap - ring.width, ring.width, ring.groove, ring.tolerance)
+    groove = Groove(end.whole - table.given.gap - ring.width, ring.width, ring.groove, ring.tolerance)
     return Turned(steps, grooves=(groove,))
 
 
-def shaft_masses(params: SliderCrankParams, length: float) -> list[Mass]:
+def shaft_masses(table: Mechanism, length: Any) -> list[Mass]:
     """The masses of the shaft and of the ring on it."""
-    form, ring = shaft_form(params, length), shaft_end(params).ring
+    if table.given.screw_hole is None:
+        end = shaft_end(table)
+        return [cylinder_mass(end.diameter, length + end.whole, PIN_MATERIAL)]
+    form, ring = shaft_form(table, length), shaft_end(table).ring
     found = [cylinder_mass(step.diameter, step.length, PIN_MATERIAL) for step in form.steps]
     if ring is None:
         return found
@@ -103,7 +107,7 @@ def shaft_masses(params: SliderCrankParams, length: float) -> list[Mass]:
 
 
 def hole_places(
-    params: SliderCrankParams,
+    screw_offset: float | None,
     hole: float,
     swept: tuple[float, float, float, float],
     rim: tuple[complex, complex],
@@ -112,6 +116,8 @@ def hole_places(
 
     Parameters
     ----------
+    screw_offset
+        Their least distance from the line of the slide, mm, where the design states it.
     swept
         Bounds x0, y0, x1, y1 of what moves, seen from the base.
     rim
@@ -119,10 +125,10 @@ def hole_places(
     """
     (x0, y0, x1, y1), (low, high) = swept, rim
     wide, beside = max(-low.imag, high.imag), HEAD_SHARE * hole / 2 + BESIDE
-    if params.screw_offset is None:
+    if screw_offset is None:
         offset = float(math.ceil(max(-y0, y1, wide) + beside))
     else:
-        offset = max(params.screw_offset, wide + beside)
+        offset = max(screw_offset, wide + beside)
     left, right = math.floor(min(x0, low.real)), math.ceil(max(x1, high.real))
     half = max((right - left) / 2 - EDGE_SHARE * hole, EDGE_SHARE * hole)
     middle = (left + right) / 2
@@ -142,7 +148,7 @@ def base_outline(
     return rectangle(screws[0] - edge, screws[2] + edge, EDGE_SHARE * hole, (*holes, *bores))
 
 
-def rim_of(sizes: Sizes, rail: Outline, rails: Sequence[complex]) -> tuple[complex, complex]:
+def rim_of(sizes: Dimensions, rail: Outline, rails: Sequence[complex]) -> tuple[complex, complex]:
     """Least and greatest x + i y of the shaft's bore with its wall, and of the rails."""
     x0, y0, x1, y1 = rail.bounds
     reach = sizes.base_bore / 2 + sizes.wall

@@ -1,46 +1,34 @@
-"""Joint forces, input torque, shaking force and balance, with the masses of the real parts."""
+"""Forces of joints and drive, and what balances the moving masses."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from mechwright.mechanics.linkage import Mass
-from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, Slide, forces
-from mechwright_slider_crank.kinematics import Bodies, SliderCrank
+from mechwright.mechanics.planar.dynamics import Forces
+from mechwright.mechanics.planar.efforts import PointLoad, efforts
+from mechwright_slider_crank.kinematics.slider_crank import Bodies
 
 MILLI = 1e-3
-"""From mN, which kg, mm and s give, to N, from mN mm to N mm, and from N mm to N m."""
+"""From N mm to N m."""
 
 
-def joint_forces(linkage: SliderCrank, bodies: Bodies, masses: dict[str, Mass], load: float = 0.0) -> Forces:
+def joint_forces(bodies: Bodies, masses: Mapping[str, Mass], load: float = 0.0) -> Forces:
     """Forces at the samples of a motion, N and N mm: of shaft, crank-pin, wrist-pin and guide.
 
     Parameters
     ----------
-    linkage
-        The linkage.
     bodies
-        Its motion (n,) in time.
+        The motion (n,) in time.
     masses
         Of ``"crank"``, ``"rod"`` and ``"slider"``, kg and mm.
     load
         Force on the slider along the slide, N, through its pin.
     """
-    along = complex(np.exp(1j * linkage.direction))
-    pin, end = bodies.rod.origin.position, bodies.slider.origin.position
-    moving = {"crank": bodies.crank, "rod": bodies.rod, "slider": bodies.slider}
-    links = [
-        Link(name, motion, masses[name].mass, masses[name].centre, masses[name].inertia)
-        for name, motion in moving.items()
-    ]
-    joints: list[Pin | Slide] = [
-        Pin("shaft", GROUND, "crank", np.zeros_like(pin)),
-        Pin("crank-pin", "crank", "rod", pin),
-        Pin("wrist-pin", "rod", "slider", end),
-        Slide("guide", GROUND, "slider", along, end),
-    ]
-    load_on_slider = Load("slider", load / MILLI * along, end)
-    return forces(links, joints, "crank", [load_on_slider]).scaled(MILLI)
+    along = load * np.exp(1j * np.asarray(bodies.linkage.direction))
+    return efforts(bodies.linkage.machine, bodies.solution, masses, [PointLoad("slider", 0j, along)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,12 +46,12 @@ class Balance:
         Mass of the rod's counterweight, kg, at a lever of a crank's length, which ``crank`` counts on.
     """
 
-    rod: complex
-    crank: complex
-    rod_weight: float
+    rod: Any
+    crank: Any
+    rod_weight: Any
 
 
-def balance(crank: float, rod: float, masses: dict[str, Mass]) -> Balance:
+def balance(crank: Any, rod: Any, masses: Mapping[str, Mass]) -> Balance:
     """Counterweights that make the shaking force vanish at every instant.
 
     >>> found = balance(50.0, 150.0, {"crank": Mass(0.0), "rod": Mass(0.0), "slider": Mass(2.0)})

@@ -1,15 +1,14 @@
-"""Sizes of the plates that a design leaves open, and those that follow from others."""
+"""Sizes of the plates that a design leaves open, and those that follow from others; numbers or columns."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright.mechanics.strength.allowed import PIN_BENDING
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 PIN_SHARE = 0.125
 """Pin diameter over crank: slender enough that slider and rails keep out of the crank's way."""
@@ -43,53 +42,51 @@ HEAD_HEIGHT_SHARE = 0.3
 """Head height over pin diameter, as of clevis pins."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
+@dataclass(frozen=True)
+class Dimensions(Rowwise):
     """All sizes of a design, mm; widths and diameters, not halves."""
 
-    pin: float
-    shaft: float
-    wall: float
-    bushing: float
-    slider_length: float
-    slider_width: float
-    rail: float
-    overhang: float
+    pin: Any
+    shaft: Any
+    wall: Any
+    bushing: Any
+    slider_length: Any
+    slider_width: Any
+    rail: Any
+    overhang: Any
 
     @property
-    def dowel(self) -> float:
+    def dowel(self) -> Any:
         """Diameter of the rails' dowels: whole millimetres, as they are sold, but for the thinnest."""
-        found: float = dowel_of(self.pin)
-        return found
+        return dowel_of(self.pin)
 
     @property
-    def rod_bore(self) -> float:
+    def rod_bore(self) -> Any:
         """Bore of the rod's ends: the outside of their bushings."""
         return self.pin + 2 * self.bushing
 
     @property
-    def base_bore(self) -> float:
+    def base_bore(self) -> Any:
         """Bore of the base: the outside of the shaft's bushing."""
         return self.shaft + 2 * self.bushing
 
     @property
-    def rod_boss(self) -> float:
+    def rod_boss(self) -> Any:
         """Radius of the rod's bosses."""
         return self.rod_bore / 2 + self.wall
 
     @property
-    def pin_boss(self) -> float:
+    def pin_boss(self) -> Any:
         """Radius of material around a pin that is pressed in."""
         return self.pin / 2 + self.wall
 
     @property
-    def spacer(self) -> float:
+    def spacer(self) -> Any:
         """Radius of the spacers under rails that stand high."""
-        found: float = _smaller(self.dowel / 2 + self.wall, self.rail / 2)
-        return found
+        return number(np.minimum(self.dowel / 2 + self.wall, self.rail / 2))
 
     @property
-    def head(self) -> tuple[float, float]:
+    def head(self) -> tuple[Any, Any]:
         """Diameter and height of a pin's head."""
         return HEAD_SHARE * self.pin, HEAD_HEIGHT_SHARE * self.pin
 
@@ -100,60 +97,36 @@ def dowel_of(pin: Any) -> Any:
     >>> dowel_of(6.0), dowel_of(1.5)
     (4.0, 1.5)
     """
-    return _larger(LEAST_DOWEL, 1.0 * _whole(DOWEL_SHARE * pin))
-
-
-def _whole(value: Any) -> Any:
-    return np.rint(value) if isinstance(value, np.ndarray) else round(value)
-
-
-def _where(which: Any, one: float, two: float) -> Any:
-    return np.where(which, one, two) if isinstance(which, np.ndarray) else one if which else two
-
-
-def _larger(one: Any, two: Any) -> Any:
-    arrays = isinstance(one, np.ndarray) or isinstance(two, np.ndarray)
-    return np.maximum(one, two) if arrays else max(one, two)
-
-
-def _smaller(one: Any, two: Any) -> Any:
-    arrays = isinstance(one, np.ndarray) or isinstance(two, np.ndarray)
-    return np.minimum(one, two) if arrays else min(one, two)
+    return number(np.maximum(LEAST_DOWEL, np.rint(DOWEL_SHARE * pin)))
 
 
 def corner_of(half_length: Any, half_width: Any) -> Any:
     """Corner radius of a plate, smaller on what is small."""
-    return _smaller(CORNER, 0.4 * _smaller(half_length, half_width))
+    return number(np.minimum(CORNER, 0.4 * np.minimum(half_length, half_width)))
 
 
-def sizes_of(params: SliderCrankParams) -> Sizes:
-    """The sizes, those left out filled in."""
-    return filled_in(partial(getattr, params))
-
-
-def filled_in(table: Callable[[str], Any]) -> Sizes:
-    """The same from parameters by their names, which may be arrays over many designs."""
+def dimensions_of(params: SliderCrankParams) -> Dimensions:
+    """The sizes, with those that the designs leave open."""
 
     def given(name: str, default: Any) -> Any:
-        value = table(name)
-        return default if value is None else value
+        value = getattr(params, name)
+        return number(default if value is None else value)
 
     least, most = PIN_RANGE
-    crank, shaft = table("crank"), table("shaft")
-    usual = _smaller(_larger(least, _whole(PIN_SHARE * crank)), most)
+    crank, shaft = params.crank, params.shaft
+    common = np.minimum(np.maximum(least, np.rint(PIN_SHARE * crank)), most)
     for fine in FINE_PINS:
-        beside = SHAFT_SHARE * usual if shaft is None else shaft
-        usual = _smaller(usual, _where(crank - (usual + beside) / 2 < LEAST_WEB, fine, most))
-    usual = _larger(usual, _bearing(table, most))
-    pin = given("pin", usual)
-    wall = given("wall", _larger(LEAST_WALL, WALL_SHARE * pin))
+        beside = SHAFT_SHARE * common if shaft is None else shaft
+        common = np.minimum(common, np.where(crank - (common + beside) / 2 < LEAST_WEB, fine, most))
+    pin = given("pin", np.maximum(common, _bearing(params, most)))
+    wall = given("wall", np.maximum(LEAST_WALL, WALL_SHARE * pin))
     width = given("slider_width", pin + 4 * wall)
     rail = given("rail", dowel_of(pin) + 2 * wall)
-    return Sizes(
+    return Dimensions(
         pin,
         given("shaft", SHAFT_SHARE * pin),
         wall,
-        table("bushing"),
+        params.bushing,
         given("slider_length", 1.5 * width),
         width,
         rail,
@@ -161,30 +134,29 @@ def filled_in(table: Callable[[str], Any]) -> Sizes:
     )
 
 
-def _bearing(table: Callable[[str], Any], most: float) -> Any:
+def _bearing(params: SliderCrankParams, most: float) -> Any:
     """The pin that bears the load, whole mm, as far as crank and shaft leave it room; 0 without a load.
 
     It is bent between the middles of crank and rod, which are side by side, and presses on the rod's bore.
     """
-    crank, load, thickness, shaft = (table(name) for name in ("crank", "load", "thickness", "shaft"))
-    sine = np.minimum((crank + np.abs(table("offset"))) / table("rod"), _STEEPEST)
+    crank, load, thickness, shaft = params.crank, params.load, params.thickness, params.shaft
+    sine = np.minimum((crank + np.abs(params.offset)) / params.rod, _STEEPEST)
     force = np.abs(load) / np.sqrt(1 - sine * sine)
-    arm = thickness / 2 + table("gap")
+    arm = thickness / 2 + params.gap
     bent = np.cbrt(32 * force * arm / (math.pi * PIN_BENDING))
     room = 2 * (crank - LEAST_WEB)
     room = room / (1 + SHAFT_SHARE) if shaft is None else room - shaft
     found = np.minimum(np.ceil(np.maximum(bent, force / (MAX_PRESSURE * thickness))), np.floor(room))
-    found = np.where(np.asarray(load) == 0, 0.0, np.minimum(found, most))
-    return found if found.ndim else float(found)
+    return np.where(np.asarray(load) == 0, 0.0, np.minimum(found, most))
 
 
-def clear_overhang(sizes: Sizes, crank: Any, ends: tuple[Any, Any], clearance: Any) -> Any:
+def clear_overhang(dimensions: Dimensions, crank: Any, way: tuple[Any, Any], clearance: Any) -> Any:
     """How far rails go on, mm, whose dowels stand outside of all that crank and rod sweep about the pivot.
 
-    ``ends`` are the slider's positions at the ends of its stroke, the lower one first.
+    ``way`` are the slider's positions at the ends of its stroke, the lower one first.
     """
-    low, high = ends
-    swept = _larger(crank + _larger(sizes.pin_boss, sizes.rod_boss), sizes.shaft / 2 + sizes.wall)
-    dowel = abs(low + high) / 2 + swept + sizes.spacer + clearance + SPARE
-    needed = dowel + sizes.rail / 2 - (high - low + sizes.slider_length) / 2
-    return _larger(sizes.rail, 1.0 * _whole(needed + 0.5))
+    (low, high), own = way, dimensions
+    swept = np.maximum(crank + np.maximum(own.pin_boss, own.rod_boss), own.shaft / 2 + own.wall)
+    dowel = abs(low + high) / 2 + swept + own.spacer + clearance + SPARE
+    needed = dowel + own.rail / 2 - (high - low + own.slider_length) / 2
+    return number(np.maximum(own.rail, np.rint(needed + 0.5)))

@@ -2,9 +2,9 @@
 
 from mechwright import Outline
 from mechwright.mechanics.linkage import Boss, bent_link, disc, hull_link, rectangle, web_link
-from mechwright_slider_crank.figures import Limits
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.sizes import Sizes, corner_of, sizes_of
+from mechwright_slider_crank.kinematics.course import ends_of
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parts.dimensions import Dimensions, corner_of
 
 FILLET_SHARE = 0.6
 """Fillet between rod and boss over the boss's radius: a smooth flow of force, and room for a cutter."""
@@ -13,9 +13,9 @@ BEND_SHARE = 2.0
 """Radius of a bent rod's middle line over its width."""
 
 
-def crank_outline(params: SliderCrankParams) -> Outline:
+def crank_outline(table: Mechanism) -> Outline:
     """A disc about the pivot, or an arm; the bores are for shaft and pin, both pressed in."""
-    sizes = sizes_of(params)
+    params, sizes = table.given, table.dimensions
     shaft = Boss(0j, sizes.shaft / 2 + sizes.wall, sizes.shaft, "shaft")
     pin = Boss(complex(params.crank), sizes.pin_boss, sizes.pin, "crank-pin")
     if params.crank_shape == "disc":
@@ -23,7 +23,7 @@ def crank_outline(params: SliderCrankParams) -> Outline:
     return hull_link((shaft, pin))
 
 
-def rod_outline(params: SliderCrankParams) -> Outline:
+def rod_outline(table: Mechanism) -> Outline:
     """Straight, waisted, bent, or ternary where the coupler point has a bore.
 
     Raises
@@ -31,7 +31,7 @@ def rod_outline(params: SliderCrankParams) -> Outline:
     GeometryError
         Width or bend do not fit the bosses; the message gives the limit.
     """
-    sizes = sizes_of(params)
+    params, sizes = table.given, table.dimensions
     one = Boss(0j, sizes.rod_boss, sizes.rod_bore, "crank-pin")
     two = Boss(complex(params.rod), sizes.rod_boss, sizes.rod_bore, "wrist-pin")
     width = params.rod_width
@@ -49,7 +49,7 @@ def rod_outline(params: SliderCrankParams) -> Outline:
     return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
 
 
-def slider_outline(sizes: Sizes) -> Outline:
+def slider_outline(sizes: Dimensions) -> Outline:
     """With the bore of its pin in the middle."""
     half = complex(sizes.slider_length, sizes.slider_width) / 2
     return rectangle(-half, half, _corner(half), (Boss(0j, 0, sizes.pin, "wrist-pin"),))
@@ -61,10 +61,10 @@ def _corner(half: complex) -> float:
 
 
 def rails_of(
-    params: SliderCrankParams, sizes: Sizes, ends: Limits
+    table: Mechanism, sizes: Dimensions
 ) -> tuple[Outline, tuple[complex, complex], tuple[complex, ...]]:
     """A rail in its own coordinates (origin in its middle), both places, and the dowels in the base."""
-    low, high = sorted((ends.near_position, ends.far_position))
+    params, (low, high) = table.given, (float(end) for end in ends_of(table).way)
     # The slider stays on the rails for its whole stroke; the dowels stand beyond its ends.
     half = (high - low + sizes.slider_length) / 2 + sizes.overhang
     apart = sizes.slider_width / 2 + params.play + sizes.rail / 2

@@ -8,19 +8,18 @@ import shapely
 from mechwright import AsMade, Finding, MadeFigure, MadePart, Severity, Stage
 from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import layout_of
-from mechwright_slider_crank.sizes import sizes_of
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parts.plates import layout_of
 
 RULE = "Σ ρ/|cos β| + play |tan β| + |Σ (∂x/∂l) Δl|; least: all centred"
 
 
-def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
+def as_made(table: Mechanism, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
     """Judge the linkage with plates as made."""
     if not {"base", "rail", "crank", "rod", "slider"} <= set(made):
         return AsMade()
-    sizes = sizes_of(params)
+    params, sizes = table.given, table.dimensions
     crank, rod, base = (made[name][0] for name in ("crank", "rod", "base"))
     ends = [Hole(0j, sizes.rod_bore), Hole(complex(params.rod), sizes.rod_bore)]
     links = {
@@ -36,13 +35,13 @@ def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -
         }
     sure = {name: one for name, one in links.items() if one is not None}
     turning = {name: one for name, one in pins.items() if one is not None}
-    play, spread = _guide(params, made)
+    play, spread = _guide(table, made)
     # Where the rod stands across the slide, no error is in proportion to what is off.
     errors = (
         []
         if params.linkage.at_limit
         else made_errors(
-            SliderCrankTolerances(params, EXACT),
+            SliderCrankTolerances(table, EXACT),
             sure,
             turning | {"guide": Joint("guide", play, spread)},
             {"guide": params.play},
@@ -64,26 +63,26 @@ def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -
         ),
     ]
     jammed = stuck("slider.as-made", [*turning.values()], "pin", sizes.pin)
-    found = (*_jammed(params, play - spread), *jammed)
+    found = (*_jammed(params.play, play - spread), *jammed)
     return AsMade(tuple(figures), tuple(one.curve("crank") for one in errors), found)
 
 
-def _guide(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -> tuple[float, float]:
+def _guide(table: Mechanism, made: Mapping[str, Sequence[MadePart]]) -> tuple[float, float]:
     """Play of the slider on each side as made, and how far the path may change it, mm."""
     wider = 0.0
     corridor = 0.0
     for name in ("slider", "rail"):
-        part, drawn = made[name][0], layout_of(params).outlines[name].bounds
+        part, drawn = made[name][0], layout_of(table).outlines[name].bounds
         _, low, _, high = shapely.bounds(part.outline.polygon()).tolist()
         wider += ((high - low) - (drawn[3] - drawn[1])) / 2
         corridor += part.corridor
-    return params.play - wider, corridor
+    return table.given.play - wider, corridor
 
 
-def _jammed(params: SliderCrankParams, least: float) -> list[Finding]:
+def _jammed(given: float, least: float) -> list[Finding]:
     if least > 0:
         return []
-    better = np.ceil((params.play - least) * 1e3 + 1) / 1e3
+    better = np.ceil((given - least) * 1e3 + 1) / 1e3
     return [
         Finding(
             "slider.as-made",
@@ -93,7 +92,7 @@ def _jammed(params: SliderCrankParams, least: float) -> list[Finding]:
             least,
             0.0,
             "mm",
-            f"make play {better:g}: on these walls that leaves {least + better - params.play:.4f} mm",
+            f"make play {better:g}: on these walls that leaves {least + better - given:.4f} mm",
             Stage.MACHINING,
         )
     ]
