@@ -11,7 +11,7 @@ from mechwright.designs.requirement import requirement_of
 from mechwright.plugins.host import host
 from mechwright.scripting.synthesis import Found, sought
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 TRAVEL = 180.0
 """Of the machine, mm: enough for plates of the small linkages, not for those of the large ones."""

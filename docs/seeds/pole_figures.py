@@ -10,10 +10,10 @@ from signed_distances import SignedDistances, of_four_bar, of_slider_crank
 
 from mechwright.pipeline.figures.sheet import INK, Window, linkage
 from mechwright.pipeline.poles import NAME, Coupler, planes
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.poles_page import FourBarPoles
-from mechwright_four_bar.reach import bar_of
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.poles_page import SliderCrankPoles
 
 IMAGES = Path(__file__).parents[1] / "images"

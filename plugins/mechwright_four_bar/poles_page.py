@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.pipeline.poles import NAME, Coupler, PolesPage
-from mechwright_four_bar.change_point import close_through
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop, close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.kinematics.change_point import close_through
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import Loop, close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 
 
 class FourBarPoles(PolesPage):
@@ -22,8 +22,8 @@ class FourBarPoles(PolesPage):
 
     def couplers(self, params: FourBarParams) -> Mapping[str, Coupler]:
         """The coupler, on both branches where it keeps to one."""
-        bar, course = bar_of(params), course_of(params)
-        through = bar.lines_up and not course.rocks
+        table = FourBarTable.of(params)
+        bar, course, through = table.bar, table.closed_ways.course, bool(table.through)
         both = (bar,) if through else (bar, replace(bar, branch=-bar.branch))
 
         def loop(one: FourBar, phi: ArrayLike) -> Loop:

@@ -7,8 +7,9 @@ import numpy as np
 
 from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright.pipeline.poles import NAME, Coupler, PolesPage
-from mechwright_slider_crank.course import course_of
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.kinematics.course import course_of
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 
 class SliderCrankPoles(PolesPage):
@@ -31,4 +32,4 @@ class SliderCrankPoles(PolesPage):
             along = np.exp(1j * linkage.direction) * linkage.crank / 2
             return {"A0": 0j, "A": a, "B": b}, [(0j, a, b), (b - along, b + along)]
 
-        return {NAME: Coupler(course_of(params), moved, drawn, linkage.rod)}
+        return {NAME: Coupler(course_of(Mechanism.of(params)), moved, drawn, linkage.rod)}

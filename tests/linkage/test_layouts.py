@@ -126,27 +126,25 @@ def test_openings_leave_a_rim(name):
 
 @pytest.mark.parametrize("frame", ["one", "two"])
 def test_the_four_bar_stands_as_its_own_family_has_it(frame):
-    from mechwright_four_bar.params import FourBarParams
-    from mechwright_four_bar.plates import joints_of
-    from mechwright_four_bar.plates import layout_of as family_layout
-    from mechwright_four_bar.plates import parts_of as family_parts
+    from mechwright_four_bar.parameters import FourBarParams
+    from mechwright_four_bar.table import FourBarTable
 
     params = FourBarParams(
         crank=40, coupler=120, follower=80, ground=100, coupler_point_x=50, coupler_point_y=30, frame=frame
     )
-    family, own = family_layout(params), laid_out("fourbar", frame=frame)
+    family, own = FourBarTable.of(params).layout, laid_out("fourbar", frame=frame)
     again = {"rocker": "follower"}
     assert {again.get(plate, plate): layer for plate, layer in own.stack.layer.items()} == family.stack.layer
     assert own.stack.layers == family.stack.layers
     spans = {name: span for name, span in own.stack.spans.items() if not name.startswith("post")}
     if frame == "one":
-        assert spans == {name: family.stack.spans[name] for name in joints_of(params)}
+        assert spans == {pin.name: family.stack.spans[pin.name] for pin in family.pins}
     for plate, outline in own.outlines.items():
         if frame == "two" and plate.startswith("ground"):
             continue  # their posts stand as far to both sides
         assert outline.area == pytest.approx(family.outlines[again.get(plate, plate)].area, rel=1e-12), plate
     if frame == "one":
-        bores = {part.name: part for part in family_parts(params)}
+        bores = {part.name: part for part in parts_of(family)}
         for part in parts_of(own):
             other = bores[again.get(part.name, part.name)]
             assert len(part.instances) == len(other.instances), part.name

@@ -14,8 +14,8 @@ from mechwright.mechanics.planar.input_range import ranges, usable
 from mechwright.mechanics.planar.machine import Drive, GearPair, Machine, Pose, Prismatic, Revolute
 from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.swing import TURN_BACK
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.reach import reach
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.reach import reach
 
 
 def four_bar(a, b, c, f):

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 SIZES = (
     "speed", "pin_diameter", "bushing_wall", "running_fit", "rim", "web_width", "thickness",

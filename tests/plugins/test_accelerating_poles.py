@@ -13,10 +13,10 @@ from mechwright.pipeline.poles.page import page as page_of
 from mechwright.pipeline.poles.planes import MARKED
 from mechwright.testing.commands import run
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.pole_equations import PoleProblem as FourBarProblem
 from mechwright_four_bar.poles_page import FourBarPoles
-from mechwright_four_bar.reach import bar_of
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.pole_equations import PoleProblem as SliderProblem
 from mechwright_slider_crank.poles_page import SliderCrankPoles

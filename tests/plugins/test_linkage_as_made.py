@@ -15,7 +15,7 @@ from mechwright.mechanics.linkage.tolerance.made_features import MadePlates
 from mechwright.mechanics.linkage.tolerance.model import LinkageTolerances
 from mechwright.mechanics.linkage.tolerance.plates import Plates
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable

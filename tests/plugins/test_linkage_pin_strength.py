@@ -15,13 +15,15 @@ from mechwright.mechanics.linkage.parts.pins import Pin
 from mechwright.mechanics.linkage.rules import strength
 from mechwright.mechanics.strength.allowed import PIN_BENDING
 from mechwright.mechanics.strength.hertz import contact_modulus
-from mechwright_four_bar import strength_checks as four
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.rules import strength as four
+from mechwright_four_bar.table import FourBarTable
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable
-from mechwright_slider_crank import strength_checks as slider
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.rules.loads import pairs_of
+from mechwright_slider_crank.table import SliderCrankTable
 
 CODES = {"linkage.pin", "linkage.eye", "linkage.bushing", "linkage.guide", "linkage.bearing-pressure"}
 
@@ -48,11 +50,11 @@ def found(params):
 def test_a_drawn_four_bar_bears_what_its_family_says(table):
     bar = FourBarParams(**table)
     params = four_bar(bar)
-    m = LinkageTable.of(params)
-    assert values(strength.pin_stresses(m)) == pytest.approx(values(four.pins(bar)), rel=1e-6)
-    assert values(strength.bushings(m)) == pytest.approx(values(four.bushes(bar)), rel=1e-6)
+    m, own = LinkageTable.of(params), FourBarTable.of(bar)
+    assert values(strength.pin_stresses(m)) == pytest.approx(values(four.pins(own)), rel=1e-6)
+    assert values(strength.bushings(m)) == pytest.approx(values(four.bushes(own)), rel=1e-6)
     bores = [one.value for one in strength.eyes(m) if " in " not in one.what]
-    assert sorted(bores) == pytest.approx(values(four.eyes(bar)), rel=1e-6)
+    assert sorted(bores) == pytest.approx(values(four.eyes(own)), rel=1e-6)
     # The bores that hold the pins carry the same.
     held = {
         one.what.split("beside ")[1].split(" is")[0]: one.value
@@ -64,10 +66,10 @@ def test_a_drawn_four_bar_bears_what_its_family_says(table):
     assert len(held) == 4
     widths, limits = (
         {(p.width, p.bore, p.rim) for p in pairs}
-        for pairs in (strength.pairs_of(LinkageTable.of(params)), four.pairs_of(bar))
+        for pairs in (strength.pairs_of(LinkageTable.of(params)), four.pairs_of(own).values())
     )
     assert widths == limits
-    pressure = max(pair.greatest / (pair.pin * pair.width) for pair in four.pairs_of(bar))
+    pressure = max(pair.greatest / (pair.pin * pair.width) for pair in four.pairs_of(own).values())
     assert strength.most_pressed(m)[1] == pytest.approx(pressure, rel=1e-6)
 
 
@@ -79,7 +81,7 @@ def slow_slider(force, **table):
 def test_a_slow_slider_crank_carries_its_load():
     params, drawn = slow_slider(-500.0)
     pairs = {pair.name: pair for pair in strength.pairs_of(LinkageTable.of(drawn))}
-    wanted = {pair.name: pair.greatest for pair in slider.pairs_of(params)}
+    wanted = {pair.name: pair.greatest for pair in pairs_of(SliderCrankTable.of(params))}
     for mine, theirs in (("shaft A0", "the shaft"), ("pin A", "the crank pin"), ("pin B", "the wrist pin")):
         assert pairs[mine].greatest == pytest.approx(wanted[theirs], rel=1e-4)
 

@@ -14,13 +14,15 @@ from mechwright.mechanics.planar.positions import solve
 from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensitivities
 from mechwright.mechanics.tolerance import analyse
 from mechwright.testing.tolerances import tolerance_faults
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.table import SliderCrankTable
 
 INPUT = Tolerances(ToleranceSettings(input=0.1))
 AT = np.linspace(0.1, 6.2, 41)
@@ -45,7 +47,10 @@ def same(found, wanted):
 @pytest.mark.parametrize("table", BARS)
 def test_a_drawn_four_bar_has_the_sensitivities_of_its_family(table):
     bar = FourBarParams(**table)
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
+    known, model = (
+        FourBarTolerances(FourBarTable.of(bar), INPUT),
+        LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT),
+    )
     zones = {one.name: one for one in model.contributors}
     for output, own in zip(known.outputs, model.outputs, strict=True):
         assert (own.unit, own.components) == (output.unit, output.components)
@@ -66,7 +71,7 @@ def test_a_drawn_four_bar_has_the_sensitivities_of_its_family(table):
 def test_worst_case_and_sigma_of_a_drawn_four_bar_are_those_of_its_family(contact):
     bar = FourBarParams(**BARS[0])
     asked = Tolerances(ToleranceSettings(contact=contact, samples=100))
-    known = analyse(FourBarTolerances(bar, asked), asked)
+    known = analyse(FourBarTolerances(FourBarTable.of(bar), asked), asked)
     found = analyse(Linkages().tolerances(four_bar(bar), asked), asked)
     for one, two in zip(known.results, found.results, strict=True):
         assert two.band.sigma == pytest.approx(one.band.sigma, rel=1e-9)
@@ -75,7 +80,10 @@ def test_worst_case_and_sigma_of_a_drawn_four_bar_are_those_of_its_family(contac
 
 def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
     bar = FourBarParams(**BARS[0])
-    known, model = FourBarTolerances(bar, INPUT), LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT)
+    known, model = (
+        FourBarTolerances(FourBarTable.of(bar), INPUT),
+        LinkageTolerances(LinkageTable.of(four_bar(bar)), INPUT),
+    )
     rng = np.random.default_rng(7)
     sizes = {one.name: rng.uniform(-0.3, 0.3, (one.components, 9)) for one in known.contributors}
     sizes["input"] *= 0.1
@@ -93,7 +101,7 @@ def test_exact_errors_of_a_drawn_four_bar_are_those_of_its_family():
 def test_a_drawn_slider_crank_has_the_sensitivities_of_its_family(sizes):
     params = SliderCrankParams(coupler_x=40, coupler_y=15, **sizes)
     known, model = (
-        SliderCrankTolerances(params, INPUT),
+        SliderCrankTolerances(SliderCrankTable.of(params), INPUT),
         LinkageTolerances(LinkageTable.of(slider_crank(params)), INPUT),
     )
     named = {

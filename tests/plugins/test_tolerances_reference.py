@@ -15,13 +15,13 @@ from mechwright.mechanics.tolerance.places import place_at
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.params import SphericalParams
 

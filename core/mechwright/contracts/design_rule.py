@@ -248,8 +248,10 @@ class Procedure(Generic[D]):
         Whether it takes long: the quick judge does not ask it.
     stage
         The earliest stage of what it finds: studies up to an earlier one do not ask it.
-    forbidding
-        Whether it can find an error.
+    certain
+        Whether it finds an error of that stage in every design that is asked: tables are not inspected.
+    warns
+        Whether it finds no errors, and so forbids nothing.
     """
 
     codes: Sequence[str]
@@ -258,13 +260,16 @@ class Procedure(Generic[D]):
     when: Callable[[D], Any] | None = None
     slow: bool = False
     stage: Stage = Stage.MOTION
-    forbidding: bool = True
+    certain: bool = False
+    warns: bool = False
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
-        if self.slow or not self.forbidding or not table.size or self.stage.is_after(stage):
+        if self.slow or self.warns or not table.size or self.stage.is_after(stage):
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
+        if self.certain:
+            return asked
         if self.common:
             return asked & self._stops(table.row(0), stage) if asked.any() else None
         wrong = np.zeros(table.size, bool)

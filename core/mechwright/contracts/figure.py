@@ -39,7 +39,7 @@ class PartMass:
     Parameters
     ----------
     value
-        The mass of one copy, kg; NaN for designs without this part.
+        The mass of one copy, kg; NaN for designs without it.
     copies
         The number of copies in the mechanism, a column (n, 1) where the designs differ in it.
     """
@@ -50,6 +50,10 @@ class PartMass:
     def __call__(self) -> Any:
         """Give the number or the column."""
         return self.value() if callable(self.value) else self.value
+
+
+class SomeMasses(dict[str, PartMass]):
+    """Masses of some of the parts of designs by their names: the total is that of their ``parts``."""
 
 
 def scalars(figures: Mapping[str, Figure]) -> dict[str, Scalar]:

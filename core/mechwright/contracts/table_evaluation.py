@@ -16,7 +16,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.by_arrays import Answer, Designs, by_arrays
 from mechwright.contracts.design_table import DesignTable, column, rows_of, with_columns
 from mechwright.contracts.evaluation import Batch, Columns, told
-from mechwright.contracts.figure import Figure, PartMass
+from mechwright.contracts.figure import Figure, PartMass, SomeMasses
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.contracts.motion import Channel
@@ -252,7 +252,7 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         for name in columns
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
-    if TOTAL in columns:
-        every = [np.where(np.equal(one.copies, 0), 0.0, one.copies * one()) for one in weights.values()]
-        found[TOTAL] = column(sum(every), table.size)[:, 0]
+    if TOTAL in columns and not isinstance(weights, SomeMasses):
+        every = sum(one.copies * np.nan_to_num(one()) for one in weights.values())
+        found[TOTAL] = column(every, table.size)[:, 0]
     return found

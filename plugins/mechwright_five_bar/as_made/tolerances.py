@@ -5,15 +5,16 @@ the arm run ahead or behind by s/r, s along the pitch circle and r that of the w
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from mechwright import GeometryError, Output, Tolerances
+from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
 from mechwright.mechanics.linkage.tolerance.contributors import Effect, Fixed, Play, Source
-from mechwright.mechanics.linkage.tolerance.model import LinkageTolerances
-from mechwright.mechanics.linkage.tolerance.outputs import Judged, Point
+from mechwright.mechanics.linkage.tolerance.model import MachineTolerances
+from mechwright.mechanics.linkage.tolerance.outputs import Point
 from mechwright.mechanics.planar.free_bodies import GROUND
 from mechwright.mechanics.planar.machine import Revolute
 from mechwright.mechanics.planar.sensitivity import Change
@@ -32,38 +33,38 @@ PINS = {
 """Contributor to its joint, and the link whose hole stands off the pin."""
 
 
-class FiveBarTolerances(LinkageTolerances):
+class FiveBarTolerances(MachineTolerances):
     """The model of a design; crank angles count from X, as in the motion."""
 
     most_positions = 1 << 30
     judges_gears = True
 
     def __init__(self, table: FiveBarTable, tolerances: Tolerances) -> None:
-        self.meshes, self.wheel = _meshes(table)
-        super().__init__(table, tolerances)
+        self.meshes, wheel = _meshes(table)
+        sources = list(_sources(table, tolerances, self.meshes, wheel))
+        judged = [Point("coupler", table.params.coupler_point, "P", POINT)]
+        super().__init__(table, course_of(table), sources, judged)
         self.input_name = "theta"
 
-    def _sources(self, table: AnyPlanarTable, tolerances: Tolerances) -> list[Source]:
-        params, found = table.params, list[Source]()
-        for name, changes in _lengths(table).items():
-            size = tolerances.length(name, float(getattr(params, name)))
-            found.append(Source(size, (Fixed(Change(changes)),)))
-        joints = {one.name: one for one in table.machine.joints if isinstance(one, Revolute)}
-        for name, (joint, link) in PINS.items():
-            pin = tolerances.pin(
-                name, params.pin_diameter, params.running_fit, member=name in ("pin-a", "pin-c")
-            )
-            ways = (1 + 0j, 1j)[: pin.components]
-            found.append(Source(pin, tuple(Play(link, (joints[joint],), "coupler", way) for way in ways)))
-        for name in self.meshes:
-            play = Fixed(Change(phases={"gears": 1 / self.wheel}))
-            found.append(Source(tolerances.gap(name, params.backlash, 2), (play,)))
-        for name, value, effect in _point(params.coupler_point):
-            found.append(Source(tolerances.length(name, value), (effect,)))
-        return [*found, *(Source(one, (Fixed(Change(input=1.0)),)) for one in tolerances.input("input"))]
 
-    def _judged(self, table: AnyPlanarTable) -> list[Judged]:
-        return [Point("coupler", table.params.coupler_point, "P", POINT)]
+def _sources(
+    table: FiveBarTable, tolerances: Tolerances, meshes: Sequence[str], wheel: float
+) -> Iterator[Source]:
+    params = table.params
+    for name, changes in _lengths(table).items():
+        size = tolerances.length(name, float(getattr(params, name)))
+        yield Source(size, (Fixed(Change(changes)),))
+    joints = {one.name: one for one in table.machine.joints if isinstance(one, Revolute)}
+    for name, (joint, link) in PINS.items():
+        pin = tolerances.pin(name, params.pin_diameter, params.running_fit, member=name in ("pin-a", "pin-c"))
+        ways = (1 + 0j, 1j)[: pin.components]
+        yield Source(pin, tuple(Play(link, (joints[joint],), "coupler", way) for way in ways))
+    for name in meshes:
+        yield Source(tolerances.gap(name, params.backlash, 2), (Fixed(Change(phases={"gears": 1 / wheel})),))
+    for name, value, effect in _point(params.coupler_point):
+        yield Source(tolerances.length(name, value), (effect,))
+    for one in tolerances.input("input"):
+        yield Source(one, (Fixed(Change(input=1.0)),))
 
 
 def _meshes(table: FiveBarTable) -> tuple[tuple[str, ...], float]:

@@ -88,7 +88,5 @@ POSE = DesignRule[FiveBarTable](
     when=lambda m: bool(m.given.phases),
     reported=lambda f: (f.m.given.setting_angle, None),
 )
-ORDER = Procedure[FiveBarTable](("five-bar.setting",), lambda m: _order(m.given), forbidding=False)
-CLAMPS = Procedure[FiveBarTable](
-    ("five-bar.clamp",), lambda m: at_stage(Stage.PARTS, _clamps(m)), forbidding=False
-)
+ORDER = Procedure[FiveBarTable](("five-bar.setting",), lambda m: _order(m.given), warns=True)
+CLAMPS = Procedure[FiveBarTable](("five-bar.clamp",), lambda m: at_stage(Stage.PARTS, _clamps(m)), warns=True)

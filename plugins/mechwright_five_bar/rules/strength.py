@@ -69,7 +69,7 @@ def root_limit(m: FiveBarTable) -> float:
 def tooth_loads(m: FiveBarTable) -> tuple[Any, Any, Any]:
     """Of the gears: their width, mm, the greatest tooth force, N, and whether it reverses.
 
-    Of a table columns (n, 1); NaN of the forces of designs of which :func:`roots_are_sure`.
+    Of a table columns (n, 1); NaN of the forces of designs of which :func:`roots_bear`.
     """
     if m.single:
         loads = loads_of(m)
@@ -81,7 +81,7 @@ def tooth_loads(m: FiveBarTable) -> tuple[Any, Any, Any]:
 def _of_rows(m: FiveBarTable) -> Array:
     found = np.full((m.size, 3), math.nan)
     found[:, :1] = m.params.gear_thickness
-    for place in np.flatnonzero(~column(roots_are_sure(m), m.size)[:, 0].astype(bool)).tolist():
+    for place in np.flatnonzero(~column(roots_bear(m), m.size)[:, 0].astype(bool)).tolist():
         found[place] = tooth_loads(m.row(place))
     return found
 
@@ -118,7 +118,7 @@ def _ways(m: FiveBarTable) -> list[Way]:
     return ways
 
 
-def roots_are_sure(m: FiveBarTable) -> Any:
+def roots_bear(m: FiveBarTable) -> Any:
     """Whether no tooth breaks at its root; where the width is left out, whether the default one lasts."""
     given = "gear_thickness" in m.given.model_fields_set
     return m.once("roots are sure", lambda: bears_at_most(m, ROOT_SAFETY if given else REVERSING_ROOT))
@@ -177,6 +177,6 @@ def _greatest_masses(m: FiveBarTable) -> list[tuple[Any, Any, Any]]:
 BEARINGS = Procedure[FiveBarTable](
     ("five-bar.bearing-pressure", "five-bar.forces"),
     lambda m: at_stage(Stage.PARTS, _bearings(m)),
-    forbidding=False,
+    warns=True,
 )
-ROOT = StressRule("five-bar.root", root_stresses, _ways, FiveBarTable.of, sure=roots_are_sure)
+ROOT = StressRule("five-bar.root", root_stresses, _ways, FiveBarTable.of, bears=roots_bear)

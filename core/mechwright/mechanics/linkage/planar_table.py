@@ -46,9 +46,6 @@ class PlanarTable(DesignTable[P]):
     unloading: ClassVar[Mapping[str, Any]] = {}
     """Parameters that plates do not depend on, each with one value: what is kept of the plates serves all."""
 
-    tolerance_names: ClassVar[Mapping[str, str]] = {}
-    """Names of contributors and outputs of the tolerance analysis to those that the family gives them."""
-
     dead_sine: ClassVar[float] = 0.02
     """Sine of the transmission angle of a dyad below which a first order says nothing: at a sine s a dead
     point is s²/2 of a link's length away, with 0.02 as little as the tolerances."""
@@ -82,6 +79,11 @@ class PlanarTable(DesignTable[P]):
     def closed_ways(self) -> Ways | None:
         """How the inputs go, where the family has closed forms; None for inputs whose ends are sought."""
         return None
+
+    @property
+    def tolerance_names(self) -> Mapping[str, str]:
+        """Names of contributors and outputs of the tolerance analysis to those that the family gives them."""
+        return {}
 
     @abstractmethod
     def laid_out(self) -> Layout:

@@ -309,6 +309,8 @@ class CompiledChain:
             way = self._add(kinds.PIN_AND_SLIDE, 6, (end, line, turning), numbers, swung)
             self._body(one, end, first.place(one), swung, (-np.angle(bar), 0.0, 0.0))
             pin = self.point(one, inner.place(one))
+            if last.block == two and not np.any(inner.place(two) - np.asarray(last.point)):
+                self._known["way", last.name] = way
         elif isinstance(first, Prismatic):  # PRP: the pin slides along two lines
             other, side, leaning, sidewards = self._along(first, one)
             across = offset_from_line(first, one, inner.place(one))

@@ -100,8 +100,8 @@ def place_point(
     """POINT: the place x + i y of a body whose origin and turning are given."""
     for i in range(size):
         cos, sin = rows[turning, i], rows[turning + 1, i]
-        rows[out, i] = rows[origin, i] + (x * cos - y * sin)
-        rows[out + 1, i] = rows[origin + 1, i] + (x * sin + y * cos)
+        qx, qy = x * cos - y * sin, x * sin + y * cos
+        rows[out, i], rows[out + 1, i] = rows[origin, i] + qx, rows[origin + 1, i] + qy
     if rates > 0:
         for i in range(size):
             cos, sin, w = rows[turning, i], rows[turning + 1, i], rows[turning + 2, i]
@@ -118,8 +118,8 @@ def place_point(
         for i in range(size):
             cos, sin, w = rows[turning, i], rows[turning + 1, i], rows[turning + 2, i]
             qx, qy = x * cos - y * sin, x * sin + y * cos
-            g = rows[turning + 3, i]
-            n, more = rows[turning + 4, i] - w * (w * w), 3 * w * g
+            g, square = rows[turning + 3, i], w * w
+            n, more = rows[turning + 4, i] - w * square, 3 * w * g
             rows[out + 6, i] = rows[origin + 6, i] - n * qy - more * qx
             rows[out + 7, i] = rows[origin + 7, i] + n * qx - more * qy
 
@@ -162,10 +162,11 @@ def _pin_rates(
     """Rates of two bars in the directions ``s`` and ``t``, with the sine ``out``: see :func:`close_pins`."""
     by_c, by_l = 1 / c, 1 / l
     for i in range(size):
+        sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
         n = 1 / rows[out, i]
         rx, ry = rows[q + 2, i] - rows[p + 2, i], rows[q + 3, i] - rows[p + 3, i]
-        rows[s + 2, i] = n * by_c * (rx * rows[t, i] + ry * rows[t + 1, i])
-        rows[t + 2, i] = n * by_l * (rx * rows[s, i] + ry * rows[s + 1, i])
+        rows[s + 2, i] = n * by_c * (rx * tx + ry * ty)
+        rows[t + 2, i] = n * by_l * (rx * sx + ry * sy)
     if rates > 1:
         for i in range(size):
             sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
@@ -173,7 +174,8 @@ def _pin_rates(
             f, g = c * w1 * w1, l * v1 * v1
             rx = rows[q + 4, i] - rows[p + 4, i] + f * sx - g * tx
             ry = rows[q + 5, i] - rows[p + 5, i] + f * sy - g * ty
-            rows[s + 3, i], rows[t + 3, i] = n * by_c * (rx * tx + ry * ty), n * by_l * (rx * sx + ry * sy)
+            rows[s + 3, i] = n * by_c * (rx * tx + ry * ty)
+            rows[t + 3, i] = n * by_l * (rx * sx + ry * sy)
     if rates > 2:
         for i in range(size):
             sx, sy, tx, ty = rows[s, i], rows[s + 1, i], rows[t, i], rows[t + 1, i]
@@ -184,10 +186,11 @@ def _pin_rates(
                 rows[s + 3, i],
                 rows[t + 3, i],
             )
-            f, g, h, k = 3 * c * w1 * w2, 3 * l * v1 * v2, c * w1 * w1 * w1, l * v1 * v1 * v1
+            f, g, h, k = 3 * c * w1 * w2, 3 * l * v1 * v2, c * w1**3, l * v1**3
             rx = rows[q + 6, i] - rows[p + 6, i] + f * sx - h * sy - g * tx + k * ty
             ry = rows[q + 7, i] - rows[p + 7, i] + f * sy + h * sx - g * ty - k * tx
-            rows[s + 4, i], rows[t + 4, i] = n * by_c * (rx * tx + ry * ty), n * by_l * (rx * sx + ry * sy)
+            rows[s + 4, i] = n * by_c * (rx * tx + ry * ty)
+            rows[t + 4, i] = n * by_l * (rx * sx + ry * sy)
 
 
 @compiled

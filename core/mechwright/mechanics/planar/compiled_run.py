@@ -126,22 +126,41 @@ def extremes(
     """
     found, samples = np.empty((len(drives), len(wanted), 2)), circles.shape[2]
     rows, last = np.zeros((count, CHUNK)), np.zeros(count)
+    lanes = np.empty((3 * len(wanted), CHUNK))
     for one in range(len(drives)):
-        found[one, :, 0], found[one, :, 1] = math.inf, -math.inf
+        for place in range(len(wanted)):
+            lanes[3 * place], lanes[3 * place + 1], lanes[3 * place + 2] = math.inf, -math.inf, 0.0
         for start in range(0, samples, CHUNK):
             size = min(CHUNK, samples - start)
             move_drive(drives[one], circles[0], start, size, samples, rows)
             _move(ops, numbers[one], drives[one], circles, start, size, rates, rows, last)
             for place in range(len(wanted)):
-                row, step = rows[wanted[place, 0]], wanted[place, 1]
-                least, greatest, whole = found[one, place, 0], found[one, place, 1], 0.0
-                for i in range(-start % step, size, step):
-                    least, greatest = min(least, row[i]), max(greatest, row[i])
-                    whole += row[i]
-                if math.isnan(whole):
-                    least = greatest = math.nan
-                found[one, place, 0], found[one, place, 1] = least, greatest
+                _compare(rows, wanted[place, 0], start, wanted[place, 1], size, 3 * place, lanes)
+        for place in range(len(wanted)):
+            least, greatest, whole = math.inf, -math.inf, 0.0
+            for i in range(CHUNK):
+                least, greatest = min(least, lanes[3 * place, i]), max(greatest, lanes[3 * place + 1, i])
+                whole += lanes[3 * place + 2, i]
+            if math.isnan(whole):
+                least = greatest = math.nan
+            found[one, place, 0], found[one, place, 1] = least, greatest
     return found
+
+
+@compiled
+def _compare(rows: Array, row: int, start: int, step: int, size: int, lane: int, lanes: Array) -> None:
+    """Least and greatest values at each place of a chunk, and sums, which are NaN if a value is."""
+    if step == 1:
+        for i in range(size):
+            value, least, greatest = rows[row, i], lanes[lane, i], lanes[lane + 1, i]
+            lanes[lane, i] = value if value < least else least
+            lanes[lane + 1, i] = value if value > greatest else greatest
+            lanes[lane + 2, i] += value
+        return
+    for i in range(-start % step, size, step):
+        value = rows[row, i]
+        lanes[lane, i], lanes[lane + 1, i] = min(lanes[lane, i], value), max(lanes[lane + 1, i], value)
+        lanes[lane + 2, i] += value
 
 
 @compiled

@@ -178,7 +178,7 @@ class StressRule(Generic[D]):
         What loads the parts.
     stage
         Of the finding.
-    sure
+    bears
         Which designs of a table certainly bear their loads, a truth value or a column found cheaply: no
         stresses are asked of them.
     """
@@ -189,7 +189,7 @@ class StressRule(Generic[D]):
     again: Callable[[Any], D]
     load: Callable[[D], str] | None = None
     stage: Stage = Stage.PARTS
-    sure: Callable[[D], Any] | None = None
+    bears: Callable[[D], Any] | None = None
 
     @property
     def codes(self) -> Sequence[str]:
@@ -200,9 +200,9 @@ class StressRule(Generic[D]):
         """Give the designs (n,) in which a stress breaks a part; None if the stage is an earlier one."""
         if self.stage.is_after(stage):
             return None
-        if self.sure is None:
+        if self.bears is None or table.single:
             return self._breaks(table)
-        wrong: NDArray[np.bool_] = np.equal(column(self.sure(table), table.size)[:, 0], 0)
+        wrong: NDArray[np.bool_] = column(self.bears(table), table.size)[:, 0] == 0
         if wrong.any():
             wrong[wrong] = self._breaks(table.rows(np.flatnonzero(wrong)))
         return wrong

@@ -73,8 +73,8 @@ def drives_of(table: AnyPlanarTable) -> Array:
     parts = (
         ways.start,
         ways.travel,
-        ways.rocks.astype(float),
-        np.zeros((size, 1)),
-        column(table.omega, size),
+        ways.rocks,
+        ways.acceleration_ratio,
+        table.omega,
     )
-    return np.concatenate([np.broadcast_to(one, (size, 1)) for one in parts], axis=1)
+    return np.concatenate([column(one, size) for one in parts], axis=1)

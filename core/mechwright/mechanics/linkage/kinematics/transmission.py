@@ -2,6 +2,7 @@
 
 import math
 from fractions import Fraction
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class OutputStage(CrankStage):
     Raises DesignError for a driver that does not turn all the way, or not about a pivot of the ground.
     """
 
-    own_drive = ("speed", "direction")
+    own_drive: ClassVar[tuple[str, ...]] = ("speed", "direction")
     acceleration_ratio = 0.0
 
     def __init__(self, table: AnyPlanarTable) -> None:

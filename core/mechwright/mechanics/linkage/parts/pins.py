@@ -79,9 +79,10 @@ class Pin:
         """What keeps plates off it; what goes on above its plates covers others as a head does."""
         radius = sizes.pin_diameter / 2
         over = HEAD * radius if self.head else radius if self.above else 0.0
-        if self.clamp is not None:
-            over = self.clamp.reach
-        return Spindle(self.name, self.body, self.place, radius, self.plates, over)
+        body = self.body
+        if self.clamp is not None:  # in other phases it is elsewhere in the slot
+            over, body = self.clamp.reach, self.turning[0][1]
+        return Spindle(self.name, body, self.places[body], radius, self.plates, over)
 
 
 def pins_of(

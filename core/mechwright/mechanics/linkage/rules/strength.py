@@ -10,7 +10,7 @@ module forbid nothing, and cost a table nothing.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,23 +32,25 @@ from mechwright.mechanics.strength.turning_pair import TurningPair, bush_stresse
 
 MILLI = 1e-3
 
+T = TypeVar("T", bound=AnyPlanarTable)
 Rule = DesignRule[AnyPlanarTable]
 Fails = Failure[AnyPlanarTable]
 
 
 @dataclass(frozen=True)
-class RowStressRule(StressRule[AnyPlanarTable]):
+class RowStressRule(StressRule[T]):
     """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
 
     breaks: bool = False
 
-    def forbids(self, table: AnyPlanarTable, stage: Stage) -> NDArray[np.bool_] | None:
+    def forbids(self, table: T, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
-        if not self.breaks or self.stage.is_after(stage):
-            return None
+        return super().forbids(table, stage) if self.breaks else None
+
+    def _breaks(self, table: T) -> NDArray[np.bool_]:
         return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
 
-    def _fails(self, m: AnyPlanarTable) -> bool:
+    def _fails(self, m: T) -> bool:
         found = self.stresses(m)
         return bool(found) and worst(found).severity is Severity.ERROR
 
@@ -163,9 +165,12 @@ def _pressed_message(f: Fails) -> str:
     return f"{pair.name} carries up to {pair.greatest:.4g} N, {pressure:.4g} N/mm² on its bearing"
 
 
-def _larger(f: Fails) -> Iterator[Change]:
-    """Larger bearings, or less inertia; larger ones make heavier plates, so that more may be needed."""
-    given, over = f.m.given, f.value / f.limit
+def larger_bearings(given: Any, over: float, load: str = "") -> Iterator[Change]:
+    """Larger bearings, or less of what they carry, which is so many times ``over`` its limit.
+
+    Larger ones make heavier plates, so that more than the first may be needed. ``load`` is the parameter of
+    the load, where one is enough.
+    """
     for share in (1.05, 1.2, 1.5):
         much = over * share
         pin, plate = (_half(much * one) for one in (given.pin_diameter, given.thickness))
@@ -177,6 +182,8 @@ def _larger(f: Fails) -> Iterator[Change]:
             "parameters.thickness": _half(root * given.thickness),
         }
     for share in (1.05, 1.2):
+        if load and (carried := getattr(given, load)) != 0:
+            yield {f"parameters.{load}": float(f"{carried / over / share:.2g}")}
         if (speed := given.speed / math.sqrt(over) / share) >= SLOWEST:
             yield {"parameters.speed": float(f"{speed:.2g}")}
 
@@ -222,7 +229,7 @@ def strength_rules(kind: type[AnyPlanarTable]) -> Rules[Any]:
         ways: Callable[[AnyPlanarTable], list[Way]],
         *,
         breaks: bool = False,
-    ) -> RowStressRule:
+    ) -> RowStressRule[AnyPlanarTable]:
         return RowStressRule(f"{code}.{name}", stresses, ways, kind.of, _load, breaks=breaks)
 
     pin = rule("pin", pin_stresses, lambda m: [_pin(m), _slower(m)])
@@ -244,7 +251,7 @@ def strength_rules(kind: type[AnyPlanarTable]) -> Rules[Any]:
         remedy="take thicker pins or plates, a smaller load or a lower speed",
         must_be="at most",
         severity=Severity.WARNING,
-        proposed=_larger,
+        proposed=lambda f: larger_bearings(f.m.given, f.value / f.limit),
     )
     return all_of(
         pin, eye, bushing, guide, bearing, *(_note(code, unit, slides=unit == "N") for unit in ("N*m", "N"))

@@ -28,7 +28,7 @@ RULE = "Σ |∂/∂v| ρ + |Σ (∂/∂l) Δl|, every pin standing off in the wo
 
 def as_made(table: AnyPlanarTable, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
     """Judge the linkage with plates as made; it says nothing without a plate, or one of its bores."""
-    plates, code = Plates.of(table), f"{table.code}.as-made"
+    plates, code = Plates.of(table, drawn=True), f"{table.code}.as-made"
     if plates.layout is None:
         return AsMade()
     found = MadePlates(plates, plates.layout, made)

@@ -109,7 +109,8 @@ def line_name(slide: Prismatic, link: str) -> str:
 def pin_name(plates: Plates, axis: Axis, link: str) -> str:
     """That of the play of a pin in a link."""
     stem = "shaft" if axis.shaft else f"pin-{axis.point}".lower()
-    return stem if len(plates.turning(axis)) == 1 else f"{stem}-{link}".lower()
+    own = stem if len(plates.turning(axis)) == 1 else f"{stem}-{link}".lower()
+    return plates.table.tolerance_names.get(own, own)
 
 
 def gap_names(plates: Plates, slide: Prismatic) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
 from mechwright.mechanics.linkage.tolerance.contributors import Source, sources_of
 from mechwright.mechanics.linkage.tolerance.outputs import Judged, outputs_of
 from mechwright.mechanics.linkage.tolerance.plates import Plates
+from mechwright.mechanics.planar import Course
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Geared, assembly_order
 from mechwright.mechanics.planar.input_range import period_turns
 from mechwright.mechanics.planar.machine import GearPair, Machine
@@ -43,27 +44,37 @@ BLOCK = 4096
 Poses = dict[str, Pose]
 
 
-class LinkageTolerances(ToleranceModel):
-    """The model of one design; inputs count as in the motion."""
+class MachineTolerances(ToleranceModel):
+    """The model of one design, whose contributors and outputs a family lists; inputs count as in the motion.
+
+    Parameters
+    ----------
+    table
+        The design.
+    course
+        The way of its input.
+    sources, outputs
+        What varies, and what is judged.
+    """
 
     most_positions: ClassVar[int] = 3601
     """At most over all turns of geared links."""
     judges_gears: ClassVar[bool] = False
     """Whether errors of gears are among the contributors."""
 
-    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
-        course = course_of(table)
-        self.machine, self.order = table.machine, table.order
-        self.dead_sine = table.dead_sine
-        self.turn = 0.0 if course.rocks else abs(course.travel)
+    def __init__(
+        self, table: AnyPlanarTable, course: Course, sources: Sequence[Source], outputs: Sequence[Judged]
+    ) -> None:
+        self.machine, self.order, self.dead_sine = table.machine, table.order, table.dead_sine
         self.input_name, self.input_unit = (STROKE, "mm") if table.driver_slides else (PHI, "rad")
+        self.turn = 0.0 if course.rocks else abs(course.travel)
         if course.rocks:
             self.positions = np.sort(course.way(POSITIONS))
         else:
             count = min(period_turns(table.machine) * (POSITIONS - 1) + 1, self.most_positions)
             self.positions = table.drawn_at + np.linspace(0.0, self.turn, count)
-        self.sources = self._sources(table, tolerances)
-        self.judged = {one.output.name: one for one in self._judged(table)}
+        self.sources = sources
+        self.judged = {one.output.name: one for one in outputs}
         self.contributors = tuple(one.contributor for one in self.sources)
         self.outputs = tuple(one.output for one in self.judged.values())
         self._kept: tuple[bytes, Poses, Array] | None = None
@@ -167,6 +178,12 @@ class LinkageTolerances(ToleranceModel):
             solve(self.machine, [Turning.of(self.positions, 1.0)], self.order, 0), self.positions.size
         )
 
+    def _near(self, at: Array) -> Poses:
+        """The poses of the period that are nearest to inputs (d,)."""
+        above = np.clip(np.searchsorted(self.positions, at), 1, self.positions.size - 1)
+        places = above - (at - self.positions[above - 1] < self.positions[above] - at)
+        return {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
+
     def _counted(self, at: Array) -> Array:
         """Inputs, flat (d,), within the period: whole turns make no difference."""
         flat, low = np.ravel(np.asarray(at, float)), self.positions[0]
@@ -178,15 +195,21 @@ class LinkageTolerances(ToleranceModel):
         key = flat.tobytes()
         if self._kept is None or self._kept[0] != key:
             own = self._counted(flat)
-            above = np.clip(np.searchsorted(self.positions, own), 1, self.positions.size - 1)
-            places = above - (own - self.positions[above - 1] < self.positions[above] - own)
-            near = {link: Pose(one.origin[places], one.angle[places]) for link, one in self._course.items()}
+            near = {} if self.closed_form else self._near(own)
             found = self._solved(self.machine, near, own.reshape(-1, 1))
             least = self.dead_sine if self.closed_form else SINGULAR
             sines = [np.broadcast_to(sine.ravel(), own.shape) for sine in found.sines.values()]
             moves = np.all([sine > least for sine in sines], axis=0) if sines else np.ones(own.shape, bool)
             self._kept = key, _poses(found, own.size), moves
         return self._kept[1], self._kept[2]
+
+
+class LinkageTolerances(MachineTolerances):
+    """The model of one linkage of plates; its contributors are all that varies in a plate."""
+
+    def __init__(self, table: AnyPlanarTable, tolerances: Tolerances) -> None:
+        sources = sources_of(Plates.of(table), tolerances)
+        super().__init__(table, course_of(table), sources, outputs_of(table.linkage, table.tolerance_names))
 
 
 def _poses(found: Solution, count: int) -> Poses:

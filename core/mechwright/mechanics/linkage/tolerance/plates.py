@@ -32,21 +32,20 @@ class Plates:
         The design.
     layout
         Its plates; None where there are none, as with gears. Each link then counts as one plate.
+    linkage
+        Links, joints and points, with places of the ground in the frame of the motion or in that of its
+        plates.
     """
 
     table: AnyPlanarTable
     layout: Layout | None
+    linkage: Linkage
 
     @classmethod
-    def of(cls, table: AnyPlanarTable) -> "Plates":
-        """Those of a design."""
-        return cls(table, table.layout_or_none)
-
-    @property
-    def linkage(self) -> Linkage:
-        """Links, joints and points."""
-        found: Linkage = self.table.linkage
-        return found
+    def of(cls, table: AnyPlanarTable, *, drawn: bool = False) -> "Plates":
+        """Those of a design, as the links move, or as the plates are ``drawn``."""
+        layout = table.layout_or_none
+        return cls(table, layout, table.linkage if layout is None or not drawn else layout.linkage)
 
     @property
     def sizes(self) -> Sizes:
