@@ -133,13 +133,24 @@ def rack_of(params: FiveBarParams) -> Rack:
 
 
 @kept
-def gear_outlines(params: FiveBarParams) -> dict[str, Loop]:
-    """The toothed outside of each gear, in its frame."""
+def gear_teeth(params: FiveBarParams) -> dict[str, Teeth]:
+    """The teeth of each gear, in its frame."""
     train, rack = train_of(params), rack_of(params)
     fit = lever_fit(min(map(train.radius, train.teeth)) * math.cos(PRESSURE_ANGLE))
-    return {name: _outside(train.radius(name), rack, count, fit) for name, count in train.teeth.items()}
+    return {name: _teeth(train.radius(name), rack, count, fit) for name, count in train.teeth.items()}
 
 
 @lru_cache(32)
-def _outside(radius: float, rack: Rack, count: int, fit: float) -> Loop:
-    return gear_loop(Teeth(Round(radius), rack, count, 0.0, fit=fit))[0]
+def _teeth(radius: float, rack: Rack, count: int, fit: float) -> Teeth:
+    return Teeth(Round(radius), rack, count, 0.0, fit=fit)
+
+
+@kept
+def gear_outlines(params: FiveBarParams) -> dict[str, Loop]:
+    """The toothed outside of each gear, in its frame."""
+    return {name: _outside(teeth) for name, teeth in gear_teeth(params).items()}
+
+
+@lru_cache(32)
+def _outside(teeth: Teeth) -> Loop:
+    return gear_loop(teeth)[0]

@@ -5,10 +5,12 @@ from collections.abc import Mapping
 from mechwright import Colour, Instance, Part, Step, Turned
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.part import Bore
+from mechwright.mechanics.gearing import gear_measures
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.turned import SHAFT, STEEL
 from mechwright.standards.screws import washer
+from mechwright_five_bar.kinematics.train import gear_teeth
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.parts.frames import fixed_frames
 from mechwright_five_bar.parts.hardware import clamp_of_design, head_of, running_bore, turning_bore
@@ -57,7 +59,7 @@ def thickness_of(params: FiveBarParams, name: str) -> float:
 
 
 def _plates(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part]:
-    marks, found = scales(params), []
+    marks, gears, found = scales(params), gear_teeth(params), []
     for name, colour in COLOURS.items():
         if name not in layout.outlines:
             continue
@@ -70,6 +72,7 @@ def _plates(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part
             (Instance(BODIES.get(name, name), layout.heights[name]),),
             colour,
             details=marks.get(name, ()),
+            measures=gear_measures(gears[name]) if name in gears else (),
         )
         if name == "wheel" and hub is not None:
             for feature in part.features:

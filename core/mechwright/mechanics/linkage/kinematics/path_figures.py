@@ -14,22 +14,11 @@ from mechwright.arrays import Array
 from mechwright.mechanics.linkage.kinematics.curves import Curve
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Machine, Prismatic
-from mechwright.mechanics.planar.positions import Solution, solve
+from mechwright.mechanics.planar.positions import Solution
 from mechwright.mechanics.planar.relative_motion import relative
-from mechwright.mechanics.planar.rigid import PointMotion, Turning
+from mechwright.mechanics.planar.rigid import PointMotion
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(6)
-
-DIRECTIONS = 180
-"""Directions between which the least band is looked for first."""
-GOLDEN = (np.sqrt(5.0) - 1) / 2
-SECTIONS = 60
-"""Golden sections from one direction to its neighbour down to rounding."""
-
-
-def over_input(machine: Machine, at: Array) -> Solution:
-    """The motion of a machine with one drive over its input (n,), rad, with rates per unit of the input."""
-    return solve(machine, [Turning.of(at, 1.0)])
 
 
 @dataclass(frozen=True)
@@ -151,17 +140,6 @@ class Path:
         turned = direction + np.pi / 2
         return cls(Curve.of_point(at, point, direction), Curve.of_point(at, point, turned))
 
-    def turned(self, direction: float) -> "Path":
-        """The same path in a frame that is turned by an angle, rad."""
-        cosine, sine = np.cos(direction), np.sin(direction)
-        x, y = self.along, self.across
-
-        def mixed(a: float, b: float) -> Curve:
-            orders = ("value", "first", "second", "third")
-            return Curve(x.at, *(a * getattr(x, one) + b * getattr(y, one) for one in orders))
-
-        return Path(mixed(cosine, sine), mixed(-sine, cosine))
-
 
 def path_length(path: Path) -> Array:
     """The length (...,) of a path over all of its input, mm: Gauss's rule in each interval."""
@@ -197,35 +175,10 @@ class Straightness:
         """Distance (...,) of both ends along the direction, mm."""
         return np.asarray(np.abs(self.ends[..., 1] - self.ends[..., 0]))
 
-    @property
-    def band_over_length(self) -> Array:
-        """Band over length (...,)."""
-        return np.asarray(self.band / self.length)
-
 
 def straightness(path: Path, begin: float, end: float) -> Straightness:
     """How straight a path is along its direction from one input to another, rad."""
     return Straightness(extremes(path.across, begin, end), path.along.at_input(np.array([begin, end])))
-
-
-def least_band(path: Path, begin: float, end: float) -> tuple[float, Straightness]:
-    """The direction, rad from that of the path, in which a stretch of one design has the least band.
-
-    Directions are sought first a degree apart, then by the golden section.
-    """
-
-    def width(direction: float) -> float:
-        return float(extremes(path.turned(direction).across, begin, end).extent)
-
-    step = np.pi / DIRECTIONS
-    coarse = -np.pi / 2 + step * np.arange(DIRECTIONS)
-    middle = float(coarse[np.argmin([width(one) for one in coarse])])
-    low, high = middle - step, middle + step
-    for _ in range(SECTIONS):
-        one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        low, high = (low, two) if width(one) <= width(two) else (one, high)
-    best = (low + high) / 2
-    return best, straightness(path.turned(best), begin, end)
 
 
 @dataclass(frozen=True)
