@@ -19,8 +19,8 @@ from harness import require
 
 from mechwright.contracts.finding import errors
 from mechwright.plugins.host import host
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 
 SECONDS = 60.0
 """Of processor time that a search may take."""

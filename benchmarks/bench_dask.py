@@ -9,7 +9,6 @@ processors' time that goes into the tables themselves, by the clock of the threa
 to be nine tenths of the share with processes.
 """
 
-import multiprocessing
 import os
 import struct
 import subprocess
@@ -25,12 +24,12 @@ from statistics import median
 
 import psutil
 from harness import require
+from timed_source import Tasks, Timed
 
 from mechwright.plugins.host import host
-from mechwright.scripting.heard import Heard
-from mechwright.sweep.study import study_of
-from mechwright.sweep.task import Source, Task
-from mechwright.sweep.workers import Cluster, Processes, Workers
+from mechwright.studies.study import study_of
+from mechwright.studies.task import Source, Task
+from mechwright.studies.workers import Cluster, Processes, Workers
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "four-bar-study.toml"
 BATCH, FIRST, MORE, ROUNDS, WORKERS = 1 << 15, 10, 12, 3, 2
@@ -42,6 +41,7 @@ LEAST = 0.9
 ADDRESS, PORT = "127.0.0.1", "18786"
 
 LIGHT = {
+    "PYTHONPATH": os.pathsep.join(sys.path),
     "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
     "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
 }
@@ -57,17 +57,6 @@ class Rate:
     share: float
 
 
-@dataclass(frozen=True)
-class Timed(Source):
-    """A source that adds to each table the seconds that its thread took for it."""
-
-    def told(self, task: Task) -> tuple[bytes, list[Heard]]:
-        """The table is made, and goes the same way; its last eight bytes are the seconds."""
-        start = time.thread_time()
-        content, heard = super().told(task)
-        return content + struct.pack("d", time.thread_time() - start), heard
-
-
 def processor(others: Sequence[psutil.Process]) -> float:
     """Seconds that these processes and this one have taken."""
     return time.process_time() + sum(sum(one.cpu_times()[:2]) for one in others)
@@ -75,13 +64,13 @@ def processor(others: Sequence[psutil.Process]) -> float:
 
 def pool() -> list[psutil.Process]:
     """The processes that this one has started for the tasks that are under way."""
-    return [psutil.Process(one.pid) for one in multiprocessing.active_children()]
+    return psutil.Process().children()
 
 
 def rate(workers: Workers, source: Source, more: int, others: Callable[[], Sequence[psutil.Process]]) -> Rate:
     """Of some tasks after the first few."""
     tasks = [Task(f"part-{number:06d}", number * BATCH, number) for number in range(FIRST + more)]
-    tables = workers.done(source, tasks)
+    tables = workers.done(source, Tasks(tasks))
     for _ in range(FIRST):
         next(tables)
     working = others()
@@ -89,8 +78,6 @@ def rate(workers: Workers, source: Source, more: int, others: Callable[[], Seque
     inside = sum(struct.unpack("d", next(tables)[1][-8:])[0] for _ in range(more))
     clock, spent = time.perf_counter() - start, processor(working) - before
     assert not list(tables)  # which ends what was started
-    for one in multiprocessing.active_children():
-        one.join()
     return Rate(more * BATCH / clock, more * BATCH / spent, inside / spent)
 
 

@@ -23,7 +23,7 @@ from harness import require
 from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
-from mechwright_four_bar.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
 from mechwright_spherical.checks import weakest
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.mobility import input_ways, kind

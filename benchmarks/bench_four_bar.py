@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from harness import require
 
-from mechwright_four_bar.locus import locus
+from mechwright_four_bar.kinematics.locus import locus
 from mechwright_four_bar.paths.asked import Limits, PathProblem
 from mechwright_four_bar.paths.search import search as path_search
 from mechwright_four_bar.pole_equations import PoleProblem

@@ -14,9 +14,9 @@ from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.machining import Machined, Machining
 
 ROOT = Path(__file__).parents[1]

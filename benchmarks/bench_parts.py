@@ -15,10 +15,10 @@ from statistics import median
 
 from harness import require
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.finding import errors
-from mechwright.cores import keeping
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
+from mechwright.worker_pool.budget import limited_cores
 from mechwright_cam.machining import Machining
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -53,7 +53,7 @@ def others() -> float:
 
 def taken(path: Path, count: int) -> Taken:
     """By a design's programs on so many cores; what comes before them is not counted."""
-    with keeping(count), Build(path, host(), Wanted("cam")) as build:
+    with limited_cores(count), Build(path, host(), Wanted("cam")) as build:
         machining = build.made(Machining)
         assert not errors(machining.findings)
         clock, here, there = time.perf_counter(), time.process_time(), others()

@@ -17,7 +17,7 @@ import numpy as np
 from harness import require
 from known_paths import Problem, five_bar, kind_of, passed, quiet, slider_crank, spherical
 
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.paths.asked import Limits, PathProblem
 from mechwright_four_bar.paths.search import ROUND as FOUR_BAR_ROUND
 from mechwright_four_bar.paths.search import path, search

@@ -10,7 +10,7 @@ from fractions import Fraction
 import numpy as np
 from harness import race, report, require
 
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.locus import locus
 from mechwright_slider_crank.poles_synthesis import through_poles
 

@@ -13,11 +13,11 @@ from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machining

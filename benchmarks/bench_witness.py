@@ -22,8 +22,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
 from planner_path import Compared, compared, times
 from planner_witness import FASTER, SLOWER, Mill, WitnessError, sample
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.machining import Machined, Machining
 from mechwright_cam.shop.machine import Machine
 

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from mechwright.mechanics.tracing.search import ROUND, search
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.paths.room import Limits, SliderRoom
 from mechwright_spherical.fivebar_room import ARCS, FiveBarRoom
 from mechwright_spherical.fourbar_room import Bounds, FourBarRoom

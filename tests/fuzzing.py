@@ -37,7 +37,7 @@ from mechwright.drawings.reading import read
 from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.plugins.host import host
 from mechwright.reading import read_bytes
-from mechwright.sweep.study import load_study
+from mechwright.studies.study import load_study
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.shop.formats.known import format_of
 from mechwright_cam.shop.library import built_in, load_library

@@ -7,7 +7,7 @@ import errno
 import os
 from pathlib import Path
 
-from mechwright.sweep import schedule
+from mechwright.studies import schedule
 
 QUARTER, COUNT = 0.25, 40
 TEXT = """

@@ -3,7 +3,7 @@
 import warnings
 
 from mechwright.contracts.guard import during
-from mechwright.sweep.task import Source, Task
+from mechwright.studies.task import Source, Task
 
 
 class UnusualWarning(UserWarning):

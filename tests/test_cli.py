@@ -67,6 +67,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
         "five-bar",
         "four-bar",
         "geneva",
+        "linkage",
         "noncircular-gears",
         "plate",
         "slider-crank",
@@ -168,7 +169,7 @@ def test_a_build_is_complete_and_the_same_every_time(
 ) -> None:
     """Also where no second process makes the solids."""
     for folder, found in (("one", 2), ("two", 1)):
-        monkeypatch.setattr("mechwright_cad.making.cores", lambda found=found: found)
+        monkeypatch.setattr("mechwright_cad.making.available_cores", lambda found=found: found)
         code, _, err = run("build", EXAMPLE, "-o", tmp_path / folder)
         assert (code, err) == (0, "")
     one, two = tmp_path / "one", tmp_path / "two"
@@ -302,7 +303,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(
 ) -> None:
     (tmp_path / "foreign").write_text("x")
     monkeypatch.setattr("mechwright.designs.design.load", lambda *_: pytest.fail("worked"))
-    monkeypatch.setattr("mechwright.build.Build.findings", property(lambda _: pytest.fail("worked")))
+    monkeypatch.setattr("mechwright.pipeline.Build.findings", property(lambda _: pytest.fail("worked")))
     assert run("build", EXAMPLE, "-o", tmp_path)[0] == 2
 
 

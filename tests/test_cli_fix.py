@@ -136,9 +136,9 @@ def test_a_file_that_does_not_load_is_refused_as_ever(run: Run, short: Path, tex
 
 
 def test_an_unknown_stage_is_refused(run: Run, short: Path) -> None:
-    code, _, err = run("fix", short, "--to", "motion")
+    code, _, err = run("fix", short, "--to", "solids")
     assert code == 2
-    assert "one of: parts, machining" in err
+    assert "one of: motion, parts, assembly, machining, output" in err
 
 
 def test_fix_as_json(run: Run, short: Path) -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechwright.build.pose import sample_at
 from mechwright.contracts.motion import Channel, Motion
 from mechwright.errors import DesignError
+from mechwright.pipeline.pose import sample_at
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 

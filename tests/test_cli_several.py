@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from by_night import by_night
 
-from mechwright.build import Wanted
 from mechwright.cli import orders
 from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.synthesis import unheard
+from mechwright.pipeline import Wanted
 from mechwright.testing.commands import run
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

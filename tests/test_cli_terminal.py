@@ -15,12 +15,11 @@ import pytest
 from by_night import by_night
 from hatchling.builders.wheel import WheelBuilder
 
-from mechwright.build import Wanted
 from mechwright.cli import completing, demo
 from mechwright.cli.perform import perform
 from mechwright.cli.progress import IN_LINES, fraction, line_of
-from mechwright.contracts.finding import Stage
 from mechwright.output import folder
+from mechwright.pipeline import Wanted
 from mechwright_cam.commands import cam_settings
 
 ROOT = Path(__file__).parents[1]
@@ -58,9 +57,7 @@ def test_the_example_of_the_package_is_that_of_the_readme() -> None:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """The motion alone is built, which takes a tenth of the time."""
-    monkeypatch.setattr(
-        demo, "perform", lambda path, out, *_: perform(path, out, Wanted("solve"), Stage.MOTION)
-    )
+    monkeypatch.setattr(demo, "perform", lambda path, out, *_: perform(path, out, Wanted("solve")))
 
 
 @pytest.mark.usefixtures("quick")

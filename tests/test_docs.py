@@ -26,7 +26,7 @@ BUILT = ROOT / "build"
 """What a packager leaves."""
 
 CONTRACTS = (
-    "mechwright.build",
+    "mechwright.pipeline",
     "mechwright.cli.command",
     "mechwright.contracts.exporter",
     "mechwright.contracts.family",

@@ -170,7 +170,7 @@ def test_the_raw_stock_has_one_sheet_for_each_thickness(flywheel):
     assert [blank.parts for blank in sheets.blanks(flywheel)] == [("wheel",)]
     disc = Outline(Loop((circle((0.0, 0.0), 40.0),)))
     sizes = {"one": 3.0, "two": 3.0, "thick": 5.0}
-    flywheel.__dict__["parts"] = [Part(name, disc, size, "steel") for name, size in sizes.items()]
+    flywheel._kept["parts"] = [Part(name, disc, size, "steel") for name, size in sizes.items()]
     assert [(blank.parts, blank.size[2]) for blank in sheets.blanks(flywheel)] == [
         (("one", "two"), 3.0),
         (("thick",), 5.0),
@@ -191,7 +191,7 @@ def test_the_inspection_finds_what_is_too_heavy_and_nothing_else(flywheel):
     handling = one("Inspection", mechwright.Inspection)
     assert list(handling.findings(flywheel)) == []
     disc = Outline(Loop((circle((0.0, 0.0), 400.0),)))
-    flywheel.__dict__["parts"] = [Part("disc", disc, 40.0, "steel", (Instance("disc"),))]
+    flywheel._kept["parts"] = [Part("disc", disc, 40.0, "steel", (Instance("disc"),))]
     (heavy,) = handling.findings(flywheel)
     assert heavy.message == "part disc has 20.1 dm³, the limit is 15"
     assert heavy.stage is Stage.MACHINING

@@ -9,17 +9,18 @@ from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
-from mechwright.sweep.study import load_study
+from mechwright.studies.study import load_study
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]
 STUDIES = [path for path in EXAMPLES if path.stem.endswith("-study")]
+LINKAGES = sorted((Path(__file__).parents[1] / "examples" / "linkages").glob("*.toml"))
 DESIGNS = [path for path in EXAMPLES if path not in REQUIREMENTS + STUDIES]
 
 
 def test_every_family_has_a_design_and_every_synthesis_a_requirement() -> None:
     families = host().of(Family)
-    assert {load(path, host()).family.name for path in DESIGNS} == set(families)
+    assert {load(path, host()).family.name for path in (*DESIGNS, *LINKAGES)} == set(families)
     able = {name for name, entry in families.items() if entry.item.requirements}
     assert {load_requirement(path, host()).family.name for path in REQUIREMENTS} == able
 

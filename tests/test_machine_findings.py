@@ -15,9 +15,10 @@ from mechwright.errors import DesignError
 from mechwright.machine.inspection import MachineDrive
 from mechwright.machine.page import FIGURES, DrivePage
 from mechwright.machine.table import MachineTable
+from mechwright.pipeline import LOOK, Run
 from mechwright.remedies import proposed_tried
 
-Run = Callable[..., tuple[int, str, str]]
+Command = Callable[..., tuple[int, str, str]]
 ROOT = Path(__file__).parents[1]
 
 
@@ -110,7 +111,9 @@ def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fi
     assert fault.limit is not None
     assert fault.value < fault.limit
     assert f"{fault.limit - fault.value:.3g} N·m are missing" in fault.message
-    (told,) = (one for one in proposed_tried(build, inspection, [fault]) if one.code == "machine.motor")
+    (told,) = (
+        one for one in proposed_tried(Run(build, LOOK), inspection, [fault]) if one.code == "machine.motor"
+    )
     assert told.fix is not None
     assert list(told.fix) == [fixed]
     motors = ["machine.motor" in change for change in fault.proposed]
@@ -146,7 +149,9 @@ def test_a_motor_that_turns_unevenly_is_a_warning_whose_remedy_works(
     if fixed is None:
         return
     assert said.severity is Severity.WARNING
-    (told,) = (one for one in proposed_tried(build, inspection, [said]) if one.code == "machine.speed")
+    (told,) = (
+        one for one in proposed_tried(Run(build, LOOK), inspection, [said]) if one.code == "machine.speed"
+    )
     assert told.fix is not None
     assert list(told.fix) == [fixed]
     changed = Build(build.design.changed(told.fix), host())
@@ -176,7 +181,7 @@ def test_a_stepper_that_feels_too_much_inertia_is_told(tmp_path: Path) -> None:
     assert warned.value > warned.limit == 10
     assert "machine.resonance" in told
     assert "machine.braking" in told
-    (tried,) = proposed_tried(build, MachineDrive(), [warned])
+    (tried,) = proposed_tried(Run(build, LOOK), MachineDrive(), [warned])
     assert tried.fix is not None
 
 
@@ -229,14 +234,14 @@ def test_a_wrong_key_is_told_in_one_line(tmp_path: Path, table: str, said: str) 
     assert len(str(caught.value).splitlines()) == 1
 
 
-def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, command_line: Run) -> None:
+def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, command_line: Command) -> None:
     path = build_of(tmp_path, FOUR_BAR, 'load = 0.3\nmotor = "NEMA 17 - 34"').path
     code, out, _ = command_line("check", path, "--json")
     assert code == 1
     findings = {one["code"]: one for one in json.loads(out)["findings"]}
     assert findings["machine.motor"]["severity"] == "error"
     assert list(findings["machine.motor"]["fix"]) == ["machine.gear"]  # the motor is at hand
-    assert findings["machine.torque"]["stage"] == "parts"
+    assert findings["machine.torque"]["stage"] == "assembly"
 
 
 @pytest.mark.parametrize(

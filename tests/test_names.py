@@ -8,8 +8,6 @@ import pytest
 from by_night import by_night
 from typer.testing import CliRunner
 
-from mechwright.build import Build, FileName, Page, Wanted
-from mechwright.build.file_names import STAGES, FileNames, files_of
 from mechwright.cli.app import make_app
 from mechwright.cli.orders import into
 from mechwright.contracts.exporter import Exporter
@@ -23,6 +21,8 @@ from mechwright.designs.design import load
 from mechwright.errors import DesignError, GeometryError, OutputError
 from mechwright.geometry import Loop, Outline
 from mechwright.output.folder import Output, distinct_files
+from mechwright.pipeline import WORK, Build, FileName, Page, Wanted
+from mechwright.pipeline.file_names import FileNames, files_of
 from mechwright.plugins.host import host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.testing.names import design_names, name_faults, writing_faults
@@ -168,7 +168,7 @@ def test_files_that_differ_in_case_alone_are_refused_before_work(tmp_path, monke
     file = written(tmp_path, 'format = 1\nfamily = "geneva"\nname = "indexer"\n')
     for command in ("check", "model"):
         build = Build(load(file, host()), host(), Wanted(command))
-        (found,) = errors(FileNames().findings(build), Stage.PARTS)
+        (found,) = errors(FileNames().findings(build), Stage.ASSEMBLY)
         assert "part wheel and the listing would both be written as" in found.message
         assert found.remedy == "rename the listing"
     assert not FileNames().findings(Build(load(file, host()), host(), Wanted("cam")))
@@ -259,4 +259,4 @@ def test_pages_write_what_they_have_named(path):
         named = {one.name for one in files_of(build, build.wanted)}
         for page in [page for page in host().all(Page) if "model" in page.commands]:
             assert set(page.files(build)) <= named, page.name
-    assert set(STAGES) == {command for page in host().all(Page) for command in page.commands}
+    assert set(WORK) == {command for page in host().all(Page) for command in page.commands}

@@ -2,6 +2,7 @@
 
 import doctest
 import html
+import importlib.util
 import json
 import re
 import subprocess
@@ -26,7 +27,13 @@ def pair():
 
 
 def test_the_page_on_python_says_what_happens():
-    done = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8")
+    page = ROOT / "docs" / "python.md"
+    text = page.read_text(encoding="utf-8")
+    if importlib.util.find_spec("pyarrow") is None:
+        text, _, rest = text.partition("## Many designs of a family")
+        text += "".join(rest.partition("\n## ")[1:])
+    shown = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    done = doctest.DocTestRunner().run(shown)
     assert done.attempted > 10
     assert done.failed == 0
 
@@ -142,7 +149,7 @@ def test_programs_are_those_of_the_command(command_line, tmp_path):
 def test_a_script_writes_what_the_command_writes(command_line, tmp_path):
     told = []
     built = mw.load(EXAMPLE).asked(command="solve", samples=91)
-    written = built.write(tmp_path / "one", mw.Stage.MOTION, lambda done, what: told.append((done, what)))
+    written = built.write(tmp_path / "one", lambda done, what: told.append((done, what)))
     assert command_line("solve", EXAMPLE, "-o", tmp_path / "two", "--samples", 91)[0] == 0
     for name in (*written.files, "manifest.json"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes(), name

@@ -211,7 +211,7 @@ def test_the_poles_of_the_slider_crank_lie_on_their_locus(crank, rod, offset):
     x, y = motion.channels["xG"].values, motion.channels["yG"].values
     if motion.rocks:  # the source's locus is that of a constant speed, which a lever has nowhere
         from mechwright.mechanics.planar import acceleration_pole
-        from mechwright_slider_crank.params import SliderCrankParams
+        from mechwright_slider_crank.parameters import SliderCrankParams
 
         linkage = SliderCrankParams(crank=a, rod=c, offset=e).linkage
         pole = acceleration_pole(linkage.bodies(motion.channels["phi"].values, 1.0).rod).fixed

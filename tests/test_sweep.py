@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
 from mechwright.plugins.host import host
-from mechwright.sweep.study import Asked, study_of
+from mechwright.studies.study import Asked, study_of
 
 ROOT = Path(__file__).parents[1]
 

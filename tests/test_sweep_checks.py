@@ -15,11 +15,11 @@ from mechwright.contracts.finding import Finding
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.scripting.mechanism import Mechanism
-from mechwright.sweep import checks
-from mechwright.sweep.run import sweep
-from mechwright.sweep.standing import Standing
-from mechwright.sweep.study import load_study
-from mechwright.sweep.workers import Alone
+from mechwright.studies import checks
+from mechwright.studies.run import evaluate
+from mechwright.studies.standing import Standing
+from mechwright.studies.study import load_study
+from mechwright.studies.workers import Alone
 
 pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
 
@@ -60,8 +60,8 @@ class Check:
 
 
 def swept(study, folder, check, monkeypatch, standing=None):
-    monkeypatch.setattr(Mechanism, "check", lambda mechanism, progress=None: check(mechanism, progress))
-    return sweep(study, folder, Alone(), host(), standing=standing)
+    monkeypatch.setattr(Mechanism, "check", lambda mechanism, progress=None, **_: check(mechanism, progress))
+    return evaluate(study, folder, Alone(), host(), standing=standing)
 
 
 def test_a_check_that_was_done_is_not_done_again(study, tmp_path, monkeypatch):
@@ -115,6 +115,8 @@ def test_a_process_that_is_killed_or_fails_is_a_line(study, monkeypatch):
 
     def gives(said):
         def side_by_side(*_):
+            if isinstance(said, Exception):
+                raise said
             yield 1, said
 
         monkeypatch.setattr(checks, "side_by_side", side_by_side)

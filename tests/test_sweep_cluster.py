@@ -7,21 +7,22 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 import sweep_in_slices
 from by_night import by_night
+from listed_tasks import ListedTasks
 from strokes import bytes_of, swept
 
 import mechwright
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
-from mechwright.sweep import workers
-from mechwright.sweep.run import sweep
-from mechwright.sweep.study import load_study
-from mechwright.sweep.task import Source, Task
+from mechwright.studies import workers
+from mechwright.studies.run import evaluate
+from mechwright.studies.study import load_study
+from mechwright.studies.task import Source, Task
+from mechwright.worker_pool.pool import WorkerPool
 
 
 @by_night
@@ -102,7 +103,7 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
 def test_a_cluster_shares_one_batch_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
     path, port = tmp_path / "forces.toml", 20000 + (os.getpid() + 13) % 20000
     path.write_text(sweep_in_slices.TEXT.format(more=""))
-    sweep(load_study(path, host()), tmp_path / "one", workers.Alone(), host())
+    evaluate(load_study(path, host()), tmp_path / "one", workers.Alone(), host())
     first = scheduler_of(cluster, port)
     dying = [worker_of(cluster, port, tmp_path / name) for name in "ab"]
     command = [sys.executable, sweep_in_slices.__file__, "sweep", str(path), "-o", str(tmp_path / "two")]
@@ -136,21 +137,22 @@ def test_what_is_no_address_is_one_line_at_once(tmp_path, address):
 class Echo:
     """A source whose tables are their names."""
 
-    def told(self, task):
-        return task.name.encode(), []
+    def done(self, task):
+        return task.name.encode()
 
 
 def test_one_pool_does_every_task_once(monkeypatch):
     """Far more tasks than are given out ahead."""
     pools = []
 
-    def pool(count, *_):
-        pools.append(ThreadPoolExecutor(count))
-        return pools[-1]
+    class Pool(WorkerPool):
+        def __init__(self, *given, **named):
+            pools.append(self)
+            super().__init__(*given, **named)
 
-    monkeypatch.setattr(workers, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr(workers, "WorkerPool", Pool)
     tasks = [Task(f"part-{number}", number, number) for number in range(100)]
-    done = list(workers.Processes(2).done(Echo(), tasks))
+    done = list(workers.Processes(2).done(Echo(), ListedTasks(tasks)))
     assert len(pools) == 1
     assert sorted(task.first for task, _ in done) == list(range(100))
     assert all(content == task.name.encode() for task, content in done)

@@ -5,11 +5,12 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from strokes import bytes_of, swept
 
-from mechwright.sweep import run
+from mechwright.studies import run
 
 TABLE, OTHER = "tables/part-000001.parquet", "tables/part-000002.parquet"
 COUNTS = b"mechwright.counts"
@@ -188,15 +189,17 @@ ENDLESS = """
 import time
 from pathlib import Path
 class Endless:
-    def told(self, task):
+    def done(self, task):
         Path(f"begun-{task}").touch()
         time.sleep(3600)
 """
 STOPPED = """
-import multiprocessing, os, signal, threading, time
+import multiprocessing, os, signal, sys, threading, time
+sys.path.append({tests!r})
 from pathlib import Path
 from endless import Endless
-from mechwright.sweep.workers import Processes
+from listed_tasks import ListedTasks
+from mechwright.studies.workers import Processes
 def stop():
     while len(list(Path().glob("begun-*"))) < 2:
         time.sleep(0.02)
@@ -205,7 +208,7 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)  # which a process in the background may ignore
     other = multiprocessing.get_context("spawn").Process(target=time.sleep, args=(3600,), daemon=True)
     other.start()
-    asked = Processes(2)._once(Endless(), ["a", "b", "c"])
+    asked = Processes(2).done(Endless(), ListedTasks(["a", "b", "c"]))
     threading.Thread(target=stop, daemon=True).start()
     try:
         next(asked)
@@ -218,7 +221,7 @@ if __name__ == "__main__":
 def test_workers_end_with_a_sweep_that_is_stopped(tmp_path):
     """The interpreter would wait at its end for what they are at, which is a minute at times; here an hour."""
     (tmp_path / "endless.py").write_text(ENDLESS)
-    (tmp_path / "stopped.py").write_text(STOPPED)
+    (tmp_path / "stopped.py").write_text(STOPPED.format(tests=str(Path(__file__).parent)))
     words = [sys.executable, "stopped.py"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout == "stopped True\n", "a process of the caller's own goes on"

@@ -3,18 +3,19 @@
 import warnings
 
 import pytest
+from listed_tasks import ListedTasks
 from sweep_warners import Warner
 
 from mechwright.cli import failure
-from mechwright.sweep.task import Task
-from mechwright.sweep.workers import Processes
+from mechwright.studies.task import Task
+from mechwright.studies.workers import Processes
 
 TASKS = [Task(f"part-{n}", 0, n) for n in range(8)]
 
 
 def of_two_processes() -> list[str]:
     source = Warner("{}", "study.toml", "odd")
-    return sorted(content.decode() for _, content in Processes(2).done(source, TASKS))
+    return sorted(content.decode() for _, content in Processes(2).done(source, ListedTasks(TASKS)))
 
 
 def test_each_is_said_once_as_it_would_be_said_here(

@@ -11,7 +11,7 @@ from mechwright.designs.requirement import requirement_of
 from mechwright.plugins.host import host
 from mechwright.scripting.synthesis import Found, sought
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 TRAVEL = 180.0
 """Of the machine, mm: enough for plates of the small linkages, not for those of the large ones."""
@@ -35,6 +35,16 @@ class Drawer(FourBars):
             for phase, size in enumerate(machine, start=1)
         ]
         return Synthesis(tuple(given), (), rejected.reasons)
+
+
+class Holder(Drawer):
+    """Tells of one design more each time."""
+
+    def synthesise(self, kind: str, requirement: Parameters, progress: object) -> Synthesis[FourBarParams]:
+        whole = super().synthesise(kind, requirement, progress)
+        rejected = Rejected()
+        rejected.beyond(requirement.designs, 1 + len(self.asked) - 1)  # type: ignore[attr-defined]
+        return replace(whole, rejected=rejected.reasons)
 
 
 def linkage(size: float) -> FourBarParams:
@@ -77,13 +87,21 @@ def test_nobody_is_asked_again_where_all_can_be_built() -> None:
 
 
 def test_what_is_still_not_looked_at_is_said() -> None:
-    """A requirement can ask for 50 designs, and 51 were found."""
+    """Some can be built: the family is asked for the others that it has found once, and no more."""
+    family = Holder((220.0, 120.0, 220.0, 120.0, 120.0))
+    result = found(family, 2)
+    assert (len(result), family.asked) == (1, [2, 3])
+    (more,) = result.result.findings
+    assert (more.code, more.value) == ("synthesis.more", 2.0)
+    assert "2 of 3 designs cannot be built" in more.message
+
+
+def test_as_long_as_none_can_be_built_every_design_that_was_found_is_looked_at() -> None:
+    """A requirement file can ask for 50 designs; here 51 were found, and the last can be built."""
     family = Drawer((220.0,) * 50 + (120.0,))
     result = found(family, 1)
-    assert (len(result), family.asked) == (0, [1, 50])
-    blamed, more = result.result.findings
-    assert (blamed.code, more.code, more.value) == ("synthesis.unbuildable", "synthesis.more", 1.0)
-    assert "50 of 50 designs cannot be built" in more.message
+    assert (sizes(result), family.asked) == ([120.0], [1, 51])
+    assert result.result.findings == ()
 
 
 @pytest.mark.parametrize("large", [1, 2])

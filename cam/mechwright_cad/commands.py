@@ -26,12 +26,11 @@ class Model(Command):
         as_json: AsJson = False,
     ) -> None:
         """Write the solids: parts and assembly as STEP."""
-        from mechwright.build import Wanted
         from mechwright.cli.perform import perform
-        from mechwright.contracts.finding import Stage
+        from mechwright.pipeline import Wanted
 
         wanted = Wanted("model", at=at, formats=names(also))
-        perform(design, output, wanted, Stage.PARTS, as_json=as_json)
+        perform(design, output, wanted, as_json=as_json)
 
 
 class Live(Command):

@@ -6,28 +6,26 @@ drawings and programs, where there is a core for that.
 
 import sys
 from collections.abc import Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from mechwright.beside import Beside
-from mechwright.build import Build, FileName, Wanted
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.file_names import free_name
 from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.holes import joined
-from mechwright.cores import cores
 from mechwright.designs.design import Design
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
+from mechwright.pipeline import SOLIDS, Build, FileName, Wanted
 from mechwright.plugins.host import Host
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import WorkerPool
 
 if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
-
-IN_SPACE = frozenset({"model", "build"})
-"""Commands that make solids; the others look at plates alone, for which no CAD kernel is needed."""
 
 Made = tuple[list[Finding], dict[str, bytes], dict[str, float]]
 """What collides; the files, name to content; and the mass of one of each part, g."""
@@ -125,6 +123,11 @@ def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list
     return interference_findings(design, met, solids=solids)
 
 
+def plate_collisions(build: Build) -> list[Finding]:
+    """Which plates of a build collide; no CAD kernel is needed for it."""
+    return collisions(build.design, build.parts, solids=False)
+
+
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
     from mechwright_cad.animation import MOTION, PAGE_SAMPLES, motion_html
@@ -159,15 +162,15 @@ class Solids:
     def __init__(self, build: Build) -> None:
         self._build = build
         self._exporters = exporters_of(build.host, build.wanted)
-        self._second: Beside | None = None
-        self._made: Made | None = None
+        self._second: WorkerPool | None = None
+        self._answer: Future[Made] | None = None
 
     def warm(self) -> None:
         """Begin the second process, if it gains something."""
         modules = {module for exporter in self._exporters for module in exporter.modules}
         heavy = sorted(modules - set(sys.modules))
-        if heavy and cores() > 1:
-            self._second = Beside(heavy)
+        if heavy and available_cores() > 1 and self._second is None:
+            self._second = WorkerPool([available_cores()], heavy, quiet=True)
             self._build.when_closed(self._second.close)
 
     @property
@@ -183,37 +186,37 @@ class Solids:
 
     def begin(self) -> None:
         """Give the second process its work: a design whose own check has found no error."""
-        if self._second is not None and self._made is None:
+        if self._second is not None and self._answer is None:
             plates = all(part.build is None for part in self._build.parts)
-            self._second.ask(compared_and_made, self._work if plates else replace(self._work, known=None))
+            work = self._work if plates else replace(self._work, known=None)
+            self._answer = self._second.submit(compared_and_made, work)
 
     def collisions(self) -> list[Finding]:
         """Which bodies collide, and what else there is to say of that."""
         if self._second is not None:
-            return self._result()[0]
-        solids = self._build.wanted.command in IN_SPACE
-        return collisions(self._build.design, self._build.parts, solids=solids)
+            return self._result[0]
+        return collisions(self._build.design, self._build.parts, solids=True)
 
     def files(self) -> dict[str, bytes]:
         """Every part, and the assembly, in every format."""
         from mechwright_cad.animation import MOTION
 
         if self._second is not None:
-            return {name: content for name, content in self._result()[1].items() if name != MOTION}
+            return {name: content for name, content in self._result[1].items() if name != MOTION}
         return self._work.files()
 
     def masses(self) -> dict[str, float]:
         """The mass of one of each part by its name, g."""
-        return masses(self._build.parts) if self._second is None else self._result()[2]
+        return masses(self._build.parts) if self._second is None else self._result[2]
 
     def page(self) -> dict[str, bytes]:
         """The page on which the mechanism moves."""
         from mechwright_cad.animation import MOTION
 
         if self._second is not None:
-            return {MOTION: self._result()[1][MOTION]}
+            return {MOTION: self._result[1][MOTION]}
         build = self._build
-        if build.wanted.command in IN_SPACE:
+        if SOLIDS in build.wanted.extent.makes:
             return motion_page(build.design, build.parts, solids=True)
         try:
             return motion_page(build.design, build.parts, solids=False)
@@ -221,8 +224,13 @@ class Solids:
             build.leave_out(f"{MOTION} shows joints and lines, no bodies", error)
             return motion_page(build.design, (), solids=False)
 
+    @cached_property
     def _result(self) -> Made:
-        if self._made is None:
-            assert self._second is not None  # noqa: S101 - all callers have asked
-            self._made = cast(Made, self._second.result(tuple))
-        return self._made
+        """The answer of the second process; this one does what fails there, and raises its error."""
+        assert self._second is not None  # noqa: S101 - all callers have asked
+        assert self._answer is not None  # noqa: S101 - begun before
+        with self._second:
+            try:
+                return self._second.result(self._answer)
+            except Exception:  # noqa: BLE001,RUF100
+                return compared_and_made(self._work)

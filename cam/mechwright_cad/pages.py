@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, FileName, Inspection, Page, Wanted
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.pipeline import SOLIDS, Build, FileName, Inspection, Page, Wanted
 
 if TYPE_CHECKING:
     from mechwright_cad.making import Solids
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 def _solids(build: Build) -> "Solids":
     from mechwright_cad.making import Solids
 
-    return build.made(Solids)
+    return build.made_as_wanted(Solids)
 
 
 class SolidFiles(Page):
@@ -73,11 +73,12 @@ class MotionPage(Page):
 
 
 class Interference(Inspection):
-    """Bodies that stand in each other while the mechanism moves."""
+    """Bodies that stand in each other while the mechanism moves: plates at once, solids once made."""
 
     name = "interference"
-    commands = frozenset({"check", "solve", "model", "cam", "build"})
-    stage = Stage.PARTS
+    limited = False  # solids are made in it
+    stage = Stage.ASSEMBLY
+    needs = frozenset({SOLIDS})
     order = 10
     doing = "interference"
     share = 15.0
@@ -86,6 +87,12 @@ class Interference(Inspection):
         """Whether a second process compares them."""
         return _solids(build).beside
 
+    def outlook(self, build: Build) -> Sequence[Finding]:
+        """Which plates meet, and where."""
+        from mechwright_cad.making import plate_collisions
+
+        return build.made(plate_collisions)
+
     def findings(self, build: Build) -> Sequence[Finding]:
-        """What meets, and where."""
+        """Which bodies meet, and where."""
         return _solids(build).collisions()

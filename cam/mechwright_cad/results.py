@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build
 from mechwright.contracts.result import Result
+from mechwright.pipeline import Build
 
 if TYPE_CHECKING:
     import cadquery as cq

@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
-from mechwright.build import Build
 from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
 from mechwright.contracts.made_part import MadePart
+from mechwright.pipeline import Build
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.machining import Machining
 from mechwright_cam.proof.made_parts import parts_as_made, placed_in, with_undersides
@@ -48,7 +48,7 @@ class MadeParts:
             copies.setdefault(part.name, []).append(part)
         design = self._build.design
         said = design.family.as_made(design.params, copies)
-        return replace(said, findings=tuple(at_stage(Stage.MACHINING, said.findings)))
+        return replace(said, findings=tuple(at_stage(Stage.OUTPUT, said.findings)))
 
 
 def not_closed(part: MadePart) -> list[Finding]:
@@ -71,7 +71,7 @@ def not_closed(part: MadePart) -> list[Finding]:
                         OPEN,
                         "mm",
                         "have that wall finished",
-                        Stage.MACHINING,
+                        Stage.OUTPUT,
                     )
                 ]
     return []

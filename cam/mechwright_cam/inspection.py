@@ -2,15 +2,14 @@
 
 from collections.abc import Sequence
 
-from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.pipeline import PROGRAMS, Build, Inspection
 
 
 class Machinable(Inspection):
     """What control and cutters say of the parts."""
 
     name = "machining"
-    commands = frozenset({"check", "cam", "build"})
     stage = Stage.MACHINING
     order = 20
     doing = "drawings and programs"
@@ -23,13 +22,33 @@ class Machinable(Inspection):
         return build.made(Machining).findings
 
 
+class Proven(Inspection):
+    """Whether each program can be planned, and is proven."""
+
+    name = "proofs"
+    stage = Stage.MACHINING
+    needs = frozenset({PROGRAMS})
+    order = 35
+    limited = False  # programs of large machines are planned and proven in it
+    doing = "drawings and programs"
+    share = 60.0
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """Nothing; raises as :attr:`mechwright_cam.machining.Machining.made` does."""
+        from mechwright_cam.machining import Machining
+
+        _ = build.made(Machining).made
+        return ()
+
+
 class Running(Inspection):
     """What the family says of the mechanism with its parts as the programs leave them."""
 
     name = "as-made"
-    commands = frozenset({"build"})
-    stage = Stage.MACHINING
+    stage = Stage.OUTPUT
+    needs = frozenset({PROGRAMS})
     order = 40
+    limited = False
     doing = "parts as made"
     share = 50.0
 
@@ -44,7 +63,6 @@ class InHand(Inspection):
     """Screws and pins of the mechanism that the shop does not keep."""
 
     name = "in-hand"
-    commands = frozenset({"check", "cam", "build"})
     stage = Stage.MACHINING
     order = 25
     doing = "what is in hand"

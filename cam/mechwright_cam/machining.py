@@ -8,13 +8,13 @@ from itertools import chain, pairwise
 
 import shapely
 
-from mechwright.build import Build
 from mechwright.contracts.finding import Finding, Stage, at_stage, errors
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError, ProofError, ToolError
+from mechwright.pipeline import Build
 from mechwright.plugins.host import Host
-from mechwright.scripting.shares import shared
+from mechwright.worker_pool.sharing import shared
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.exactness import posted
 from mechwright_cam.operations.contract import Operation

@@ -1,13 +1,11 @@
 """What a build can be asked for in the CAM room: its programs, and the minutes that they take."""
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, Inspection
-from mechwright.contracts.finding import Stage
 from mechwright.contracts.named import Named
 from mechwright.contracts.result import Result
+from mechwright.pipeline import WORK, Build, Run
 
 if TYPE_CHECKING:
     from mechwright_cam.machining import Machined
@@ -20,19 +18,11 @@ class Programs(Result[Build]):
     of = "build"
 
     def make(self, subject: Build) -> "Named[Machined]":
-        """Every program with its proof; raises as :attr:`mechwright.build.Build.programs` says."""
+        """Every program with its proof; raises as :attr:`mechwright.pipeline.Build.programs` says."""
         from mechwright_cam.machining import Machining
 
-        subject.require()
-        # What `cam` asks before anything is planned; it compares plates, for which no CAD kernel is needed.
-        with Build(subject.design, subject.host, replace(subject.wanted, command="cam")) as cam:
-            earlier = [one for one in subject.host.all(Inspection) if one.stage is not Stage.MACHINING]
-            for one in sorted(earlier, key=lambda one: one.order):
-                if "cam" in one.commands:
-                    subject.require(one.findings(cam))
-        machining = subject.made(Machining)
-        subject.require(machining.findings)
-        return Named(machining.made)
+        Run(subject.asking(command="cam"), WORK["cam"]).make()
+        return Named(subject.made(Machining).made)
 
 
 class Minutes(Result[Build]):

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from typing import Any
 
     from mechwright.arrays import Array
-    from mechwright.build import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.load import Load
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
+    from mechwright.contracts.measure import Measure
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
@@ -70,17 +70,19 @@ if TYPE_CHECKING:
     )
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
     from mechwright.geometry.segments import Point
+    from mechwright.pipeline import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.scripting.mechanism import Mechanism
-    from mechwright.scripting.opening import design, load
+    from mechwright.scripting.opening import check, design, load
     from mechwright.scripting.performing import Written
     from mechwright.scripting.synthesis import Found, synthesize
+    from mechwright.studies.scripts import Sweep, sweep
     from mechwright.tolerances import TOLERANCES
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.build": "Blank Build FileName Inspection Page RawStock Wanted",
+    "mechwright.pipeline": "Blank Build FileName Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",
@@ -98,6 +100,7 @@ _HOMES = {
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
+    "mechwright.contracts.measure": "Measure",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
     "mechwright.contracts.named": "Named",
@@ -126,9 +129,10 @@ _HOMES = {
     "mechwright.plugins.host": "Host host",
     "mechwright.plugins.hookspecs": "hookimpl",
     "mechwright.scripting.mechanism": "Mechanism",
-    "mechwright.scripting.opening": "design load",
+    "mechwright.scripting.opening": "check design load",
     "mechwright.scripting.performing": "Written",
     "mechwright.scripting.synthesis": "Found synthesize",
+    "mechwright.studies.scripts": "Sweep sweep",
     "mechwright.tolerances": "TOLERANCES",
 }
 """Module to the public names that come from it."""
@@ -136,7 +140,8 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
-__all__ += ["Found", "Mechanism", "Named", "Result", "Written", "design", "load", "synthesize"]
+__all__ += ["Found", "Mechanism", "Named", "Result", "Sweep", "Written"]
+__all__ += ["check", "design", "load", "sweep", "synthesize"]
 __all__ += [
     "Command",
     "Exporter",
@@ -165,7 +170,17 @@ __all__ += [
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
-__all__ += ["FittingMark", "Flange", "Foot", "GroundPlate", "Hub", "Mounting", "MountingError", "Spindle"]
+__all__ += [
+    "FittingMark",
+    "Flange",
+    "Foot",
+    "GroundPlate",
+    "Hub",
+    "Measure",
+    "Mounting",
+    "MountingError",
+    "Spindle",
+]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += [
     "Finding",

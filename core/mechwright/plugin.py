@@ -1,12 +1,12 @@
 """What the core itself registers."""
 
-from mechwright.build.file_names import FileNames
-from mechwright.build.tables import MotionTables
-from mechwright.build.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.contracts.plugin import Plugin
 from mechwright.machine.inspection import MachineDrive
 from mechwright.machine.page import DrivePage
 from mechwright.machine.table import MachineTable
+from mechwright.pipeline.file_names import FileNames
+from mechwright.pipeline.tables import MotionTables
+from mechwright.pipeline.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.plugins.hookspecs import hookimpl
 
 

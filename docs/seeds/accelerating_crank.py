@@ -7,9 +7,9 @@ from signed_distances import of_four_bar, of_slider_crank
 
 from mechwright.mechanics.planar import BodyMotion, Turning, acceleration_pole
 from mechwright.mechanics.planar.poles import circles, ratio_of_pole
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 SLIDER, FOUR = SliderCrank(50.0, 150.0, 20.0), FourBar(40, 120, 80, 100)
 CASES = (("slider-crank", 60), ("slider-crank", 200), ("four-bar", 120), ("four-bar", 300))

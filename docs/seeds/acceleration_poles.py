@@ -16,12 +16,12 @@ from signed_distances import of_four_bar, of_slider_crank
 from six_bar_poles import six_bars
 
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.locus import locus as four_bar_locus
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.locus import locus as four_bar_locus
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import search
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.locus import Plane, locus
 from mechwright_slider_crank.poles_synthesis import through_poles
 

@@ -7,12 +7,12 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from mechwright.build.figures import Grid
+from mechwright.pipeline.figures import Grid
 from mechwright_slider_crank import construction_pictures as pictures
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
 from mechwright_slider_crank.construction_page import numbers, solutions
-from mechwright_slider_crank.figures import crank_turns
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.limits import crank_turns
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.stroke import Lengths, from_crank, from_offset, from_rod
 

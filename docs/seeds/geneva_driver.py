@@ -7,8 +7,8 @@ from pathlib import Path
 import geneva_machine
 import numpy as np
 
-from mechwright.build.figures.sheet import INK, LINKS, Window
 from mechwright.mechanics.planar import Turning
+from mechwright.pipeline.figures.sheet import INK, LINKS, Window
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.contact_forces import contact
 from mechwright_geneva.kinematics.figures import rate_peaks

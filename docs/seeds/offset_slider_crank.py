@@ -9,8 +9,8 @@ from pathlib import Path
 from auxiliary_circle import EXAMPLES
 
 from mechwright.errors import KinematicsError
-from mechwright_slider_crank.figures import crank_turns, least_transmission_angle
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.limits import crank_turns, least_transmission_angle
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.stroke import (
     Lengths,

@@ -7,15 +7,14 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.designs.design import load
-from mechwright.mechanics.planar import Turning
 from mechwright.output.svg import path as polyline
 from mechwright.plugins.host import host
-from mechwright_five_bar.frames import frames_of, layout_of
-from mechwright_five_bar.loop import close
-from mechwright_five_bar.phases import in_phase
-from mechwright_five_bar.reach import bar_of
-from mechwright_five_bar.sized import SizedParams
-from mechwright_five_bar.train import gear_outlines
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
+from mechwright_five_bar.kinematics.dimensions import bar_of
+from mechwright_five_bar.kinematics.phases import in_phase
+from mechwright_five_bar.kinematics.train import gear_outlines
+from mechwright_five_bar.parts.frames import frames_of
+from mechwright_five_bar.table import FiveBarTable
 from mechwright_spherical import printed
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "five-bar-published.toml"
@@ -28,10 +27,10 @@ COLOURS = {
 }  # fmt: skip
 
 
-def machine(phase: int) -> SizedParams:
+def machine(phase: int) -> CompleteParams:
     """The example, with a phase shown as its first."""
     params = load(EXAMPLE, host()).params
-    assert isinstance(params, SizedParams)  # noqa: S101 - the file says so
+    assert isinstance(params, CompleteParams)  # noqa: S101 - the file says so
     return in_phase(params.model_copy(update={"phase": phase}))
 
 
@@ -40,8 +39,8 @@ def reached() -> Array:
     found = []
     for phase, turns in ((1, printed.ANGLES), (2, printed.ANGLES_N)):
         shown = machine(phase)
-        loop = close(bar_of(shown), np.radians((shown.setting_angle or 0.0) + np.array(turns)))
-        place = loop.joint_a + shown.coupler_point * loop.coupler.direction
+        solution = bar_of(shown).at(np.radians((shown.setting_angle or 0.0) + np.array(turns)))
+        place = solution.bodies["coupler"].point(shown.coupler_point).position
         found.append((place + complex(shown.pivot_x, shown.pivot_y)) / UNIT)
     whole = np.concatenate(found)
     return np.column_stack([whole.real, whole.imag])
@@ -50,9 +49,9 @@ def reached() -> Array:
 def plan() -> str:
     """Figure 10 as a drawing: all plates and gears from above, in the pose of setting, phase 1."""
     params = machine(1)
-    bar, layout = bar_of(params), layout_of(params)
-    drive = Turning.of(np.array([math.radians(params.setting_angle or 0.0)]), 1.0)
-    poses = frames_of(params, close(bar, drive.theta).bodies(bar, drive))
+    table = FiveBarTable.of(params)
+    layout = table.layout
+    poses = frames_of(table, table.bar.at(math.radians(params.setting_angle or 0.0)).bodies)
     drawn, corners = [], []
     gears = gear_outlines(params)
     for name, colour in COLOURS.items():

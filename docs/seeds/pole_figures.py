@@ -8,12 +8,12 @@ import numpy as np
 import six_bar_poles
 from signed_distances import SignedDistances, of_four_bar, of_slider_crank
 
-from mechwright.build.figures.sheet import INK, Window, linkage
-from mechwright.build.poles import Coupler, planes
-from mechwright_four_bar.params import FourBarParams
+from mechwright.pipeline.figures.sheet import INK, Window, linkage
+from mechwright.pipeline.poles import NAME, Coupler, planes
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.poles_page import FourBarPoles
-from mechwright_four_bar.reach import bar_of
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.poles_page import SliderCrankPoles
 
 IMAGES = Path(__file__).parents[1] / "images"
@@ -52,11 +52,11 @@ def model(coupler: Coupler, found: SignedDistances, phi: float, lines: list[list
 
 
 def slider(params: SliderCrankParams) -> Coupler:
-    return SliderCrankPoles().coupler(params)
+    return SliderCrankPoles().couplers(params)[NAME]
 
 
 def four_bar(params: FourBarParams) -> Coupler:
-    return FourBarPoles().coupler(params)
+    return FourBarPoles().couplers(params)[NAME]
 
 
 def first() -> str:

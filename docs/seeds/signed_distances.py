@@ -22,9 +22,9 @@ from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 
 @dataclass(frozen=True, slots=True)

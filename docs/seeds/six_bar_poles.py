@@ -1,16 +1,17 @@
-"""The part of the page on acceleration poles about couplers of six-bars: the formula on one more dyad."""
+"""The part of the page on acceleration poles about six-bars: on the ground, and of links to links."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.build.figures.sheet import INK, Window, linkage
-from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning, acceleration_pole
-from mechwright.mechanics.planar.dyad import joined
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright.mechanics.planar import BodyMotion, Turning, acceleration_pole
+from mechwright.mechanics.planar.machine import Drive, Machine, Revolute
+from mechwright.mechanics.planar.positions import solve
+from mechwright.mechanics.planar.relative_motion import relative, relative_pole
+from mechwright.pipeline.figures.sheet import INK, Window, linkage
 
-FOUR = FourBar(40, 120, 80, 100)
+CRANK, COUPLER, FOLLOWER, GROUND = 40, 120, 80, 100
 PIVOT = 190 + 80j
 """E0 of the second follower, mm from A0."""
 
@@ -26,23 +27,38 @@ STEP = 1e-3
 """rad, of the differences that the poles are compared with."""
 
 
-def bodies(name: str, drive: Turning) -> dict[str, BodyMotion]:
-    """All links; ``floating`` from C, ``second`` from E0."""
+def machine(name: str) -> Machine:
+    """The four-bar A0 A B B0, and the links ``floating`` from C to D and ``second`` from E0 to D."""
     carrier, place, long, short = SIX_BARS[name]
-    found = close(FOUR, drive.theta).bodies(FOUR, drive)
-    pivot = PointMotion.of(np.full(drive.theta.shape, PIVOT))
-    floating, second = joined(found[carrier].point(place), pivot, long, short, 1)
-    return {**found, "floating": floating, "second": second}
+    joints = [
+        Revolute("A0", "ground", "crank", 0, 0),
+        Revolute("A", "crank", "coupler", CRANK, 0),
+        Revolute("B", "coupler", "follower", COUPLER, FOLLOWER),
+        Revolute("B0", "ground", "follower", GROUND, 0),
+        Revolute("C", carrier, "floating", place, 0),
+        Revolute("D", "floating", "second", long, short),
+        Revolute("E0", "ground", "second", PIVOT, 0),
+    ]
+    return Machine(joints, [Drive("crank")])
 
 
-def left(name: str, degrees: float, ratio: float) -> float:
-    """Acceleration of the pole's point of the floating link, by differences of its positions, mm/rad²."""
+def bodies(name: str, drive: Turning) -> Mapping[str, BodyMotion]:
+    """All links."""
+    return solve(machine(name), [drive]).bodies
+
+
+def left(name: str, degrees: float, ratio: float, seen_from: str = "ground") -> float:
+    """Acceleration of the pole's point of the floating link, by differences of its positions, mm/rad².
+
+    Pole and positions are those that ``seen_from`` sees.
+    """
     phi, k = math.radians(degrees), ratio
-    pole = acceleration_pole(bodies(name, Turning.of([phi], 1.0, k))["floating"])
+    found = bodies(name, Turning.of([phi], 1.0, k))
+    pole, _ = relative_pole(found["floating"], found[seen_from])
     # From phi on the crank turns by t + k t²/2: its speed is 1 and its acceleration k there.
     times = STEP * np.arange(-2, 3)
-    moved = bodies(name, Turning.of(phi + times + k * times**2 / 2, 1.0))["floating"]
-    places = moved.point(pole.moving).position
+    moved = bodies(name, Turning.of(phi + times + k * times**2 / 2, 1.0))
+    places = relative(moved["floating"], moved[seen_from]).point(pole.moving).position
     return float(abs(np.array([-1, 16, -30, 16, -1]) @ places) / (12 * STEP**2))
 
 
@@ -65,9 +81,34 @@ def table() -> list[str]:
     return rows
 
 
-def worst() -> float:
-    """The largest of what is left of the acceleration in the poles of the table, mm/rad²."""
-    return max(left(name, degrees, ratio) for name in SIX_BARS for degrees in ANGLES for ratio in RATIOS)
+SEEN_FROM = {"Stephenson": ("crank", "follower"), "Watt": ("crank", "coupler")}
+"""Links to which C-D is not pinned: of one that it is pinned to the pole is the pin."""
+
+
+def relative_table() -> list[str]:
+    rows = [
+        "| six-bar, φ | seen from | relative ω/ωa | relative α/ωa² | G there | G in C-D | G on the ground |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for name in SIX_BARS:
+        for degrees in ANGLES:
+            found = bodies(name, Turning.of([math.radians(degrees)], 1.0))
+            for seen_from in SEEN_FROM[name]:
+                link = relative(found["floating"], found[seen_from]).turning
+                pole, ground = relative_pole(found["floating"], found[seen_from])
+                places = (complex(one[0]) for one in (pole.fixed, pole.moving, ground))
+                first = f"{name}, {degrees}°" if seen_from == SEEN_FROM[name][0] else ""
+                cells = (f"{place.real:.6f}, {place.imag:.6f}" for place in places)
+                rates = f"{link.omega[0]:.9f} | {link.alpha[0]:.9f}"
+                rows.append(f"| {first} | {seen_from} | {rates} | {' | '.join(cells)} |")
+    return rows
+
+
+def worst() -> tuple[float, float]:
+    """The largest of what is left of the acceleration in the poles of both tables, mm/rad²."""
+    ground = max(left(name, at, ratio) for name in SIX_BARS for at in ANGLES for ratio in RATIOS)
+    links = max(left(name, at, 0.0, one) for name in SIX_BARS for at in ANGLES for one in SEEN_FROM[name])
+    return ground, links
 
 
 def picture(name: str) -> str:
@@ -79,8 +120,8 @@ def picture(name: str) -> str:
     def end(body: str, where: complex) -> complex:
         return complex(found[body].point(where).position[at])
 
-    joints = {"A0": 0j, "A": end("crank", FOUR.crank), "B": end("coupler", FOUR.coupler)}
-    joints |= {"B0": complex(FOUR.ground), "C": end(carrier, place), "D": end("floating", long), "E0": PIVOT}
+    joints = {"A0": 0j, "A": end("crank", CRANK), "B": end("coupler", COUPLER)}
+    joints |= {"B0": complex(GROUND), "C": end(carrier, place), "D": end("floating", long), "E0": PIVOT}
     own = {"coupler": ("A", "B"), "follower": ("B0", "B")}[carrier]
     pairs = (("A0", "A"), ("A", "B"), ("B0", "B"), (own[0], "C"), (own[1], "C"), ("C", "D"), ("E0", "D"))
     locus = acceleration_pole(found["floating"]).fixed
@@ -96,19 +137,27 @@ def picture(name: str) -> str:
 
 def six_bars() -> list[str]:
     """The part of the page."""
-    left_over = 10.0 ** math.ceil(math.log10(worst()))
+    on_ground, of_links = (10.0 ** math.ceil(math.log10(value)) for value in worst())
     pictures = (f"![{name}](../images/poles-six-bar-{name.lower()}.svg)" for name in SIX_BARS)
     return [
-        "## Couplers of six-bars",
+        "## Six-bars",
         "",
         "The source ends with four links. G = A − a_A/(i α − ω²) holds for any body, and a six-bar is a "
         "four-bar with one more dyad: on a point C of the coupler (Stephenson) or of the follower (Watt), "
-        "the link C-D, held by D-E0. `joined` of `mechwright.mechanics.planar.dyad` gives its motion. "
+        "the link C-D, held by D-E0. `mechwright.mechanics.planar` solves any such machine; the family "
+        "[`linkage`](../linkage.md) builds it. "
         f"Four-bar 40, 120, 80, 100, E0 in ({PIVOT.real:g}, {PIVOT.imag:g}); C in (60, 50) of the coupler "
         "from A, C-D 150, or in (60, −30) of the follower from B0, C-D 130; D-E0 110 mm. At the poles below "
-        f"differences of positions leave an acceleration of at most {left_over:.0e} mm/rad².",
+        f"differences of positions leave an acceleration of at most {on_ground:.0e} mm/rad².",
         "",
         *table(),
+        "",
+        "The same formula with the relative motion gives the pole of any link as seen from any other: the "
+        "point of C-D that has no acceleration relative to the crank, or to the link of the four-bar that it "
+        "is not pinned to, at constant speed of the crank. Of links that are pinned to each other it is the "
+        f"pin. Differences of the relative positions leave at most {of_links:.0e} mm/rad².",
+        "",
+        *relative_table(),
         "",
         *(line for picture in pictures for line in (picture, "")),
     ]

@@ -24,6 +24,7 @@ FAMILIES = (
     "slider-crank",
     "four-bar",
     "five-bar",
+    "linkage",
     "spherical",
     "plate",
     Chain.name,
@@ -43,6 +44,7 @@ def design_files() -> list[Path]:
         *EXAMPLES.glob("*.toml"),
         *(EXAMPLES / "motion").glob("*.toml"),
         *(EXAMPLES / "chains").glob("*.toml"),
+        *(EXAMPLES / "linkages").glob("*.toml"),
     ]
     return sorted(found, key=lambda path: path.name)
 

@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Profile, circle, kept
+from mechwright import Bore, Colour, Feature, Instance, Loop, Measure, Outline, Part, Profile, circle, kept
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
-from mechwright.mechanics.gearing import tip_sites
+from mechwright.mechanics.gearing import gear_measures, tip_sites
 from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.bushes import bush_parts, bush_seat
 from mechwright_elliptic_gears.clamp import clamp_of
@@ -20,7 +20,7 @@ from mechwright_elliptic_gears.clamp_parts import (
 )
 from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.fitting import gear_marks
-from mechwright_elliptic_gears.gear import outline_of
+from mechwright_elliptic_gears.gear import ellipse_of, outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of, keeper_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -165,6 +165,12 @@ def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
     return opening.loop().moved(0.0, 0.0, gear.key)
 
 
+@kept
+def measures_of(params: EllipticGearParams) -> tuple[Measure, ...]:
+    """Over pins across the middle of the ellipse, the axis being its focus."""
+    return gear_measures(teeth_of(params), (ellipse_of(params).focal_distance, 0.0))
+
+
 def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
     """The gear with its features: bore, keyway, holes, then the outside, which tabs may hold at the tips."""
     whole, depth = outline_of(params), params.thickness
@@ -190,6 +196,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         machined=tuple(features),
         details=gear.details,
         marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
+        measures=measures_of(params),
         vacant=tuple(hole.name for hole in gear.holes) if params.phase_joint == "pins" else (),
     )
 

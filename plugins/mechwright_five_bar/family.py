@@ -1,17 +1,17 @@
 """The family ``five-bar``."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import Family, Finding, Parameters, Stage, refuse
-from mechwright.contracts.finding import errors
-from mechwright_five_bar.params import FiveBarParams
+from mechwright import Family, Parameters, refuse
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
+from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.requirements import AdjustablePathRequirement
-from mechwright_five_bar.sized import SizedParams
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -23,7 +23,10 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure, PartMass
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_five_bar.table import FiveBarTable
 
 
 class FiveBars(Family[FiveBarParams]):
@@ -32,57 +35,53 @@ class FiveBars(Family[FiveBarParams]):
     name = "five-bar"
     title = "Geared five-bar linkage"
     summary = "A crank, an arm that gears turn with it, and a coupler that carries a point between them."
-    Params = SizedParams
+    Params = CompleteParams
     batch = 1 << 16
     requirements: ClassVar = {"adjustable-path": AdjustablePathRequirement}
 
-    def check(self, params: FiveBarParams) -> Sequence[Finding]:
-        """Closure, transmission angle, gears, room for holes and slots, layers, clamps, order of setting."""
-        from mechwright_five_bar.checks import findings
+    def rules(self) -> "Rules[FiveBarTable]":
+        """Setting, closure, transmission angle, gears, room for holes and slots, layers, loads, clamps."""
+        from mechwright_five_bar.rules.rule_table import RULES
 
-        return _with_settings(params, findings)
+        return RULES
 
-    def judge(self, params: FiveBarParams) -> Sequence[Finding]:
-        """The same without the sizes that would bear a load."""
-        from mechwright_five_bar.checks import judged
+    def table(self, params: FiveBarParams, size: int | None = None) -> "FiveBarTable":
+        """The linkage with its phases, and with gears that bear their load."""
+        from mechwright_five_bar.table import FiveBarTable
 
-        return _with_settings(params, judged)
+        return FiveBarTable.of(params, size)
 
     def solve(self, params: FiveBarParams, samples: int) -> "Motion":
         """The turns of the crank that bring the linkage back, or its swing there and back."""
-        from mechwright_five_bar.motion import motion_of
-        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.kinematics.motion import motion_of
 
-        return motion_of(in_phase(params), samples)
+        return motion_of(self.table(params), samples)
 
     def stretches(self, params: FiveBarParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_five_bar.motion import motion_of
-        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.kinematics.motion import motion_of
 
-        return in_stretches(partial(motion_of, in_phase(params)), samples)
+        return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: FiveBarParams) -> "Sequence[Part]":
         """Ground, gears and links as plates, their shafts, pins, studs, bushings, clamps and posts."""
-        from mechwright_five_bar.phases import in_phase
-        from mechwright_five_bar.plates import parts_of
+        from mechwright_five_bar.parts.parts import parts_of
 
         refuse(self.check(params))
-        return parts_of(in_phase(params))
+        return parts_of(self.table(params))
 
     def mounting(self, params: FiveBarParams) -> "GroundPlate":
         """Its ground plate with the crank's shaft."""
-        from mechwright_five_bar.mounting import mounting_of
-        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.parts.mounting import mounting_of
 
-        return mounting_of(in_phase(params))
+        return mounting_of(self.table(params))
 
     def transmission(self, params: FiveBarParams) -> "Transmission":
         """Crank in; nothing behind."""
-        from mechwright_five_bar.stage import CouplerStage
+        from mechwright_five_bar.kinematics.transmission import CouplerStage
 
-        return CouplerStage(params)
+        return CouplerStage(self.table(params))
 
     def settings(self, params: FiveBarParams) -> Mapping[str, FiveBarParams]:
         """The other phases that the pivots of the coupler and the arm's gear are set to."""
@@ -92,26 +91,37 @@ class FiveBars(Family[FiveBarParams]):
 
     def as_made(self, params: FiveBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the coupler point, from bores and pins."""
-        from mechwright_five_bar.as_made import as_made
-        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.as_made.bores import as_made
 
-        return as_made(in_phase(params), made)
+        return as_made(self.table(params), made)
 
     def tolerances(self, params: FiveBarParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the coupler point, from links, pins and the play of the gears."""
-        from mechwright_five_bar.phases import in_phase
-        from mechwright_five_bar.tolerances import FiveBarTolerances
+        from mechwright_five_bar.as_made.tolerances import FiveBarTolerances
 
-        return FiveBarTolerances(in_phase(params), tolerances)
+        return FiveBarTolerances(self.table(params), tolerances)
 
-    def evaluate(
-        self, batch: "Batch[FiveBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Many at once, where the crank turns fully and gears stand in line; forces one by one."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_five_bar.evaluation import answer
+    def figures(self, table: "DesignTable[FiveBarParams]") -> "Mapping[str, Figure]":
+        """Transmission, swing or turns, peaks, and masses of bodies."""
+        from mechwright_five_bar.kinematics.figures import figures_of
+        from mechwright_five_bar.parts.masses import body_masses
 
-        return by_arrays(self, batch, columns, stage, answer)
+        m = cast("FiveBarTable", table)
+        return figures_of(m) | body_masses(m)
+
+    def extremes(
+        self, table: "DesignTable[FiveBarParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Angles, rates and the coupler point; forces need the masses of the parts."""
+        from mechwright_five_bar.kinematics.channels import extremes_of
+
+        return extremes_of(cast("FiveBarTable", table), names)
+
+    def masses(self, table: "DesignTable[FiveBarParams]") -> "Mapping[str, PartMass] | None":
+        """Plates, gears, pins, bushings and posts of designs of one phase."""
+        from mechwright_five_bar.parts.masses import masses_of
+
+        return masses_of(cast("FiveBarTable", table))
 
     def synthesise(
         self,
@@ -120,17 +130,6 @@ class FiveBars(Family[FiveBarParams]):
         progress: "Progress",
     ) -> "Synthesis[FiveBarParams]":
         """Machines whose coupler point follows a path in each of several phases."""
-        from mechwright_five_bar.adjustable_synthesis import through_phases
+        from mechwright_five_bar.synthesis.adjustable import through_phases
 
         return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)
-
-
-def _with_settings(
-    params: FiveBarParams, findings: Callable[[FiveBarParams], Sequence[Finding]]
-) -> Sequence[Finding]:
-    """What is found of a design, unless it cannot be set to its phases."""
-    from mechwright_five_bar.clamp_checks import setting_findings
-    from mechwright_five_bar.phases import in_phase
-
-    own = tuple(setting_findings(params))
-    return own if errors(own) else (*findings(in_phase(params)), *own)

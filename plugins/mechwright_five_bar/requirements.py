@@ -6,7 +6,7 @@ from pydantic import Field
 
 from mechwright.mechanics.adjustable.requirement import Coordinate, PhasedPath
 from mechwright.units import Millimetres
-from mechwright_five_bar.limits import LEAST_TEETH
+from mechwright_five_bar.defaults.limits import LEAST_TEETH
 
 _TIP = (
     ((-5.77, 187.59), (12.64, 173.08), (24.84, 144.31), (29.0, 103.49)),

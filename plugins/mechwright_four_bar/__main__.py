@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from mechwright.mechanics.algebra.command import locus_command
-from mechwright_four_bar.locus import locus
+from mechwright_four_bar.kinematics.locus import locus
 
 LENGTHS = {"crank": "a", "coupler": "c", "follower": "b", "ground": "f"}
 

@@ -9,12 +9,14 @@ from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.adjustable import Moves, PlaneSpace, settings_of
 from mechwright.mechanics.adjustable.designs import Phased, designs_of
 from mechwright.mechanics.adjustable.machine import DIGITS, Machine
-from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import in_phase
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import in_phase
 from mechwright_four_bar.requirements import LINKS, AdjustablePathRequirement
+from mechwright_four_bar.rules.motion_rules import GOOD_TRANSMISSION
+from mechwright_four_bar.rules.rule_table import findings_of
+from mechwright_four_bar.table import FourBarTable
 
 
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FourBarParams]:
@@ -62,7 +64,7 @@ class PhasedFourBar(Phased[AdjustablePathRequirement, FourBarParams]):
 
     def faults(self, params: FourBarParams) -> Sequence[Finding]:
         """The findings."""
-        return findings(in_phase(params))
+        return tuple(findings_of(FourBarTable.of(in_phase(params))))
 
     def figures(self, one: Machine, k: int) -> dict[str, Scalar]:
         """How a phase is set, and crank and follower at each point."""

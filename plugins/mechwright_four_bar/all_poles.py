@@ -15,7 +15,7 @@ from flint import acb, arb, ctx
 from mechwright import Array
 from mechwright.mechanics.continuation import Balls, Proven, Solutions, all_solutions, read
 from mechwright.mechanics.continuation.certificate import BITS, first_pair_conjugate, place, turned
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.pole_system import TWO_POLES, any_parameters, links
 
 FILE = Path(__file__).with_name("pole_start.npz")

@@ -9,9 +9,11 @@ from pydantic import ValidationError
 from mechwright import Candidate, Rejected, Scalar
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.adjustable.machine import DIGITS
-from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.rules.motion_rules import GOOD_TRANSMISSION
+from mechwright_four_bar.rules.rule_table import findings_of
+from mechwright_four_bar.table import FourBarTable
 
 GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
 """Transmission angle from which a larger one is not worth longer links."""
@@ -124,7 +126,7 @@ def _built(one: Found) -> FourBarParams | tuple[str, str, str]:
         detail = error.errors(include_url=False)[0]
         said = f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
         return "four-bar.out-of-bounds", said, said
-    faults = errors(findings(params))
+    faults = errors(findings_of(FourBarTable.of(params)))
     if not faults:
         return params
     first = faults[0]
@@ -140,7 +142,7 @@ def building(one: Found) -> tuple[int, int, float, float]:
         params = FourBarParams.model_validate(one.table())
     except ValidationError:
         return (2, 0, 0.0, 0.0)
-    told = [finding.severity for finding in findings(params)]
+    told = [finding.severity for finding in findings_of(FourBarTable.of(params))]
     angle = min(one.figures["least_transmission_angle"].value, GOOD_ANGLE)
     longest = one.figures["longest_link"].value
     return int(Severity.ERROR in told), told.count(Severity.WARNING), -round(angle, 6), longest

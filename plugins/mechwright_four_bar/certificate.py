@@ -10,7 +10,7 @@ import numpy as np
 from flint import acb, arb, ctx
 
 from mechwright import Array
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
 
 BITS = 160

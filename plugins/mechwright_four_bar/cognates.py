@@ -16,8 +16,8 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 
 LEAST_SHARE = 1e-6
 """λ or 1 - λ this small: the coupler point is a joint, its curve a circle, and there is no cognate."""

@@ -1,14 +1,16 @@
 """The family ``four-bar``."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import Family, Finding, Parameters, Stage, refuse
-from mechwright.contracts.finding import errors
+import numpy as np
+
+from mechwright import Family, Parameters, Stage, refuse
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import (
     AdjustablePathRequirement,
     PathRequirement,
@@ -18,6 +20,7 @@ from mechwright_four_bar.requirements import (
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -29,7 +32,11 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
+    from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.figure import Figure, PartMass
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_four_bar.table import FourBarTable
 
 
 class FourBars(Family[FourBarParams]):
@@ -40,6 +47,7 @@ class FourBars(Family[FourBarParams]):
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
     Params = FourBarParams
     batch = 1 << 16
+    block = 1 << 14
     requirements: ClassVar = {
         "path": PathRequirement,
         "nine-points": NinePointsRequirement,
@@ -50,53 +58,51 @@ class FourBars(Family[FourBarParams]):
         "swing": SwingRequirement,
     }
 
-    def check(self, params: FourBarParams) -> Sequence[Finding]:
-        """Closure, rotation of the crank, transmission angle, room for bores and webs, layers."""
-        from mechwright_four_bar.checks import findings
+    def rules(self) -> "Rules[FourBarTable]":
+        """Closure, rotation of the crank, transmission angle, room for bores and webs, layers, strength."""
+        from mechwright_four_bar.rules.rule_table import RULES
 
-        return _with_settings(params, findings)
+        return RULES
 
-    def judge(self, params: FourBarParams) -> Sequence[Finding]:
-        """The same without the sizes that would bear a load."""
-        from mechwright_four_bar.checks import judged
+    def table(self, params: FourBarParams, size: int | None = None) -> "FourBarTable":
+        """The machine with its dimensions and its motion."""
+        from mechwright_four_bar.table import FourBarTable
 
-        return _with_settings(params, judged)
+        return FourBarTable.of(params, size)
 
     def solve(self, params: FourBarParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed, or its swing there and back."""
-        from mechwright_four_bar.motion import motion_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.kinematics.motion import motion_of
 
-        return motion_of(in_phase(params), samples)
+        return motion_of(self.table(params), samples)
 
     def stretches(self, params: FourBarParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_four_bar.motion import motion_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.kinematics.motion import motion_of
 
-        return in_stretches(partial(motion_of, in_phase(params)), samples)
+        return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
         """Ground, crank, coupler and follower as plates, their pins and bushings."""
-        from mechwright_four_bar.phases import in_phase
-        from mechwright_four_bar.plates import parts_of
+        from mechwright.mechanics.linkage.parts.parts import parts_of
+        from mechwright_four_bar.parts.marks import COLOURS, scales
 
         refuse(self.check(params))
-        return parts_of(in_phase(params))
+        table = self.table(params)
+        return parts_of(table.layout, COLOURS, scales(table.params))
 
     def mounting(self, params: FourBarParams) -> "GroundPlate":
         """Its one ground plate with the crank's shaft."""
-        from mechwright_four_bar.mounting import mounting_of
-        from mechwright_four_bar.phases import in_phase
+        from mechwright.mechanics.linkage.parts.mounting import mounting_of
 
-        return mounting_of(in_phase(params))
+        return replace(mounting_of(self.table(params).layout), offset=None)
 
     def transmission(self, params: FourBarParams) -> "Transmission":
         """Crank in, follower out."""
-        from mechwright_four_bar.stage import FollowerStage
+        from mechwright_four_bar.kinematics.transmission import FollowerStage
 
-        return FollowerStage(params)
+        return FollowerStage(self.table(params))
 
     def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
         """The other phases that the pivots of the coupler are set to."""
@@ -106,26 +112,45 @@ class FourBars(Family[FourBarParams]):
 
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
-        from mechwright_four_bar.as_made import as_made
-        from mechwright_four_bar.phases import in_phase
+        from mechwright_four_bar.tolerances import as_made
 
-        return as_made(in_phase(params), made)
+        return as_made(self.table(params), made)
 
     def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the follower's angle and of the coupler point, from links and pins."""
-        from mechwright_four_bar.phases import in_phase
         from mechwright_four_bar.tolerances import FourBarTolerances
 
-        return FourBarTolerances(in_phase(params), tolerances)
+        return FourBarTolerances(self.table(params), tolerances)
+
+    def figures(self, table: "DesignTable[FourBarParams]") -> "Mapping[str, Figure]":
+        """Transmission angles, limits, swings, peaks of the follower."""
+        from mechwright_four_bar.kinematics.study import study_figures
+
+        return study_figures(cast("FourBarTable", table))
+
+    def extremes(
+        self, table: "DesignTable[FourBarParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Those of links and point, by compiled chains."""
+        from mechwright_four_bar.kinematics.study import extremes
+
+        return extremes(cast("FourBarTable", table), names)
+
+    def masses(self, table: "DesignTable[FourBarParams]") -> "Mapping[str, PartMass]":
+        """Those of the plates that no layer decides."""
+        from mechwright_four_bar.kinematics.study import masses_of
+
+        return masses_of(cast("FourBarTable", table))
 
     def evaluate(
         self, batch: "Batch[FourBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
     ) -> "Columns":
-        """Many at once, where they are plain and may have two ground plates; forces and masses one by one."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_four_bar.evaluation import answer
+        """Many at once by tables; designs of several phases one by one."""
+        if not batch.content.get("phases"):
+            return super().evaluate(batch, columns, stage)
+        from mechwright.contracts.singly import singly
 
-        return by_arrays(self, batch, columns, stage, answer)
+        return singly(self, batch, columns, stage, np.arange(len(batch)))
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
@@ -158,16 +183,3 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.pole_synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)
-
-
-def _with_settings(
-    params: FourBarParams, findings: Callable[[FourBarParams], Sequence[Finding]]
-) -> Sequence[Finding]:
-    """What is found of the machine as it is set now, and of how it is set to other phases."""
-    from mechwright_four_bar.phase_checks import setting_findings
-    from mechwright_four_bar.phases import in_phase
-
-    own = tuple(setting_findings(params))
-    if errors(own):
-        return own
-    return (*findings(in_phase(params)), *own)

@@ -25,7 +25,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 
 SPREAD = 100.0
 """Starts have cranks and dyads between 1/SPREAD and SPREAD ground lines: beyond that nothing can be built."""

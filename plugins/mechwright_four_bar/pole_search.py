@@ -10,7 +10,7 @@ from mechwright import Array
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright_four_bar.all_poles import Linkage
 from mechwright_four_bar.certificate import certain_residual, polished
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
 
 RESIDUAL = 1e-10

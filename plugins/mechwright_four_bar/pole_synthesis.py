@@ -8,8 +8,8 @@ from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
 from mechwright_four_bar.all_poles import AllPoles, all_linkages
 from mechwright_four_bar.candidates import Found, buildable
-from mechwright_four_bar.dimensions import Kind
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import Kind
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import PoleSolution, completed, search
 from mechwright_four_bar.requirements import PolesRequirement

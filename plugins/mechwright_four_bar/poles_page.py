@@ -1,17 +1,17 @@
 """The page of the coupler's acceleration poles."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from numpy.typing import ArrayLike
 
-from mechwright.build.poles import Coupler, PolesPage
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_four_bar.change_point import close_through
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop, close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright.pipeline.poles import NAME, Coupler, PolesPage
+from mechwright_four_bar.kinematics.change_point import close_through
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import Loop, close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 
 
 class FourBarPoles(PolesPage):
@@ -20,10 +20,10 @@ class FourBarPoles(PolesPage):
     name = "four-bar-poles"
     family = "four-bar"
 
-    def coupler(self, params: FourBarParams) -> Coupler:
+    def couplers(self, params: FourBarParams) -> Mapping[str, Coupler]:
         """The coupler, on both branches where it keeps to one."""
-        bar, course = bar_of(params), course_of(params)
-        through = bar.lines_up and not course.rocks
+        table = FourBarTable.of(params)
+        bar, course, through = table.bar, table.closed_ways.course, bool(table.through)
         both = (bar,) if through else (bar, replace(bar, branch=-bar.branch))
 
         def loop(one: FourBar, phi: ArrayLike) -> Loop:
@@ -38,4 +38,4 @@ class FourBarPoles(PolesPage):
             a, b = complex(found.joint_a[0]), complex(found.joint_b[0])
             return {"A0": 0j, "A": a, "B": b, "B0": pivot}, [(0j, a, b, pivot)]
 
-        return Coupler(course, moved, drawn, bar.coupler)
+        return {NAME: Coupler(course, moved, drawn, bar.coupler)}

@@ -21,8 +21,8 @@ import numpy as np
 from mechwright import Array, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.synthesis import ALIKE
 from mechwright_four_bar.candidates import Found, buildable
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import SwingRequirement
 
 GRID, ROUNDS = 2000, 6

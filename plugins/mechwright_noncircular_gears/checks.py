@@ -94,9 +94,9 @@ def _of_the_parts(params: NoncircularParams, *, advise: bool = True) -> tuple[Fi
         partial(one, advise=advise)
         for one in (convexity_findings, undercut_findings, cusp_findings, fillet_findings, _drive)
     )
-    teeth = (_size, _profile, hollow, room_findings, sector_findings, _land, undercut)
+    teeth = (_size, _profile, hollow, room_findings, _opening, sector_findings, _land, undercut)
     tips = (cusp, _tip, fillet)
-    return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _opening, rim_findings, drive)))
+    return tuple(at_stage(Stage.PARTS, until_error(params, *teeth, *tips, _rims, rim_findings, drive)))
 
 
 _UNADVISED = partial(law_findings, advise=False), partial(_of_the_parts, advise=False)
@@ -152,8 +152,9 @@ def _opening(params: NoncircularParams) -> Iterator[Finding]:
     if not found and params.keyway_width > 0:
         found += keyed_findings(params)
     yield from found
-    if errors(found):
-        return
+
+
+def _rims(params: NoncircularParams) -> Iterator[Finding]:
     rims = [
         finding
         for gear in range(1 if params.internal else 2)

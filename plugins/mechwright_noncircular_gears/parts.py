@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from mechwright import Bore, Colour, Feature, FittingMark, Instance, Outline, Part, Point, Profile
+from mechwright import Bore, Colour, Feature, FittingMark, Instance, Measure, Outline, Part, Point, Profile
 from mechwright.geometry import Loop
-from mechwright.mechanics.gearing import SectorTeeth, Teeth, tip_sites
+from mechwright.mechanics.gearing import SectorTeeth, Teeth, gear_measures, tip_sites
 from mechwright.mechanics.gearing.usual import DOT
 from mechwright.mechanics.openings import opening_of
 from mechwright_noncircular_gears.gear import NAMES, outlines_of, rim_of, teeth_of
@@ -24,9 +24,17 @@ def parts_of(params: NoncircularParams) -> tuple[Part, ...]:
     marks = _marks(params)
     made_of = (_gear, _ring if params.internal else _gear)
     return tuple(
-        _part(params, name, outline, features(params, outline), mark)
-        for name, outline, features, mark in zip(NAMES, outlines_of(params), made_of, marks, strict=True)
+        _part(params, name, outline, features(params, outline), mark, measures)
+        for name, outline, features, mark, measures in zip(
+            NAMES, outlines_of(params), made_of, marks, _measures(params), strict=True
+        )
     )
+
+
+def _measures(params: NoncircularParams) -> tuple[tuple[Measure, ...], tuple[Measure, ...]]:
+    """Over pins, or between them in a ring."""
+    one, two = teeth_of(params)
+    return gear_measures(one), gear_measures(two, inside=params.internal)
 
 
 def _gear(params: NoncircularParams, outline: Outline) -> list[Feature]:
@@ -67,7 +75,12 @@ def _ring(params: NoncircularParams, outline: Outline) -> list[Feature]:
 
 
 def _part(
-    params: NoncircularParams, name: str, outline: Outline, features: list[Feature], mark: FittingMark
+    params: NoncircularParams,
+    name: str,
+    outline: Outline,
+    features: list[Feature],
+    mark: FittingMark,
+    measures: tuple[Measure, ...],
 ) -> Part:
     return Part(
         name,
@@ -77,6 +90,7 @@ def _part(
         instances=(Instance(name, 0.0, COLOURS[name]),),
         machined=tuple(features),
         marks=(mark,),
+        measures=measures,
     )
 
 

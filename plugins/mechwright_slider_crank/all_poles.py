@@ -15,7 +15,7 @@ from flint import acb, ctx
 
 from mechwright.mechanics.continuation import Balls, Proven, Solutions, all_solutions, read
 from mechwright.mechanics.continuation.certificate import BITS, first_pair_conjugate, place, turned
-from mechwright_slider_crank.figures import crank_turns
+from mechwright_slider_crank.kinematics.limits import crank_turns
 from mechwright_slider_crank.pole_system import TWO_POLES, any_parameters, lengths, rates
 
 FILE = Path(__file__).with_name("pole_start.npz")

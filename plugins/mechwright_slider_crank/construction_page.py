@@ -3,10 +3,10 @@
 import math
 from collections.abc import Mapping
 
-from mechwright.build import Build, FileName, Page, Wanted
-from mechwright.build.figures import Figure, Grid, figures_page
+from mechwright.pipeline import Build, FileName, Page, Wanted
+from mechwright.pipeline.figures import Figure, Grid, figures_page
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 NAME = "construction.html"
 """The file."""
@@ -37,7 +37,7 @@ class ConstructionPage(Page):
 
 def constructed(params: SliderCrankParams) -> tuple[AuxiliaryCircle, Found] | None:
     """The circle of a design's stroke and time ratio, and the design on it; None where there is none."""
-    from mechwright_slider_crank.figures import crank_turns, limits
+    from mechwright_slider_crank.kinematics.limits import crank_turns, limits
 
     linkage = params.linkage
     if not crank_turns(params.crank, params.rod, params.offset) or linkage.at_limit:

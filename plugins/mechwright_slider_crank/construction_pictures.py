@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright.build.figures.sheet import INK, LINKS, Window
 from mechwright.mechanics.planar import Plane
+from mechwright.pipeline.figures.sheet import INK, LINKS, Window
 from mechwright_slider_crank.circle import AuxiliaryCircle, Found
 
 GIVEN, FREE, BLOCKED, NONE, NEW = "#1f5fa8", "#2e7d32", "#8a5a00", "#b3261e", "#6a3d9a"

@@ -2,10 +2,10 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import Family, Finding, Parameters, Stage, refuse
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright import Family, Parameters, refuse
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.requirements import (
     PathRequirement,
     PolesRequirement,
@@ -14,6 +14,7 @@ from mechwright_slider_crank.requirements import (
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         GroundPlate,
         MadePart,
@@ -26,7 +27,12 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure, PartMass
+    from mechwright.contracts.motion import Channel
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_slider_crank.kinematics.mechanism import Mechanism
+    from mechwright_slider_crank.table import SliderCrankTable
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -43,71 +49,89 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         "path": PathRequirement,
     }
 
-    def check(self, params: SliderCrankParams) -> Sequence[Finding]:
-        """Full turn, transmission angle, walls, widths, layers, pins, and the figures worth knowing."""
-        from mechwright_slider_crank.checks import findings
+    def rules(self) -> "Rules[Mechanism]":
+        """Closure, full turn, transmission angle, walls, layers, strength, and the figures worth knowing."""
+        from mechwright_slider_crank.rules.rule_table import RULES
 
-        return findings(params)
+        return RULES
 
-    def judge(self, params: SliderCrankParams) -> Sequence[Finding]:
-        """The same without the sizes that would bear a load."""
-        from mechwright_slider_crank.checks import judged
+    def table(self, params: SliderCrankParams, size: int | None = None) -> "SliderCrankTable":
+        """The linkage with its machine and its sizes."""
+        from mechwright_slider_crank.table import SliderCrankTable
 
-        return judged(params)
+        return SliderCrankTable.of(params, size)
 
     def solve(self, params: SliderCrankParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed."""
-        from mechwright_slider_crank.motion import motion_of
+        from mechwright_slider_crank.kinematics.motion import motion_of
 
-        return motion_of(params, samples)
+        return motion_of(self.table(params), samples)
 
     def stretches(self, params: SliderCrankParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_slider_crank.motion import motion_of
+        from mechwright_slider_crank.kinematics.motion import motion_of
 
-        return in_stretches(partial(motion_of, params), samples)
+        return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
         """Base, rails, crank, rod, slider, and the turned parts that join them."""
-        from mechwright_slider_crank.checks import findings
-        from mechwright_slider_crank.plates import parts_of
+        from mechwright_slider_crank.parts.parts import parts_of
 
-        refuse(findings(params))
-        return parts_of(params)
+        refuse(self.check(params))
+        return parts_of(self.table(params))
 
     def mounting(self, params: SliderCrankParams) -> "GroundPlate":
         """The base, if it has holes for the screws of legs."""
-        from mechwright_slider_crank.mounting import mounting_of
+        from mechwright_slider_crank.parts.mounting import mounting_of
 
-        return mounting_of(params)
+        return mounting_of(self.table(params))
 
     def transmission(self, params: SliderCrankParams) -> "Transmission":
         """Crank in; the slider is no shaft."""
-        from mechwright_slider_crank.stage import SliderStage
+        from mechwright_slider_crank.kinematics.stage import SliderStage
 
-        return SliderStage(params)
+        return SliderStage(self.table(params))
 
     def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""
-        from mechwright_slider_crank.as_made import as_made
+        from mechwright_slider_crank.as_made.plates import as_made
 
-        return as_made(params, made)
+        return as_made(self.table(params), made)
 
     def tolerances(self, params: SliderCrankParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the slider's position and of the coupler point, from links, pins and guide."""
-        from mechwright_slider_crank.tolerances import SliderCrankTolerances
+        from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 
-        return SliderCrankTolerances(params, tolerances)
+        return SliderCrankTolerances(self.table(params), tolerances)
 
-    def evaluate(
-        self, batch: "Batch[SliderCrankParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Many at once, where they have a disc and a straight rod; forces one by one."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_slider_crank.evaluation import answer
+    def figures(self, table: "DesignTable[SliderCrankParams]") -> "Mapping[str, Figure]":
+        """Ends of the stroke, transmission angle, peaks, masses and balance."""
+        from mechwright_slider_crank.kinematics.figures import figures
 
-        return by_arrays(self, batch, columns, stage, answer)
+        return figures(cast("Mechanism", table))
+
+    def channels(self, table: "DesignTable[SliderCrankParams]", samples: int) -> "Mapping[str, Channel]":
+        """What crank, rod, slider and the rod's point do."""
+        from mechwright_slider_crank.kinematics.motion import channels_over
+
+        return channels_over(cast("Mechanism", table), samples)
+
+    def extremes(
+        self, table: "DesignTable[SliderCrankParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Those of compiled motion; of linkages at their limits those of samples."""
+        from mechwright_slider_crank.kinematics.extremes import extremes
+
+        found = extremes(cast("Mechanism", table), names)
+        rest = [name for name in names if name not in found]
+        return {**found, **super().extremes(table, rest)} if rest else found
+
+    def masses(self, table: "DesignTable[SliderCrankParams]") -> "Mapping[str, PartMass] | None":
+        """Of designs with a disc and a straight rod."""
+        from mechwright_slider_crank.parts.masses import masses_of
+
+        return masses_of(cast("Mechanism", table))
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

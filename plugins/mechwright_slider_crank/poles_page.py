@@ -1,14 +1,15 @@
 """The page of the rod's acceleration poles."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from mechwright.build.poles import Coupler, PolesPage
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_slider_crank.course import course_of
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright.pipeline.poles import NAME, Coupler, PolesPage
+from mechwright_slider_crank.kinematics.course import course_of
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 
 class SliderCrankPoles(PolesPage):
@@ -17,7 +18,7 @@ class SliderCrankPoles(PolesPage):
     name = "slider-crank-poles"
     family = "slider-crank"
 
-    def coupler(self, params: SliderCrankParams) -> Coupler:
+    def couplers(self, params: SliderCrankParams) -> Mapping[str, Coupler]:
         """The rod, in both assemblies where it keeps to one."""
         linkage = params.linkage
         both = (linkage,) if linkage.at_limit else (linkage, replace(linkage, branch=-linkage.branch))
@@ -31,4 +32,4 @@ class SliderCrankPoles(PolesPage):
             along = np.exp(1j * linkage.direction) * linkage.crank / 2
             return {"A0": 0j, "A": a, "B": b}, [(0j, a, b), (b - along, b + along)]
 
-        return Coupler(course_of(params), moved, drawn, linkage.rod)
+        return {NAME: Coupler(course_of(Mechanism.of(params)), moved, drawn, linkage.rod)}

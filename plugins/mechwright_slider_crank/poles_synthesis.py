@@ -18,7 +18,7 @@ from mechwright import Array
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright.mechanics.planar import Plane
 from mechwright_slider_crank.all_poles import Linkage
-from mechwright_slider_crank.figures import least_transmission_angle
+from mechwright_slider_crank.kinematics.limits import least_transmission_angle
 from mechwright_slider_crank.pole_equations import PoleProblem
 
 ACCURACY = 1e-10
@@ -69,7 +69,7 @@ class Found:
     @property
     def transmission(self) -> float:
         """Least transmission angle, rad."""
-        return least_transmission_angle(self.crank, self.rod, self.offset)
+        return float(least_transmission_angle(self.crank, self.rod, self.offset))
 
 
 def through_poles(

@@ -8,7 +8,7 @@ from mechwright import Parameters
 from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.mechanics.tracing.requirement import PlanePath
 from mechwright.units import Degrees, Millimetres, Ratio, Unit
-from mechwright_slider_crank.params import LONGEST
+from mechwright_slider_crank.parameters import LONGEST
 
 Length = Annotated[float, Field(ge=0.5, le=LONGEST), Unit("mm")]
 Coordinate = Annotated[float, Field(ge=-LONGEST, le=LONGEST), Unit("mm")]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright import KinematicsError
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 _GRID = 4096
 """Positions of a turn; two reversals less than a tenth of a degree apart belong to no crank that turns."""
@@ -29,7 +29,7 @@ def simulated(linkage: SliderCrank) -> tuple[float, float]:
     (101.01789771, 1.066563892)
     """
     grid = np.linspace(0, math.tau, _GRID + 1)
-    velocity = linkage.rates(grid)[1]
+    velocity = linkage.velocities(grid)
     if not np.isfinite(velocity).all():
         raise KinematicsError("the crank does not get round: the linkage cannot be assembled everywhere")
     velocity[-1] = velocity[0]  # one place: without an offset the slider reverses just there
@@ -40,7 +40,7 @@ def simulated(linkage: SliderCrank) -> tuple[float, float]:
     low, high, before = grid[turns], grid[turns + 1], rising[turns]
     for _ in range(_STEPS):
         middle = (low + high) / 2
-        same = (linkage.rates(middle)[1] > 0) == before
+        same = (linkage.velocities(middle) > 0) == before
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     ends = (low + high) / 2
     position = linkage.positions(ends)

@@ -12,14 +12,15 @@ from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
 from mechwright_slider_crank.all_poles import AllPoles, all_linkages
-from mechwright_slider_crank.checks import findings
-from mechwright_slider_crank.figures import least_transmission_angle
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.kinematics.limits import least_transmission_angle
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.parts.dimensions import dimensions_of
 from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, completed, through_poles
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
+from mechwright_slider_crank.rules.rule_table import RULES
 from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.sizes import sizes_of
 from mechwright_slider_crank.stroke import Lengths, bounds, lengths_of
+from mechwright_slider_crank.table import SliderCrankTable
 
 Design = SliderCrankParams
 
@@ -43,11 +44,11 @@ def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
-    sizes, why = sizes_of(usual), ""
+    sizes, why = dimensions_of(usual), ""
     for share, shape in product(_PIN_SHARES, ("disc", "arm")):
         thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * sizes.pin, 1))}
         params = Design.model_validate({**lengths, **thinner, "crank_shape": shape})
-        found = errors(findings(params))
+        found = errors(RULES.findings(SliderCrankTable.of(params), quick=True))
         if not found:
             return params, ""
         why = why or f"{found[0].parameter}: {found[0].message}"

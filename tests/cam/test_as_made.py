@@ -167,7 +167,7 @@ def test_an_outline_that_no_program_closes_is_a_finding_with_the_limit():
     first = max(i for i in range(last) if "Z-" in lines[i])
     (part,) = made("\n".join(lines[:first] + lines[last + 1 :]), plate_job())
     (finding,) = not_closed(part)
-    assert (finding.severity, finding.stage, finding.limit) == (Severity.ERROR, Stage.MACHINING, 0.01)
+    assert (finding.severity, finding.stage, finding.limit) == (Severity.ERROR, Stage.OUTPUT, 0.01)
     assert "no closed outline" in finding.message
     assert "limit is 0.01 mm" in finding.message
     assert not not_closed(made(text, plate_job())[0])

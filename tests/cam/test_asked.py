@@ -13,7 +13,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from mechwright.build import Build
 from mechwright.cli.app import make_app
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.finding import errors
@@ -21,6 +20,7 @@ from mechwright.contracts.moments import volume
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.errors import DesignError, GeometryError
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import dxf
 from mechwright_cad.solids.solid import part_solid

@@ -14,7 +14,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright import Instance, Part
-from mechwright.build import Build, Wanted
 from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses
@@ -22,6 +21,7 @@ from mechwright.contracts.part import Bore
 from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 from mechwright.standards.bushes import bush_for

@@ -11,13 +11,13 @@ from by_night import by_night
 from cam.replay import met
 
 from mechwright import Instance, Part
-from mechwright.build import Build, Wanted
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.shape import Shape, box
 from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 from mechwright.standards.circlips import shaft_circlip

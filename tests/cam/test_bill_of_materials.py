@@ -10,12 +10,12 @@ import cadquery as cq
 import numpy as np
 import pytest
 
-from mechwright.build import Blank, Build, Wanted
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.materials import material
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.turned import tube
 from mechwright.geometry import Loop, Outline
+from mechwright.pipeline import Blank, Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearing
 from mechwright.standards.dowels import dowel_for

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from mechwright import Part
-from mechwright.build import Build, Wanted
 from mechwright.designs.change import changed
 from mechwright.designs.design import design_of, load
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright_cad.bodies import bodies_of
 from mechwright_cad.contacts.engaged import disengaged

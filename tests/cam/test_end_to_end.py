@@ -18,10 +18,10 @@ from rs274 import needs_rs274, run_rs274
 from step_read import read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.build import Build
 from mechwright.contracts.finding import Stage, errors
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import StepExporter
 from mechwright_cam.commands.verify import scene_of

@@ -234,3 +234,90 @@ def test_another_page_that_searches_is_told(asked):
         page, FOUND + " || document.getElementById('seeking').textContent.includes('Another page searches')"
     )
     other.close()
+
+
+@pytest.fixture
+def drawing(browser, tmp_path):
+    """A page of a drawn linkage, without its frame."""
+    path = tmp_path / "drawn-ram.toml"
+    text = (ROOT / "examples" / "linkages" / "drawn-ram.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace('[machine]\nframe = "base"\nmotor = "auto"\n', ""), encoding="utf-8")
+    server = Page(path)
+    context = browser.new_context(viewport={"width": 1400, "height": 900})
+    page = context.new_page()
+    said = []
+    page.on("console", lambda message: said.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto(f"http://127.0.0.1:{server.port}/{server.token}/")
+    page.wait_for_selector("#picture path.part")
+    yield page, server
+    assert said == []
+    context.close()
+    server.end()
+
+
+def value_of(name):
+    return f"document.querySelector('.grip[data-name=\"{name}\"]')?.getAttribute('aria-valuetext')"
+
+
+def test_a_point_of_a_drawn_linkage_is_dragged_undone_and_saved(drawing):
+    page, server = drawing
+    assert page.evaluate("[...document.querySelectorAll('.grip')].map((one) => one.dataset.name).join()") == (
+        "O,A,B,B0,C,D"
+    )
+    assert page.locator('.grip[data-name="B0"] text').text_content() == "B0"
+    before = page.evaluate("document.querySelector('#picture').innerHTML")
+    box = page.locator('.grip[data-name="C"] .ring').bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 12, y - 6, steps=4)
+    page.mouse.up()
+    until(page, "document.title.startsWith('•')")
+    until(
+        page,
+        f"{value_of('C')} && {value_of('C')} !== '110, 90 mm' && document.querySelector('#picture path.part')",
+    )
+    assert page.evaluate("document.querySelector('#picture').innerHTML") != before
+    moved = [float(part) for part in page.evaluate(value_of("C")).removesuffix(" mm").split(",")]
+    page.click("#undo")
+    until(page, f"{value_of('C')} === '110, 90 mm'")
+    page.click("#redo")
+    until(page, f"{value_of('C')} !== '110, 90 mm'")
+    page.click("#save")
+    until(page, "document.getElementById('banner').textContent.includes('saved')")
+    point = load(server.path, host()).params.points["C"]
+    assert [point.x, point.y] == pytest.approx(moved, abs=0.01)
+    page.locator('.grip[data-name="D"]').focus()
+    page.keyboard.press("ArrowRight")
+    until(page, f"{value_of('D')} !== '200, 80 mm'")
+    until(page, "document.activeElement?.dataset?.name === 'D'")
+
+
+def test_a_linkage_that_is_chosen_brings_its_fields(browser, tmp_path):
+    path = tmp_path / "klann.toml"
+    path.write_text('format = 1\nfamily = "linkage"\nname = "klann"\n[parameters]\nlinkage = "klann"\n')
+    server = Page(path)
+    page = browser.new_page()
+    page.goto(f"http://127.0.0.1:{server.port}/{server.token}/")
+    page.wait_for_selector("#picture path.part")
+    tables = (
+        "[...new Set([...document.querySelectorAll('.field')].map((one) => one.dataset.key.split('.')).filter((one) =>"
+        " one[0] === 'parameters' && one.length > 2).map((one) => one[1]))].join()"
+    )
+    assert page.evaluate(tables) == "klann"
+    page.select_option("[id='field-parameters.linkage']", "hoecken")
+    until(page, f"{tables} === 'hoecken'")
+    page.fill("[id='field-parameters.hoecken.crank']", "22")
+    page.press("[id='field-parameters.hoecken.crank']", "Enter")
+    until(
+        page,
+        "document.querySelector('[data-key=\"parameters.hoecken.crank\"]').classList.contains('changed')",
+    )
+    page.click("#save")
+    until(page, "document.getElementById('banner').textContent.includes('saved')")
+    saved = load(path, host()).params
+    assert (saved.linkage, saved.hoecken.crank) == ("hoecken", 22.0)
+    until(page, f"{tables} === 'hoecken'")
+    page.close()
+    server.end()

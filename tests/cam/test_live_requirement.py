@@ -110,7 +110,9 @@ def test_a_newer_question_ends_the_older_search(tmp_path):
     seeking = Seeking(path)
     try:
         seeking.start({"requirement.starts": 1_000_000}, "slow")
-        first = seeking._run.beside._process
+        (worker,), end = seeking._run.pool._workers, time.monotonic() + 60
+        while (first := worker._process) is None and time.monotonic() < end:
+            time.sleep(0.01)
         number = seeking.state()["number"]
         seeking.start({"requirement.starts": 1_000_000}, "slower")
         assert first.poll() is not None, "two searches would share the processor"

@@ -13,9 +13,9 @@ from by_night import by_night, thinned
 from klartext_blocks import anew
 from machine_programs import job_of, text_of
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.errors import ProgramError
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.machining import Machining
 from mechwright_cam.setup.job import Job
 

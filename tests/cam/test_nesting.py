@@ -32,6 +32,7 @@ from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, 
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAIR = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
@@ -203,8 +204,12 @@ def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
     assert apart[0] < 30
     with pytest.raises(DesignError, match="no two plates are alike"):
         nested(tmp_path, '[cam.nest]\n[cam.part.gear]\norigin = "corner"\n')
-    of_nest = nested(tmp_path, '[cam.nest]\n[cam.part.nest]\nwork_offset = "G57"\n')
-    assert of_nest[0].settings.work_offset == "G57"
+    (nest,) = nested(tmp_path, '[cam.nest]\n[cam.part.nest]\nwork_offset = "G57"\n')
+    assert nest.settings.work_offset == "G57"
+
+
+def laid(file, parts):
+    return arranged(file, settings_of(load(file, host())), parts, LIBRARY)
 
 
 def names_of(tmp_path, table, *parts):
@@ -212,7 +217,7 @@ def names_of(tmp_path, table, *parts):
     file.write_text(PAIR + table)
     return [
         [one.label for one in part.placed] if isinstance(part, Nest) else part.name
-        for part in arranged(load(file, host()), parts, LIBRARY)
+        for part in laid(file, parts)
     ]
 
 
@@ -241,7 +246,7 @@ def test_turn_is_asked_for_in_the_table(tmp_path):
     for turn in ("true", "false"):
         file.write_text(PAIR + f"[cam.nest]\nturn = {turn}\n")
         parts = [box("long", 100, 20), box("tall", 20, 100)]
-        (nest,) = arranged(load(file, host()), parts, LIBRARY)
+        (nest,) = laid(file, parts)
         angles.append([one.angle for one in nest.placed])
     assert any(angles[0])
     assert not any(angles[1])
@@ -251,7 +256,7 @@ def test_between_two_channels_a_frame_of_3_mm_stays(tmp_path):
     file = tmp_path / "pair.toml"
     file.write_text(PAIR + "[cam.nest]\n")
     parts = [box("one", 30, 20), box("other", 30, 20)]
-    (nest,) = arranged(load(file, host()), parts, LIBRARY)
+    (nest,) = laid(file, parts)
     channel = channel_of(parts, CamSettings(), LIBRARY)
     assert channel > 1
     one, other = (placed.outline.polygon() for placed in nest.placed)

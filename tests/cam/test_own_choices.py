@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from by_night import by_night
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.finding import Severity
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.machining import Machining
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

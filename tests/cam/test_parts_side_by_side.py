@@ -13,11 +13,11 @@ from planning_parts import LIBRARY, bore, rounded_box
 
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Bore, Part, Profile
-from mechwright.cores import keeping
 from mechwright.errors import ToolError
 from mechwright.geometry import Outline
-from mechwright.scripting import shares
-from mechwright.scripting.shares import shared
+from mechwright.worker_pool import sharing
+from mechwright.worker_pool.budget import limited_cores
+from mechwright.worker_pool.sharing import shared
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Setups
 from mechwright_cam.planning.assign import Assignments
@@ -61,7 +61,7 @@ def planned_here(monkeypatch):
         return made(self)
 
     monkeypatch.setattr(Setups, "made", noted)
-    monkeypatch.setattr(shares, "BEGINS", 0.0)
+    monkeypatch.setattr(sharing, "START", 0.0)
     return here
 
 
@@ -70,7 +70,7 @@ def test_programs_proofs_and_scenes_are_those_of_one_process(planned_here):
     for count in (1, 2):
         setups = setups_of([plate("short", 30), plate("long", 34)])
         assert [job.side for one in setups for job in one.jobs] == ["top", "underside"] * 2
-        with keeping(count):
+        with limited_cores(count):
             found[count] = shared(Setups.made, setups, [1.0, 1.1], Setups.known)
         for one, items in zip(setups, found[count], strict=True):
             assert items[0].job is one.jobs[0]
@@ -93,5 +93,5 @@ def test_a_part_that_fails_elsewhere_tells_what_it_tells_here(planned_here, orde
     bad = replace(setups[0], jobs=(replace(job, tools=job.tools[:1]),))
     with pytest.raises(ToolError) as alone:
         bad.made()
-    with keeping(2), pytest.raises(ToolError, match=f"^{re.escape(str(alone.value))}$"):
+    with limited_cores(2), pytest.raises(ToolError, match=f"^{re.escape(str(alone.value))}$"):
         shared(Setups.made, [setups[1], bad][::order], [1.0, 1.0], Setups.known)

@@ -98,8 +98,8 @@ def test_a_program_is_read_once_for_its_proof_and_its_pictures(monkeypatch: pyte
         (lambda _: sys.exit(0), f"{WHO}ends the program by sys.exit(0)"),
         (lambda _: (_ for _ in ()).throw(ToolError("blunt")), "cannot judge the program of plate: blunt"),
         (lambda _: (_ for _ in ()).throw(ValueError("two\nlines")), "ValueError: two lines"),
-        (lambda _: None, f"{WHO}what it gives is None; a Check is wanted"),
-        (lambda _: True, f"{WHO}what it gives is True; a Check is wanted"),
+        (lambda _: None, f"{WHO}gives None; a Check is wanted"),
+        (lambda _: True, f"{WHO}gives True; a Check is wanted"),
         (lambda _: Check("no", "it fails"), f"{WHO}passed of what it gives is 'no'; True or False is wanted"),
     ],
 )

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from mechwright import Bore, Instance, Outline, Part
-from mechwright.build import Build, Wanted
 from mechwright.contracts.bought import BlindThread, Bought
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Profile
 from mechwright.contracts.shape import Shape, ring
 from mechwright.geometry import Loop, circle
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.screws import screw, washer
 from mechwright_cad.bodies import bodies_of

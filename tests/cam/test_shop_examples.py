@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from by_night import in_ci
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.finding import errors
 from mechwright.designs.design import load
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright_cam.machining import Machining
 from mechwright_cam.planning.assign import Assignments

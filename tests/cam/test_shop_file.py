@@ -6,9 +6,9 @@ import pytest
 from by_control import LINUXCNC, asked
 from shop import DRILL, MILL, SPOT, plate_job, plate_program
 
-from mechwright.build import Build, Wanted
 from mechwright.designs.design import load
 from mechwright.errors import DesignError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright_cam.machining import Machining
 from mechwright_cam.planning.prepare import library_of, worn
@@ -130,7 +130,7 @@ def test_plates_that_are_not_in_hand_are_named_with_the_nearest_and_a_remedy(mad
     (stock,) = [one for one in found if one["code"] == "shop.stock"]
     assert "takes a plate of aluminium 10 mm thick; in hand are 8 and 12 mm" in stock["message"]
     assert stock["parameter"] == "thickness"
-    assert stock["remedy"].startswith("make it 8 mm, or add the plate to shop.toml")
+    assert stock["remedy"].startswith("make it 8 mm, or add 10 to the thicknesses of aluminium in shop.toml")
     assert code in {0, 1}
     assert any(one["code"] == "shop.used" and "cellar" in one["message"] for one in found)
 

@@ -7,11 +7,11 @@ import pytest
 import shapely
 from planning_parts import LIBRARY, bore, job, part, plate, rounded_box
 
-from mechwright.build import Build
 from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
+from mechwright.pipeline import Build
 from mechwright.plugins.host import Host, Registered, host
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machining

@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright.cores import together
 from mechwright.geometry.prepared import prepared
+from mechwright.worker_pool.budget import threaded_map
 
 
 def test_results_come_in_the_order_of_the_items() -> None:
-    assert together(lambda n: n * n, range(9)) == [n * n for n in range(9)]
-    assert together(str, []) == []
+    assert threaded_map(lambda n: n * n, range(9)) == [n * n for n in range(9)]
+    assert threaded_map(str, []) == []
 
 
 def test_the_error_of_the_first_item_is_raised() -> None:
@@ -22,11 +22,11 @@ def test_the_error_of_the_first_item_is_raised() -> None:
         return n
 
     with pytest.raises(ValueError, match="1"):
-        together(fail, range(4))
+        threaded_map(fail, range(4))
 
 
 def test_a_single_item_takes_no_thread() -> None:
-    assert together(lambda _: threading.current_thread(), [0]) == [threading.current_thread()]
+    assert threaded_map(lambda _: threading.current_thread(), [0]) == [threading.current_thread()]
 
 
 def test_what_is_prepared_is_a_copy_and_nothing_else_in_cam_prepares():

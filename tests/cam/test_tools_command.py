@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 
-from mechwright.build import Build, Wanted
 from mechwright.contracts.materials import MATERIALS
 from mechwright.designs.design import load
 from mechwright.errors import DesignError, OutputError
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.scripting.provenance import facts
 from mechwright_cam.commands import tool_files
@@ -278,7 +278,7 @@ def test_a_design_with_a_packed_library_is_built_and_tells_what_was_left_out(tmp
     text = command_line("new", "four-bar")[1]
     assert "\n[cam]\n" in text
     design.write_text(text.replace("\n[cam]\n", '\n[cam]\ntool_library = "crib.tools"\n'))
-    code, out, _ = command_line("check", design)
+    code, out, _ = command_line("check", design, "--figures")
     assert code == 0, out
     assert "cam.tool-library" in out
     assert f"mechwright tools {design} lists them" in out

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from mechwright import Channel, Family, Finding, Motion, Parameters, Scalar, Stage
 from mechwright.plugins.host import host
-from mechwright.sweep.study import study_of
+from mechwright.studies.study import study_of
 from mechwright.units import Degrees, Millimetres
 
 

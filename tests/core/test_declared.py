@@ -8,7 +8,7 @@ import sys
 import time
 import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import foreign_plugin
 import numpy as np
@@ -19,10 +19,11 @@ from mechwright.contracts import guard
 from mechwright.contracts.declared import Declared, shown
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding
-from mechwright.contracts.guard import CalledLater
+from mechwright.contracts.guard import CalledLater, UnsoundError
 from mechwright.contracts.load import Load
 from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Scalar, Trace
 from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.plugin import Plugin
 from mechwright.contracts.synthesis import Candidate, Synthesis
 from mechwright.contracts.target import Target
 from mechwright.errors import GeometryError, MechwrightError, PluginFaultError
@@ -130,7 +131,7 @@ PARTS: dict[str, tuple[list[Part], str]] = {
     ),
     "copies that are words": (changed(instances=("b",)), "instances[0] of what it gives is 'b'; an Instance"),
     "no copies": (changed(instances=None), "instances of what it gives is None; a tuple"),
-    "a list, which has no hash": (changed(instances=[Instance("b")]), "; a tuple is wanted"),
+    "a list, which has no hash": (changed(instances=[Instance("b")]), "; a tuple of Instance is wanted"),
     "colours": (changed(colour=("a", 0.0, 0.0)), "colour[0] of what it gives is 'a'; a number"),
     "bright": (changed(colour=(7.0, 0.0, 0.0)), "part 'plate' has the colour (7.0, 0.0, 0.0)"),
     "two shares": (changed(colour=(0.0, 0.0)), "a tuple of 3"),
@@ -341,7 +342,9 @@ def test_a_method_is_guarded_whatever_it_is_and_wherever_from() -> None:
         made(parts=Called()),
         made(parts=functools.partialmethod(elsewhere)),
     ):
-        with pytest.raises(PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): gives 3; parts are wanted"):
+        with pytest.raises(
+            PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): gives 3; a sequence of Part is wanted"
+        ):
             family.parts(Size())
     with pytest.raises(PluginFaultError, match=rf"^{re.escape(WHO)}parts\(\): TypeError"):
         made(parts=None).parts(Size())
@@ -377,3 +380,20 @@ def test_a_name_for_a_kind_is_the_kind() -> None:
     assert Declared().fault(np.zeros(2), array[np.bool_]) == ("", said)
     assert Declared().fault({"a": np.zeros(2)}, named) is None
     assert Declared().fault({"a": (0.0,)}, named) == ("['a']", "is (0.0,); an array of numpy is wanted")
+
+
+def at_least(answer: float, least: float) -> None:
+    if answer < least:
+        raise UnsoundError(f"gives {answer}; {least} is the least")
+
+
+def test_a_contract_says_all_of_an_answer_in_its_annotation() -> None:
+    class Process(Plugin):
+        def kerf(self, least: float) -> Annotated[float, Declared(finite=False), at_least]:
+            return least
+
+    laser: Any = type("Laser", (Process,), {"width": math.inf, "kerf": lambda self, _: self.width})()
+    assert laser.kerf(0.2) == math.inf
+    for laser.width, words in ((0.1, "gives 0.1; 0.2 is the least"), ("q", "gives 'q'; a number is wanted")):
+        with pytest.raises(PluginFaultError, match=words):
+            laser.kerf(0.2)

@@ -6,11 +6,12 @@ from typing import Any
 
 import pytest
 
-from mechwright.build.inspection import Inspection
-from mechwright.build.page import Page
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.plugin import Plugin
 from mechwright.errors import PluginFaultError
+from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.page import Page
 from mechwright.plugins.host import Registered
 
 
@@ -25,7 +26,6 @@ class Files(Page):
 
 class Looks(Inspection):
     name = "looks"
-    commands = frozenset({"check"})
     stage = Stage.PARTS
     gives: Any = None
 
@@ -51,8 +51,8 @@ def registered(plugin: Any, gives: Any) -> Any:
 @pytest.mark.parametrize(
     ("gives", "words"),
     [
-        (None, "what it gives is None; a mapping is wanted"),
-        (3, "what it gives is 3; a mapping is wanted"),
+        (None, "gives None; a mapping is wanted"),
+        (3, "gives 3; a mapping is wanted"),
         ([("a", "b")], "a mapping is wanted"),
         ({"a.txt": None}, r"\['a.txt'\] of what it gives is None; a text or bytes or an iterable is wanted"),
         ({1: "x"}, r"\[1\] of what it gives is 1; a text is wanted"),
@@ -102,3 +102,17 @@ def test_findings_that_come_one_by_one_are_gathered() -> None:
 def test_exporters(gives: object) -> None:
     with pytest.raises(PluginFaultError, match=r"exporter shapes: part\(\): .*; bytes or None is wanted"):
         registered(Shapes(), gives).part(None)
+
+
+def test_a_contract_that_checks_answers_in_the_earlier_way_is_refused_by_name() -> None:
+    class Dance(Plugin):
+        kind = "dance"
+
+        @classmethod
+        def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
+            return answer
+
+    class Waltz(Dance):
+        name = "waltz"
+
+    assert Waltz.fault() == "its contract has sound; annotations of its methods say what they give"

@@ -190,7 +190,7 @@ def test_a_channel_is_named_so_that_it_can_head_a_column(name: str) -> None:
 
 @pytest.mark.parametrize("junk", [None, 3, "text", [None], [3], [Finding], {"a": 1}])
 def test_findings_are_findings(junk: object) -> None:
-    assert told("check", lambda _: junk).startswith("gives ")
+    assert " is wanted" in told("check", lambda _: junk)
     note = Finding.note("a.b", "wrong", float("nan"))
     assert "'a.b' has a figure that is not a number" in told("check", lambda _: [note])
 
@@ -206,8 +206,8 @@ def unclosed(_: object) -> list[Part]:
 
 @pytest.mark.parametrize("size", [1e-9, 1e9])
 def test_parts_can_be_made(size: float) -> None:
-    assert told("parts", lambda _: None).startswith("gives None; parts are wanted")
-    assert told("parts", lambda _: [plate(), 3]).startswith("gives 3 among its parts")
+    assert told("parts", lambda _: None).startswith("gives None; a sequence of Part is wanted")
+    assert told("parts", lambda _: [plate(), 3]).startswith("[1] of what it gives is 3; a Part is wanted")
     assert f"part 'plate' is {size:.3g} mm wide; a part has 0.01 to 100,000 mm" in told(
         "parts", lambda _: [plate(size, 30.0)]
     )

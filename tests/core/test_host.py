@@ -107,6 +107,10 @@ def test_what_is_not_installed_is_named_with_what_is(plugin, what, known):
     ("source", "reason"),
     [
         ("import no_such_module", "ModuleNotFoundError: No module named 'no_such_module'"),
+        (
+            "from mechwright.build import Page",
+            "ModuleNotFoundError: No module named 'mechwright.build'; it is called mechwright.pipeline now",
+        ),
         ("def f(:", "SyntaxError: invalid syntax"),
         ("import sys; sys.exit('no licence')", "SystemExit: no licence"),
         ("raise SystemExit", "SystemExit"),
@@ -194,13 +198,13 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
         ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
         ('title = "Cam"', "", "Cam has no title"),
-        ('summary = "A cam."', "summary = None", "Cam has no summary"),
+        ('summary = "A cam."', "summary = None", "Cam: summary is None; a text is wanted"),
         (
             "Params = Parameters",
             "Params = dict",
-            "Params is no subclass of mechwright.Parameters",
+            "Cam: Params is <class 'dict'>; a class of the kind Parameters is wanted",
         ),
-        ("Params = Parameters", "", "Cam: Params is no subclass"),
+        ("Params = Parameters", "", "Cam has no Params"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
         (
             "def check(self",
@@ -259,7 +263,7 @@ from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 
 class Process(Plugin):
-    kind, plural, texts = "process", "processes", ("title",)
+    kind, plural = "process", "processes"
     @classmethod
     def fault(cls): return "" if cls.name != "bad" else "it is bad"
 

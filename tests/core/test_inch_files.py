@@ -10,7 +10,7 @@ from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import converted, units_of, written
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
-from mechwright.sweep.study import load_study
+from mechwright.studies.study import load_study
 
 INCH = """
 format = 1

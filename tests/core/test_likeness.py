@@ -9,7 +9,7 @@ from mechwright import Candidate, Scalar
 from mechwright.plugins.host import host
 from mechwright.testing.likeness import repeated
 from mechwright_four_bar.cognates import cognates
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 
 LINKS = {"crank": 40.0, "coupler": 120.0, "follower": 80.0, "ground": 100.0}
 POINT = {"coupler_point_x": 60.0, "coupler_point_y": 35.0}

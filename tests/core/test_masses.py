@@ -11,7 +11,7 @@ from mechwright.geometry import Loop
 from mechwright.mechanics.linkage import Boss, hull_link, rectangle, web_link
 from mechwright.mechanics.linkage.areas import hull_area, rectangle_area, two_discs_area, web_area
 from mechwright.plugins.host import host
-from mechwright.sweep.study import study_of
+from mechwright.studies.study import study_of
 
 
 class BlockParams(Parameters):

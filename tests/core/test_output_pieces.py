@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright import load
-from mechwright.build import tables
 from mechwright.contracts import stretch
 from mechwright.contracts.motion import Channel, Motion
 from mechwright.errors import DesignError
 from mechwright.output.folder import MANIFEST, Output, write_folder
+from mechwright.pipeline import tables
 
 
 def test_pieces_are_written_one_after_the_other(tmp_path: Path) -> None:

@@ -20,7 +20,6 @@ from planar_circles import (
 )
 
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning, acceleration_pole
-from mechwright.mechanics.planar.dyad import joined
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())["facts"]
 EXPECTED = {fact["name"]: fact["expected"] for fact in FACTS}
@@ -211,20 +210,3 @@ def test_poses_put_body_points_where_the_motion_says():
     moved = body.poses(5.0).transform(np.array([[2.0, -1.0, 0.5]]))[:, 0]
     point = body.point(2 - 1j).position
     np.testing.assert_allclose(moved, np.column_stack((point.real, point.imag, np.full(9, 5.5))), atol=1e-12)
-
-
-@pytest.mark.parametrize("branch", [1, -1])
-def test_two_links_on_points_that_move_stay_joined_up_to_the_jerk(branch):
-    rng = np.random.default_rng(5)
-    ends = [rng.normal(size=(4, 20)) + 1j * rng.normal(size=(4, 20)) for _ in range(2)]
-    ends[1][0] += 7
-    one, two = (PointMotion(*end) for end in ends)
-    first, second = joined(one, two, 6.0, 8.0, branch)
-    here, there = first.point(6.0), second.point(8.0)
-    for rate in ("position", "velocity", "acceleration", "jerk"):
-        assert getattr(here, rate) == pytest.approx(getattr(there, rate), abs=1e-9)
-    lever, across = here.position - one.position, two.position - one.position
-    assert (branch * (lever * across.conj()).imag > 0).all()
-    with np.errstate(invalid="ignore"):
-        apart, _ = joined(one, PointMotion(two.position + 20, *ends[1][1:]), 6.0, 8.0, branch)
-    assert np.isnan(apart.turning.omega).all()

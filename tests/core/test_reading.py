@@ -25,8 +25,8 @@ READS_ITSELF = {
     "core/mechwright/extras.py",
     "core/mechwright/plugins/host.py",
     "core/mechwright/standards/table.py",
-    "core/mechwright/sweep/checks.py",
-    "core/mechwright/sweep/task.py",
+    "core/mechwright/studies/checks.py",
+    "core/mechwright/studies/task.py",
     "cam/mechwright_cad/live/server.py",
 }
 

@@ -66,5 +66,5 @@ def test_advice_is_called_too_little_only_where_it_was_tried():
     of = design(length=437.5)
     advised = replace(Beam().check(of.params)[0], remedy="use at most 30")
     told = with_proposed(bench(of), advised).remedy
-    assert told == "use at most 30; that was tried, and is not enough by itself"
+    assert told == "use at most 30; what is proposed was tried, and is not enough by itself"
     assert with_proposed(bench(of, tries=0), advised) == advised

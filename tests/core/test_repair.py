@@ -3,8 +3,8 @@
 from beam_family import design
 from disc_family import Disc
 
-from mechwright.build import Inspection
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.pipeline import Inspection
 from mechwright.remedies import repair, repaired
 
 MADE = 22.2
@@ -15,7 +15,6 @@ class Bores(Inspection):
     """A workshop that makes one size of bore, and any in a disc that is large."""
 
     name = "bores"
-    commands = frozenset({"check", "build"})
     stage = Stage.MACHINING
 
     def __init__(self, proposes: bool = True) -> None:

@@ -15,7 +15,7 @@ from mechwright.designs.requirement import load_requirement
 from mechwright.designs.schema import file_schema
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
-from mechwright.sweep.schema import study_schema
+from mechwright.studies.schema import study_schema
 
 Run = Callable[..., tuple[int, str, str]]
 STUDIES = sorted((Path(__file__).parents[2] / "examples").glob("*-study.toml"))

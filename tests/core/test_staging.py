@@ -6,7 +6,6 @@ import signal
 import stat
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import pytest
 from by_night import examples
 from writing_faults import KINDS, Shim, built, counted
 
-from mechwright.beside import Beside
 from mechwright.output import folder as files
 from mechwright.output.folder import Output, write_folder, write_new
 from mechwright.output.locking import life_lock
@@ -179,42 +177,6 @@ def imported_by_main(folder: Path) -> tuple[int, str]:
     call = [sys.executable, "-c", code]
     done = subprocess.run(call, capture_output=True, text=True, env=environment, check=False)
     return done.returncode, done.stderr
-
-
-def test_the_second_process_ends_with_the_first_even_while_it_imports(tmp_path: Path) -> None:
-    (tmp_path / "heavy.py").write_text("import time; time.sleep(60)")
-    code = (
-        "from mechwright.beside import Beside; second = Beside(['heavy']); "
-        "print(second._process.pid, flush=True); import time; time.sleep(60)"
-    )
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
-    first = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=environment)
-    assert first.stdout is not None
-    second = int(first.stdout.readline())
-    first.kill()
-    first.communicate()
-    end = time.monotonic() + 20
-    while _lives(second) and time.monotonic() < end:
-        time.sleep(0.05)
-    assert not _lives(second)
-
-
-def _lives(number: int) -> bool:
-    try:
-        said = Path(f"/proc/{number}/stat").read_text()
-    except OSError:
-        return False
-    return said.rpartition(")")[2].split()[0] != "Z"
-
-
-def test_where_no_process_can_be_started_the_work_is_done_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(*_: object, **__: object) -> None:
-        raise BlockingIOError(11, "Resource temporarily unavailable")
-
-    monkeypatch.setattr(subprocess, "Popen", fails)
-    second = Beside([])
-    second.ask(eval, "6 * 7")
-    assert second.result(int) == 42
 
 
 def test_a_want_of_memory_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,12 +13,12 @@ from hypothesis.extra.numpy import arrays
 from mechwright.contracts.evaluation import Batch
 from mechwright.plugins.host import host
 from mechwright.scripting.pareto import front_of, spread
-from mechwright.sweep import page
-from mechwright.sweep.draw import drawn
-from mechwright.sweep.front import Front, around
-from mechwright.sweep.page import page_of
-from mechwright.sweep.shard import Counts, read, shard_of
-from mechwright.sweep.study import study_of
+from mechwright.studies import page
+from mechwright.studies.draw import drawn
+from mechwright.studies.front import Front, around
+from mechwright.studies.page import page_of
+from mechwright.studies.shard import Counts, read, shard_of
+from mechwright.studies.study import study_of
 
 
 @given(arrays(float, st.tuples(st.integers(0, 60), st.integers(1, 4)), elements=st.integers(0, 6).map(float)))

@@ -2,7 +2,7 @@
 
 import itertools
 from dataclasses import replace
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 import pytest
@@ -37,6 +37,13 @@ def test_a_parameter_that_does_nothing():
         polish=(int, Field(1, ge=0, le=9, description="Nothing.")),
     )
     assert_refused(idle, "test_every_parameter_counts", "no result depends on gloss, polish;")
+
+
+def test_a_parameter_with_one_value_does_not_have_to_count():
+    one = with_params(kind=(Literal["disc"], Field("disc", description="The one kind.")))
+    run(one, "test_every_parameter_counts")
+    two = with_params(kind=(Literal["disc", "ring"], Field("disc", description="Nothing.")))
+    assert_refused(two, "test_every_parameter_counts", "no result depends on kind;")
 
 
 def test_a_parameter_that_matters_seldom_needs_a_variation():

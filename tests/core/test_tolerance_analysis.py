@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright import Contributor, DesignError, Output, ToleranceModel, Tolerances, Zone
-from mechwright.build.tolerances.report import remarks
 from mechwright.contracts.pairs import pair_of
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.contracts.tolerances import DISTRIBUTIONS
@@ -17,6 +16,7 @@ from mechwright.mechanics.tolerance import analyse, check_keys, share_of
 from mechwright.mechanics.tolerance.drawing import draw
 from mechwright.mechanics.tolerance.first_order import farthest, limits, variances
 from mechwright.mechanics.tolerance.places import worst_place
+from mechwright.pipeline.tolerances.report import remarks
 
 HANDBOOK = {
     (3, 6): {"H7": (0, 12), "H8": (0, 18), "g6": (-12, -4), "f7": (-22, -10), "h6": (-8, 0), "e8": (-38, -20),

@@ -5,9 +5,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from mechwright.build import Build
 from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.made_part import MadePart
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_cam.as_made import MadeParts
 

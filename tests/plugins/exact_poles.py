@@ -76,7 +76,7 @@ def _in_pivot(lengths: tuple[int, ...], t: fmpq, w: fmpq) -> bool:
 def _exact_pole(lengths: tuple[int, ...], plane: Plane, t: fmpq, w: Quadratic) -> tuple[Quadratic, Quadratic]:
     """ρ and X of the pole with tan(φ/2) = t and this W.
 
-    The formulas are those of :mod:`mechwright_four_bar.loop`, real and imaginary parts apart.
+    The formulas are those of :mod:`mechwright_four_bar.kinematics.loop`, real and imaginary parts apart.
     """
     a, c, b, f = (fmpq(length) for length in lengths)
     cos, sin = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)

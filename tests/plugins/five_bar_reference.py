@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from mechwright_five_bar.sized import SizedParams
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
 
 FACTS = {
     fact["name"]: fact
@@ -24,11 +24,11 @@ NEAR = (
 """Turns that leave no room for a hole each."""
 
 
-def reference(**changes) -> SizedParams:
+def reference(**changes) -> CompleteParams:
     """The reference mechanism: levers of 120 degrees and less."""
     table = {
         "crank": 100, "arm": 100, "coupler": 90, "rocker": 130, "ground": 125, "arm_angle": 3.5,
         "coupler_point_x": 30, "coupler_point_y": 85, "swing_from": 83, "swing_to": -37,
         "setting_angle": 83, "phases": TURNS, **changes,
     }  # fmt: skip
-    return SizedParams.model_validate(table)
+    return CompleteParams.model_validate(table)

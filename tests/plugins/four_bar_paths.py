@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.paths.asked import Limits, PathProblem
 from mechwright_four_bar.paths.search import path
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 
 REFERENCE: dict[str, Any] = json.loads(
     (Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text(encoding="utf-8")

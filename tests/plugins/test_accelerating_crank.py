@@ -12,11 +12,11 @@ from mechwright.errors import KinematicsError
 from mechwright.mechanics.planar import BodyMotion, Turning, acceleration_pole
 from mechwright.mechanics.planar.poles import circles, ratio_of_pole
 from mechwright.testing.compare import assert_derivative
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 
 DATA = Path(__file__).parents[1] / "data" / "acceleration-poles.json"
 FACTS = {fact["name"]: fact for fact in json.loads(DATA.read_text(encoding="utf-8"))["facts"]}

@@ -7,15 +7,16 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from mechwright.build.poles.page import page as page_of
-from mechwright.build.poles.planes import MARKED
 from mechwright.mechanics.planar import Turning, acceleration_pole
+from mechwright.pipeline.poles import NAME
+from mechwright.pipeline.poles.page import page as page_of
+from mechwright.pipeline.poles.planes import MARKED
 from mechwright.testing.commands import run
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.pole_equations import PoleProblem as FourBarProblem
 from mechwright_four_bar.poles_page import FourBarPoles
-from mechwright_four_bar.reach import bar_of
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.pole_equations import PoleProblem as SliderProblem
 from mechwright_slider_crank.poles_page import SliderCrankPoles
@@ -122,7 +123,7 @@ PAGES = (
 @pytest.mark.parametrize(("page", "family", "table"), PAGES)
 def test_loci_and_circles_of_the_page_are_those_of_the_motion(page, family, table):
     params = family.Params(**table)
-    shown = page.coupler(params)
+    shown = page.couplers(params)[NAME]
     motion = family.solve(params, shown.way().size)
     if not shown.course.rocks:  # a lever has a law of its own
         for number, names in enumerate((("xG", "yG"), ("xG_coupler", "yG_coupler"))):

@@ -12,7 +12,7 @@ from mechwright.errors import GeometryError
 from mechwright.testing.commands import run
 from mechwright_slider_crank.circle import AuxiliaryCircle
 from mechwright_slider_crank.construction_page import constructed, page
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.stroke import from_crank, from_offset, from_rod, ranges
 

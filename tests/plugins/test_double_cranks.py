@@ -22,13 +22,12 @@ from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import load
 from mechwright.mechanics.linkage import Boss, Plate, Spindle, hull_link, rectangle, stack
 from mechwright.plugins.host import host
-from mechwright_four_bar.as_made import as_made
-from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bosses_of, layout_of, posts_of, sides_of
-from mechwright_four_bar.tolerances import FourBarTolerances
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
+from mechwright_four_bar.tolerances import FourBarTolerances, as_made
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "double-crank.toml"
 DRAG = {"crank": 70, "coupler": 60, "follower": 75, "ground": 30}
@@ -86,6 +85,10 @@ def test_free_orders_of_drag_links(bar, least):
     assert len(found) == 3
 
 
+def layout_of(params):
+    return FourBarTable.of(params).layout
+
+
 @pytest.mark.parametrize("changes", [{}, {"branch": "crossed"}, {"direction": "cw", "ground_angle": 110}])
 def test_the_drag_link_stands_between_two_plates(changes):
     params = FourBarParams(**DRAG, **changes)
@@ -135,7 +138,7 @@ def test_any_drag_link_its_mirror_and_its_inverse_have_layers(lengths, branch):
     for table in (lengths | {"branch": branch}, lengths | {"branch": other}, back | {"branch": branch}):
         params = FourBarParams.model_validate(table)
         assert errors(FourBars().check(params)) == []
-        assert layout_of(params).sides == 2
+        assert layout_of(params).scheme.sides == 2
         assert posts_clear(params) > params.clearance
 
 
@@ -155,8 +158,8 @@ def test_motion_needs_no_layout(frame):
 
 
 def test_a_crank_rocker_takes_one_plate_unless_two_are_asked_for():
-    assert sides_of(FourBarParams()) == 1
-    assert layout_of(FourBarParams(frame="two")).sides == 2
+    assert layout_of(FourBarParams()).scheme.sides == 1
+    assert layout_of(FourBarParams(frame="two")).scheme.sides == 2
     assert errors(FourBars().check(FourBarParams(frame="two"))) == []
 
 
@@ -196,11 +199,11 @@ class Bored:
 
 def test_the_distance_of_the_pivots_as_made_is_that_from_the_posts():
     params = FourBarParams(**DRAG)
-    plates = {name: [Bored({})] for name in bosses_of(params)}
+    plates = {name: [Bored({})] for name in layout_of(params).outlines}
     axis = complex(params.ground)
 
     def error(**moved):
-        found = as_made(params, plates | {name: [Bored(off)] for name, off in moved.items()})
+        found = as_made(FourBarTable.of(params), plates | {name: [Bored(off)] for name, off in moved.items()})
         (figure,) = [one for one in found.figures if one.name == "follower.error"]
         return figure.low
 
@@ -211,11 +214,13 @@ def test_the_distance_of_the_pivots_as_made_is_that_from_the_posts():
     assert longer > 100
     assert error(ground={0j: -0.05}) == pytest.approx(longer)
     assert error(ground={0j: 0.05}, **{"ground-2": {axis: 0.05}}) == pytest.approx(0.0, abs=1e-6)
-    assert len(posts_of(params)) == 4
+    assert len(layout_of(params).posts) == 4
 
 
 def test_tolerances_of_two_plates():
-    model = FourBarTolerances(FourBarParams(**DRAG, coupler_point_x=20, coupler_point_y=10), Tolerances())
+    model = FourBarTolerances(
+        FourBarTable.of(FourBarParams(**DRAG, coupler_point_x=20, coupler_point_y=10)), Tolerances()
+    )
     names = {one.name for one in model.contributors}
     assert {"ground", "ground-2", "shaft-b0"} <= names
     assert_exact(model, np.linspace(0.1, 6.0, 7))

@@ -82,7 +82,7 @@ def test_a_pair_that_jams_is_refused_with_a_backlash_that_works(tight):
     assert (finding.code, finding.severity, finding.stage) == (
         "gear.as-made",
         Severity.ERROR,
-        Stage.MACHINING,
+        Stage.OUTPUT,
     )
     assert finding.parameter == "backlash"
     assert finding.value < 0 == finding.limit

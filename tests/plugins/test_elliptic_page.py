@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechwright.build import Build
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figure_eight import page

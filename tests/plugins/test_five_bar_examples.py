@@ -16,9 +16,8 @@ from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.loop import close
-from mechwright_five_bar.phases import in_phase
-from mechwright_five_bar.reach import bar_of
+from mechwright_five_bar.kinematics.dimensions import bar_of
+from mechwright_five_bar.kinematics.phases import in_phase
 from mechwright_spherical import printed
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -28,10 +27,8 @@ DESIGNS = ("five-bar-published", "five-bar-slots", "five-bar-three-phases")
 def points_of(params, angles):
     """Places of the coupler point, mm, at crank angles from X, rad."""
     shown = in_phase(params)
-    loop = close(bar_of(shown), angles)
-    return (
-        loop.joint_a + shown.coupler_point * loop.coupler.direction + complex(params.pivot_x, params.pivot_y)
-    )
+    moved = bar_of(shown).at(angles).bodies["coupler"].point(shown.coupler_point).position
+    return moved + complex(params.pivot_x, params.pivot_y)
 
 
 def test_the_published_five_bar_passes_the_printed_points():

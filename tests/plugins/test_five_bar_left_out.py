@@ -11,12 +11,14 @@ from hypothesis import strategies as st
 from mechwright import GeometryError, Severity, Stage
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
-from mechwright_five_bar.face import MOST_MODULES
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
+from mechwright_five_bar.defaults.face_width import MOST_MODULES
+from mechwright_five_bar.defaults.teeth import modules
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.sized import SizedParams
-from mechwright_five_bar.strength_checks import root_stresses
-from mechwright_five_bar.train import gear_outlines, train_of
-from mechwright_five_bar.usual import modules
+from mechwright_five_bar.kinematics.train import gear_outlines, train_of
+from mechwright_five_bar.rules.gears import require_gears
+from mechwright_five_bar.rules.strength import root_stresses
+from mechwright_five_bar.table import FiveBarTable
 
 FAMILY = FiveBars()
 
@@ -29,7 +31,7 @@ def errors_of(params):
 @given(share=st.floats(0.15, 1.65), ground=st.floats(110.0, 170.0))
 def test_teeth_reach_over_the_ground_with_any_module_that_some_reach_with(share, ground):
     """Gears of 100, 200 and 200 teeth are the finest, of 18, 18 and 36 the coarsest with the usual ratio."""
-    found = SizedParams(module=share * ground / 50, ground=ground, gear_thickness=8)
+    found = CompleteParams(module=share * ground / 50, ground=ground, gear_thickness=8)
     finest, coarsest = modules(ground, 100, 200, 200)[0], modules(ground, 18, 18, 36)[1]
     assert found.ratio == 0.5
     if finest <= found.module <= coarsest:
@@ -40,7 +42,7 @@ def test_teeth_reach_over_the_ground_with_any_module_that_some_reach_with(share,
         )
     else:
         with pytest.raises(GeometryError, match="module"):
-            train_of(found)
+            require_gears(FiveBarTable.of(found))
 
 
 @pytest.mark.parametrize(
@@ -57,24 +59,24 @@ def test_teeth_reach_over_the_ground_with_any_module_that_some_reach_with(share,
     ],
 )
 def test_teeth_that_are_given_stay_and_the_others_fill_the_ground(given, teeth):
-    found = SizedParams(**given)
+    found = CompleteParams(**given)
     assert (found.crank_teeth, found.idler_teeth, found.arm_teeth) == teeth
 
 
 def test_a_module_that_no_teeth_suit_gets_the_nearest_that_they_do():
-    [wrong] = errors_of(SizedParams(module=4))
+    [wrong] = errors_of(CompleteParams(module=4))
     assert wrong.parameter == "module"
     near = wrong.proposed[0]["parameters.module"]
     assert near == 3.5
-    assert not errors_of(SizedParams(module=near))
+    assert not errors_of(CompleteParams(module=near))
 
 
 @pytest.mark.parametrize("given", [{"coupler": 20.5}, {"arm": 60}, {"load_y": -1500}])
 def test_gears_are_as_wide_as_their_teeth_want(given):
-    usual, found = SizedParams(**given, gear_thickness=8), SizedParams(**given)
-    assert max(one.used for one in root_stresses(usual)) > 1
+    usual, found = CompleteParams(**given, gear_thickness=8), CompleteParams(**given)
+    assert max(one.used for one in root_stresses(FiveBarTable.of(usual))) > 1
     assert 8 < found.gear_thickness <= MOST_MODULES * train_of(found).module
-    used = max(one.used for one in root_stresses(found))
+    used = max(one.used for one in root_stresses(FiveBarTable.of(found)))
     assert used <= 1 or found.gear_thickness == math.floor(2 * MOST_MODULES * train_of(found).module) / 2
     assert used > 0.9
     assert not errors_of(found)
@@ -85,7 +87,7 @@ def test_gears_are_as_wide_as_their_teeth_want(given):
 
 
 def test_many_have_gears_as_wide_as_each_by_itself():
-    batch = Batch(SizedParams, {}, {"load_y": np.array([-2000.0, -700.0, 0.0, 300.0])})
+    batch = Batch(CompleteParams, {}, {"load_y": np.array([-2000.0, -700.0, 0.0, 300.0])})
     columns = ("mass",)
     found = FAMILY.evaluate(batch, columns)
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, batch, columns, Stage.PARTS, FAMILY.parts))
@@ -97,13 +99,13 @@ def test_many_have_gears_as_wide_as_each_by_itself():
 @pytest.mark.parametrize("name", ["pinion", "idler", "wheel"])
 def test_much_backlash_leaves_tips_of_a_tenth_of_the_module(name):
     table = {"crank_teeth": 18, "idler_teeth": 60, "arm_teeth": 18 if name == "pinion" else 36, "backlash": 0}
-    train = train_of(SizedParams(**table))
+    train = train_of(CompleteParams(**table))
     with pytest.raises(
         GeometryError, match=r"backlash: 2 mm take the tips .* use at most ([\d.]+) mm"
     ) as told:
-        train_of(SizedParams(**{**table, "backlash": 2}))
+        require_gears(FiveBarTable.of(CompleteParams(**{**table, "backlash": 2})))
     most = float(re.search(r"at most ([\d.]+) mm", str(told.value))[1])
-    params = SizedParams(**{**table, "backlash": most})
+    params = CompleteParams(**{**table, "backlash": most})
     assert "five-bar.gears" not in [one.code for one in errors_of(params)]
     points = gear_outlines(params)[name].flatten()
     tip = points[np.abs(np.abs(points @ [1, 1j]) - train.tip(name)) < 1e-6]

@@ -1,5 +1,6 @@
 """The five-bar as made: tolerances, play of the gears, plates as made, bending of teeth, every setting."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,21 +15,21 @@ from mechwright.mechanics.linkage.made_error import EXACT
 from mechwright.mechanics.strength.tooth_bending import form_factors
 from mechwright.plugins.host import host
 from mechwright.testing.tolerances import tolerance_faults
+from mechwright_five_bar.as_made.tolerances import FiveBarTolerances
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.loop import FiveBar, close
-from mechwright_five_bar.peaks import peaks_of
-from mechwright_five_bar.reach import bar_of
-from mechwright_five_bar.sized import SizedParams
-from mechwright_five_bar.strength_checks import root_stresses
-from mechwright_five_bar.tolerances import FiveBarTolerances
-from mechwright_five_bar.train import train_of
+from mechwright_five_bar.kinematics.dimensions import bar_of
+from mechwright_five_bar.kinematics.loads import loads_of
+from mechwright_five_bar.kinematics.train import train_of
+from mechwright_five_bar.rules.strength import root_stresses
+from mechwright_five_bar.table import FiveBarTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def example(name: str) -> SizedParams:
+def example(name: str) -> CompleteParams:
     params = load(EXAMPLES / f"{name}.toml", host()).params
-    assert isinstance(params, SizedParams)
+    assert isinstance(params, CompleteParams)
     return params
 
 
@@ -46,8 +47,8 @@ def test_sensitivities_are_derivatives_in_every_phase(name):
 
 def test_play_of_the_gears_is_an_angle_of_the_arm():
     """A play s of each mesh lets the arm run behind by 2 s over the wheel's radius."""
-    params = SizedParams()
-    model, bar = FiveBarTolerances(params, EXACT), bar_of(params)
+    params = CompleteParams()
+    model, bar = FiveBarTolerances(FiveBarTable.of(params), EXACT), bar_of(params)
     at, play = np.array([0.3, 2.0, 5.0]), 1e-5
     rates = dict(
         zip(
@@ -58,12 +59,10 @@ def test_play_of_the_gears_is_an_angle_of_the_arm():
     )
     moved = sum(rates[name][:, 0] for name in model.meshes) * play
     turn = 2 * play / train_of(params).radius("wheel")
-    names = ("crank", "coupler", "rocker", "arm", "ground", "ground_angle", "offset", "teeth", "sense")
-    sizes = {name: getattr(bar, name) for name in names}
 
     def point(offset: float) -> np.ndarray:
-        loop = close(FiveBar(**{**sizes, "offset": bar.offset + offset}, branch=bar.branch), at)
-        return loop.joint_a + params.coupler_point * loop.coupler.direction
+        bodies = replace(bar, offset=bar.offset + offset).at(at).bodies
+        return bodies["coupler"].point(params.coupler_point).position
 
     wanted = (point(turn) - point(-turn)) / 2
     assert moved[0] + 1j * moved[1] == pytest.approx(wanted, rel=1e-6)
@@ -82,7 +81,7 @@ class Bored:
 
 
 def test_plates_as_drawn_leave_the_play_of_pins_and_gears():
-    params = SizedParams()
+    params = CompleteParams()
     plates = {name: [Bored()] for name in ("ground", "crank", "coupler", "rocker", "arm")}
     point, room = FiveBars().as_made(params, plates).figures
     assert (point.name, room.name) == ("point.error", "pin.room")
@@ -95,7 +94,7 @@ def test_plates_as_drawn_leave_the_play_of_pins_and_gears():
 
 
 def test_a_bare_bore_as_made_too_small_is_refused_with_a_fit_that_works():
-    params = SizedParams(bushing_wall=0)
+    params = CompleteParams(bushing_wall=0)
     plates = {name: [Bored(-0.05)] for name in ("ground", "crank", "coupler", "rocker", "arm")}
     (fault,) = FiveBars().as_made(params, plates).findings
     assert (fault.code, fault.parameter) == ("five-bar.as-made", "running_fit")
@@ -107,10 +106,10 @@ def test_clamped_pivots_are_not_judged():
 
 
 def test_teeth_bear_by_the_formula_and_too_much_is_told_with_what_helps():
-    params = SizedParams(load_x=2000.0)
+    params = CompleteParams(load_x=2000.0)
     train = train_of(params)
-    (pinion,) = (one for one in root_stresses(params) if "pinion" in one.what)
-    force = peaks_of(params)["tooth_force"].value
+    (pinion,) = (one for one in root_stresses(FiveBarTable.of(params)) if "pinion" in one.what)
+    force = loads_of(FiveBarTable.of(params)).peaks["tooth_force"].value
     form, stress = form_factors(20.0)
     # Force over face and module, with the factors of the rack and 1.5 for what is not known.
     assert pinion.value == pytest.approx(
@@ -123,7 +122,7 @@ def test_teeth_bear_by_the_formula_and_too_much_is_told_with_what_helps():
     for change in fault.proposed:
         (key, value), *_ = change.items()
         better = params.model_copy(update={key.removeprefix("parameters."): value})
-        worst = max(one.used for one in root_stresses(better))
+        worst = max(one.used for one in root_stresses(FiveBarTable.of(better)))
         assert worst <= 1
 
 

@@ -9,15 +9,15 @@ from five_bar_reference import FACTS, NEAR, POINTS, reference
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
-from mechwright_five_bar import marks
-from mechwright_five_bar.clamp_checks import setting_findings
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.hub import hub_of
-from mechwright_five_bar.layout import laid_out, poses_of, screw_places
-from mechwright_five_bar.loop import close
-from mechwright_five_bar.phases import in_phase, phases_of, set_joints, settings_of
-from mechwright_five_bar.plates import parts_of
-from mechwright_five_bar.reach import bar_of
+from mechwright_five_bar.kinematics.dimensions import bar_of
+from mechwright_five_bar.kinematics.phases import in_phase, phases_of, set_joints, settings_of
+from mechwright_five_bar.parts import scales
+from mechwright_five_bar.parts.hub import hub_of
+from mechwright_five_bar.parts.layout import poses_of, screw_places
+from mechwright_five_bar.parts.parts import parts_of
+from mechwright_five_bar.rules.clamps import ORDER
+from mechwright_five_bar.table import FiveBarTable
 
 FAMILY = FiveBars()
 
@@ -33,8 +33,8 @@ def test_each_phase_has_offset_and_coupler_of_the_reference(phase):
 @pytest.mark.parametrize("phase", [1, 2, 3])
 def test_the_coupler_point_passes_the_reference_points(phase):
     shown = in_phase(reference(phase=phase))
-    loop = close(bar_of(shown), np.radians(POINTS["inputs"]["crank_deg"][phase - 1]))
-    found = loop.joint_a + shown.coupler_point * loop.coupler.direction
+    bodies = bar_of(shown).at(np.radians(POINTS["inputs"]["crank_deg"][phase - 1])).bodies
+    found = bodies["coupler"].point(shown.coupler_point).position
     expected = [complex(*point) for point in POINTS["expected"][phase - 1]]
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
 
@@ -53,7 +53,7 @@ def test_the_plates_are_the_same_in_all_phases():
         found = []
         for phase in (1, 2, 3):
             params = in_phase(reference(phases=phases, phase=phase))
-            layout = laid_out(params)
+            layout = FiveBarTable.of(params).layout
             found.append((
                 layout.stack.layer,
                 {name: (one.area, len(one.inner), one.outer.area) for name, one in layout.outlines.items()},
@@ -69,11 +69,13 @@ def test_the_plates_are_the_same_in_all_phases():
 def test_the_coupler_of_every_phase_stands_where_its_joints_are():
     params = in_phase(reference(phases=NEAR))
     for number, shown in enumerate(phases_of(params)):
-        poses = poses_of(params, number)["coupler"]
+        poses = poses_of(params, FiveBarTable.of(shown), number)["coupler"]
         course = np.linspace(0, 1, poses.position.shape[0])
         swing = np.radians(shown.swing_from + (shown.swing_to - shown.swing_from) * course)
-        loop = close(bar_of(shown), swing)
-        for (_, places), joint in zip(settings_of(params), (loop.joint_a, loop.joint_c), strict=True):
+        bar = bar_of(shown)
+        bodies = bar.at(swing).bodies
+        joints = (bodies["crank"].point(bar.crank).position, bodies["rocker"].point(bar.rocker).position)
+        for (_, places), joint in zip(settings_of(params), joints, strict=True):
             at = poses.transform(np.array([[places[number].real, places[number].imag, 0.0]]))[:, 0]
             np.testing.assert_allclose(at[:, 0] + 1j * at[:, 1], joint, rtol=0, atol=1e-8)
 
@@ -86,7 +88,7 @@ def test_places_that_are_near_are_set_in_arc_slots_about_a0_and_b1():
     assert (math.degrees(a.sweep), math.degrees(c.sweep)) == pytest.approx((10, 12))
     for one, places in settings_of(params):
         assert max(one.slot.distance(place) for place in places) < 1e-9
-    parts = {part.name: part for part in parts_of(params)}
+    parts = {part.name: part for part in parts_of(FiveBarTable.of(params))}
     assert {part.bought.standard for part in parts.values() if part.bought} == {"ISO 4762", "ISO 7089"}
     assert len(parts["clamp-screw"].instances) == len(parts["clamp-washer"].instances) == 2
     # The point alone has a bore; the studs turn in crank and rocker.
@@ -100,15 +102,14 @@ def test_places_that_are_near_are_set_in_arc_slots_about_a0_and_b1():
 def test_marks_stand_at_the_angles_that_are_written_beside_them(monkeypatch, angle):
     seen = []
     monkeypatch.setattr(
-        marks, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
+        scales, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
     )
     phases = ({"crank_turn": 6, "rocker_turn": 11}, {"crank_turn": -4, "rocker_turn": -5})
     params = in_phase(reference(phases=phases, setting_angle=angle))
     seen.clear()  # the width of its gears, left out, follows from what stands in its plates
-    marks.scales(params)
-    loop = close(bar_of(params), math.radians(angle))
-    b1 = complex(loop.joint_b)
-    arms = (cmath.rect(1, math.radians(angle)), complex(loop.joint_c) - b1)
+    scales.scales(params)
+    rocker = bar_of(params).at(math.radians(angle)).bodies["rocker"]
+    arms = (cmath.rect(1, math.radians(angle)), rocker.turning.direction.item())
     turns = ([0, 6, -4], [0, 11, -5])
     for (slot, places, written), arm, turn in zip(seen, arms, turns, strict=True):
         assert max(abs(one) for one in written) <= 180
@@ -121,7 +122,10 @@ def test_marks_stand_at_the_angles_that_are_written_beside_them(monkeypatch, ang
 
 def test_studs_reach_from_their_heads_to_the_coupler():
     params = reference(phases=NEAR)
-    layout, parts = laid_out(params), {part.name: part for part in parts_of(params)}
+    layout, parts = (
+        FiveBarTable.of(params).layout,
+        {part.name: part for part in parts_of(FiveBarTable.of(params))},
+    )
     for pin, link in (("pin-a", "crank"), ("pin-c", "rocker")):
         stud, (instance,) = parts[pin], parts[pin].instances
         head = stud.turned.steps[0].length
@@ -144,11 +148,11 @@ def test_the_screws_of_the_gear_lie_in_its_slots_in_every_phase():
 
 
 def test_the_order_of_setting_is_told_with_angles_and_distances():
-    notes = list(setting_findings(reference(phases=NEAR)))
+    notes = list(ORDER.inspect(FiveBarTable.of(reference(phases=NEAR))))
     assert len(notes) == 2
     assert "3. loosen the clamp of A, turn the crank by +6 degrees to 89 and fasten A" in notes[0].message
     assert "10.47 mm (A) and 20.4 mm (C)" in notes[0].message
-    holes = [one.message for one in setting_findings(reference())]
+    holes = [one.message for one in ORDER.inspect(FiveBarTable.of(reference()))]
     assert "3. take A out of its hole, turn the crank by +15 degrees to 98" in holes[0]
 
 

@@ -11,8 +11,8 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.phases import in_phase
-from mechwright_four_bar.reach import bar_of
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parts.phases import in_phase
 from mechwright_four_bar.requirements import AdjustablePathRequirement
 
 FACTS = {

@@ -13,7 +13,7 @@ from mechwright.mechanics.continuation.paths import tracked
 from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
 from mechwright_four_bar.all_poles import CUT, FILE, SOLUTIONS, all_linkages
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import completed, search
 from mechwright_four_bar.pole_system import MOVING, TWO_POLES, any_parameters, any_solution

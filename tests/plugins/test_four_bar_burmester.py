@@ -19,11 +19,11 @@ from mechwright_four_bar.burmester.dyads import Poses
 from mechwright_four_bar.burmester.kept import Option, driven
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.plates import pivot_of
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.table import FourBarTable
 
 FIVE = ((7, -6, -27), (14, -17, -40), (23, -24, -61), (28, -25, -72), (37, -19, -91))
 
@@ -173,7 +173,9 @@ def carried(one, angles):
     """Places and directions of the body at crank angles, rad, as a design says."""
     bar = bar_of(one.params)
     loop = close(bar, angles)
-    place = pivot_of(one.params) + loop.joint_a + one.params.coupler_point * loop.coupler.direction
+    place = (
+        FourBarTable.of(one.params).pivot + loop.joint_a + one.params.coupler_point * loop.coupler.direction
+    )
     return place, np.angle(loop.coupler.direction * np.exp(1j * one.figures["frame_angle"].value))
 
 
@@ -185,7 +187,7 @@ def test_designs_carry_the_body_through_its_poses(count):
     assert result.candidates
     for one in result.candidates:
         assert one.residual.value < 1e-7
-        course = course_of(one.params)
+        course = FourBarTable.of(one.params).closed_ways.course
         angles = course.start + np.linspace(0, course.travel, 40_001)
         place, turned = carried(one, angles)
         ways = []
@@ -253,7 +255,7 @@ def test_where_no_linkage_of_five_poses_keeps_the_limits_the_nearest_that_does_i
     (one,) = result.candidates
     assert one.residual.value < 0.15
     assert one.figures["longest_link"].value <= 40
-    course = course_of(one.params)
+    course = FourBarTable.of(one.params).closed_ways.course
     place, turned = carried(one, course.start + np.linspace(0, course.travel, 40_001))
     poses = poses_of(FIVE)
     off = np.abs(place[:, None] - poses.places)

@@ -7,7 +7,7 @@ import pytest
 from synthesis_reference import facts
 
 from mechwright_four_bar.cognates import cognates, third_pivot
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.paths.search import path
 
 

@@ -4,7 +4,13 @@ from family_page import FamilyPage
 
 from mechwright_four_bar.family import FourBars
 
-PAGE = FamilyPage(FourBars, "mechwright_four_bar", ["four-bar", "path", "poles"], ["tracing/requirement.py"])
+PAGE = FamilyPage(
+    FourBars,
+    "mechwright_four_bar",
+    ["four-bar", "path", "poles"],
+    ["tracing/requirement.py"],
+    ["four-bar.as-made"],
+)
 
 
 def test_every_finding_is_on_the_page_and_no_other() -> None:

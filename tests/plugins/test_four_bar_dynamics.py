@@ -7,13 +7,17 @@ import pytest
 from four_bar_reference import expected
 
 from mechwright.mechanics.linkage import Mass
-from mechwright_four_bar.dimensions import FourBar
+from mechwright.mechanics.planar import Turning
+from mechwright.mechanics.planar.efforts import PointLoad, efforts
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.masses import force_balance, joint_forces, masses_of
-from mechwright_four_bar.motion import motion_of
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.motion import force_balance
+from mechwright_four_bar.kinematics.motion import motion_of as motion_of_table
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 
+LINKS = ("crank", "coupler", "follower", "ground")
 BAR = FourBar(40, 120, 80, 100)
 MASSES = {
     "crank": Mass(0.5, 20 + 0j, 100.0),
@@ -23,8 +27,15 @@ MASSES = {
 
 
 def forces_at(phi, masses=MASSES, load=-50000.0, omega=10.0, bar=BAR):
-    loop = close(bar, np.atleast_1d(phi))
-    return joint_forces(bar, loop, loop.bodies(bar, omega), masses, load)
+    """In mN and mN mm."""
+    table = FourBarTable.of(FourBarParams(**dict(zip(LINKS, bar.lengths, strict=True))))
+    found = table.solved(Turning.of(np.atleast_1d(phi), omega))
+    loads = [PointLoad("follower", moment=load / 1000)]
+    return efforts(table.machine, found, masses, loads).scaled(1000.0)
+
+
+def motion_of(params, samples):
+    return motion_of_table(FourBarTable.of(params), samples)
 
 
 def test_forces_and_torque_are_the_reference():
@@ -80,7 +91,7 @@ def test_masses_are_those_of_the_solids():
 
     family = FourBars()
     params = FourBarParams(coupler_point_x=30, coupler_point_y=25)
-    masses = masses_of(params)
+    masses = FourBarTable.of(params).masses
     homes = {
         "crank": {"crank", "crank-a"},
         "coupler": {"coupler", "coupler-b"},

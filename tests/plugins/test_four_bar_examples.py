@@ -17,7 +17,7 @@ from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.reach import bar_of
+from mechwright_four_bar.kinematics.reach import bar_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REQUIREMENTS = sorted(

@@ -12,11 +12,11 @@ from mechwright.contracts.finding import errors
 from mechwright.testing.compare import assert_derivative
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.rules import motion_faults
-from mechwright_four_bar.change_point import close_through, turns_to_close
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.reach import reach
+from mechwright_four_bar.kinematics.change_point import close_through, turns_to_close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import reach
 
 LINKS = ("crank", "coupler", "follower", "ground")
 RATES = (

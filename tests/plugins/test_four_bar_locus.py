@@ -10,9 +10,9 @@ from four_bar_reference import FACTS, LOCI
 
 from mechwright.errors import GeometryError
 from mechwright_four_bar.certificate import pole_ball
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.locus import locus
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.locus import locus
+from mechwright_four_bar.kinematics.loop import close
 
 PLANES = ("fixed", "coupler")
 SPECIAL = [

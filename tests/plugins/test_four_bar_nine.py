@@ -11,9 +11,9 @@ from synthesis_reference import fact, facts
 from mechwright.testing.likeness import repeated
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.cognates import cognates
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.nine.equations import evaluate
 from mechwright_four_bar.nine.make_start import any_linkage, looped, moved
 from mechwright_four_bar.nine.precise import certificate, followed, points_of

@@ -8,8 +8,8 @@ import pytest
 from four_bar_paths import ANY, CLOSED, assert_no_defect, free, known, quiet
 from synthesis_reference import fact, facts
 
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.paths.asked import Limits
 from mechwright_four_bar.paths.descent import in_order, polish, screen
 from mechwright_four_bar.paths.kernels import linear

@@ -11,12 +11,12 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.paths.asked import Limits
 from mechwright_four_bar.paths.search import path
 from mechwright_four_bar.paths.starts import link_lengths
-from mechwright_four_bar.plates import pivot_of
-from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.requirements import PathRequirement
+from mechwright_four_bar.table import FourBarTable
 
 LINE = 20 + 1j * np.arange(20.0, 46.0, 5.0)
 
@@ -39,9 +39,12 @@ def test_the_family_gives_designs_whose_point_meets_the_line():
     assert np.abs(LINE[:, None] - run[None, :]).min(axis=1).max() < 0.05
     bar, point = bar_of(best.params), best.params.coupler_point
     first = best.figures["first_crank_angle"].value
-    assert abs(path(bar, pivot_of(best.params), point, np.array([first]))[0] - LINE[0]) < 1e-8
+    assert abs(path(bar, FourBarTable.of(best.params).pivot, point, np.array([first]))[0] - LINE[0]) < 1e-8
     turn = best.figures["crank_turn"].value
-    assert abs(path(bar, pivot_of(best.params), point, np.array([first + turn]))[0] - LINE[-1]) < 1e-8
+    assert (
+        abs(path(bar, FourBarTable.of(best.params).pivot, point, np.array([first + turn]))[0] - LINE[-1])
+        < 1e-8
+    )
     sense = 1 if turn > 0 else -1
     assert best.params.direction == ("ccw" if sense > 0 else "cw")
 
@@ -60,7 +63,7 @@ def test_every_design_keeps_every_limit_and_can_be_built(limits):
     wanted = table(points=ELLIPSE, closed=True, **limits)
     assert result.candidates
     for one in result.candidates:
-        bar, pivot, point = bar_of(one.params), pivot_of(one.params), one.params.coupler_point
+        bar, pivot, point = bar_of(one.params), FourBarTable.of(one.params).pivot, one.params.coupler_point
         assert min(bar.lengths) >= wanted.shortest_link
         assert max(*bar.lengths, abs(point), abs(point - bar.coupler)) <= wanted.longest_link
         assert math.degrees(bar.least_transmission_angle()) >= wanted.least_transmission_angle

@@ -14,8 +14,8 @@ from mechwright.contracts.finding import errors
 from mechwright.designs.text import table_lines
 from mechwright_cad.interference import interference_findings
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import in_phase, set_joints, settings_of
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.phases import in_phase, set_joints, settings_of
 
 FACTS = {
     fact["name"]: fact

@@ -10,12 +10,12 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity
 from mechwright_four_bar.certificate import certain_residual, polished
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import RESIDUAL, search
-from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.requirements import PolesRequirement
 
 STARTS = 5000

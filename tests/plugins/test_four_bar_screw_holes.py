@@ -6,7 +6,7 @@ import pytest
 
 from mechwright.geometry import Arc
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 FAMILY = FourBars()
 

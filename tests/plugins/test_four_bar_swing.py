@@ -8,10 +8,10 @@ import pytest
 from pydantic import ValidationError
 
 from mechwright import Synthesis
-from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.reach import bar_of
+from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
+from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import SwingRequirement
 from mechwright_four_bar.swing import smallest, widest
 

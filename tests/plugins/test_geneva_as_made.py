@@ -11,9 +11,8 @@ from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.tolerances import OFF_CENTRE
-from mechwright_geneva.as_made.lock import Lock
-from mechwright_geneva.as_made.play import drawn_room, made_room, play
-from mechwright_geneva.as_made.slot import Made, as_made
+from mechwright_geneva.as_made.play import Play, drawn_room, made_room
+from mechwright_geneva.as_made.slot import SAMPLES, Made, as_made
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.rules.clearances import BINDING, LEAST_GROOVE, LEAST_LOCK
@@ -32,7 +31,7 @@ def test_the_play_of_the_roller_is_that_of_the_exact_tube(name):
     cases = [fact for fact in facts("geneva.play_total") if fact["inputs"]["design"] == name]
     assert len(cases) > 12
     shares = np.radians([fact["inputs"]["theta_d_deg"] for fact in cases]) / (2 * m.crank_half)
-    ahead, behind = play(m.stroke(shares), drawn_room(m, 0.025)).turns()
+    ahead, behind = Play.of(m.stroke(shares), drawn_room(m, 0.025)).turns()
     for fact, found in zip(cases, ahead + behind, strict=True):
         assert found == pytest.approx(fact["expected"], abs=fact["tolerance"]), fact["inputs"]
 
@@ -44,7 +43,7 @@ def test_the_lock_is_the_reference(name):
     assert len(cases) == 3
     for fact in cases:
         off = fact["inputs"].get("centre_distance_error", 0.0)
-        assert Lock.drawn(m).play(off) == pytest.approx(fact["expected"], abs=fact["tolerance"])
+        assert m.lock_play(m.arc, m.lock, off) == pytest.approx(fact["expected"], abs=fact["tolerance"])
 
 
 def test_a_straight_slot_gives_way_as_its_closed_form_says():
@@ -54,10 +53,38 @@ def test_a_straight_slot_gives_way_as_its_closed_form_says():
         if abs(theta - m.crank_half) < 1e-6:
             continue  # on the line of centres the wheel cannot give way
         run = m.stroke(np.array([theta / (2 * m.crank_half)]))
-        turned = [play(run, drawn_room(m, 0.025), off).start for off in (0.002, -0.002)]
+        turned = [Play.of(run, drawn_room(m, 0.025), off).start for off in (0.002, -0.002)]
         slope = float((turned[0] - turned[1])[0]) / 0.004
         # The wheel's angle is θw0 - β.
         assert slope == pytest.approx(-fact["expected"], rel=2e-3)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_room_as_drawn_is_half_the_clearance_less_the_distance_from_the_way(name):
+    m = mechanism_of(DESIGNS[name])
+    run, room = m.stroke(np.array([0.15, 0.3])), drawn_room(m, 0.5)
+    assert room((run.centre + 0.3 * m.slot_normal(run)) * run.to_wheel) == pytest.approx(0.2, abs=1e-12)
+    if m.straight:
+        assert room((m.bottom - 0.3) * np.exp(-1j * m.wheel_half)) == pytest.approx(0.2)
+    else:
+        outside = m.way(m.crank_half * np.array([-0.2, 2.2]))
+        assert room(outside.track) == pytest.approx(0.5, abs=1e-12)
+
+
+def test_the_wheel_rests_before_and_after_a_stroke():
+    m = mechanism_of(STRAIGHT)
+    outside, step = m.crank_half * np.array([-0.2, 2.2]), 1e-5
+    run, before, after = (m.way(outside + move) for move in (0, -step, step))
+    assert run.theta == pytest.approx([0, 2 * m.wheel_half])
+    assert run.velocity == pytest.approx((after.centre - before.centre) / (2 * step))
+    assert run.acceleration == pytest.approx((after.velocity - before.velocity) / (2 * step))
+
+
+def test_each_slot_is_judged_in_its_own_place():
+    one = Made(mechanism_of(CURVED), {})
+    vars(one)["room"] = np.angle
+    middles = [one.play(slot).here[SAMPLES // 2] for slot in (0, 1)]
+    assert middles == pytest.approx([-one.m.wheel_half, one.m.wheel_half])
 
 
 def test_walls_that_keep_stock_take_just_that_from_the_play():
@@ -70,7 +97,7 @@ def test_walls_that_keep_stock_take_just_that_from_the_play():
         material = shapely.difference(block, shapely.LineString(way).buffer(m.groove - left, quad_segs=2048))
         material = shapely.segmentize(material, 0.05)
         run = m.stroke(np.array([0.2, 0.35, 0.5]))
-        ahead, behind = play(run, made_room(material, m.roller)).turns()
+        ahead, behind = Play.of(run, made_room(material, m.roller)).turns()
         expected = (0.025 - left) / np.abs(run.centre)
         assert ahead == pytest.approx(expected, rel=2e-3)
         assert behind == pytest.approx(expected, rel=2e-3)
@@ -85,6 +112,8 @@ def test_the_examples_run_as_made(name):
     assert 0 < room.low < room.made < room.design == params.groove_clearance / 2
     lock = found["lock.clearance"]
     assert lock.asked == OFF_CENTRE < lock.low < lock.made < lock.design
+    turn = found["lock.play"]
+    assert turn.low < turn.made < turn.design < turn.high
     error = found["wheel.error"]
     assert error.low < error.made < error.design < error.high
     (curve,) = said.curves

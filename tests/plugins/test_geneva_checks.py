@@ -143,7 +143,7 @@ WARNINGS = [
     ("geneva.pressure", "load_inertia", {"load_inertia": 0.15}),
     ("geneva.stud", "pin_diameter", {"load_inertia": 0.3}),
     ("geneva.stud-slope", "pin_diameter", {"load_inertia": 0.5}),
-    ("geneva.key", "speed", {"load_inertia": 0.02, "bore": 8, "keyway_width": 2}),
+    ("geneva.key", "thickness", {"load_inertia": 0.02, "bore": 8, "keyway_width": 2}),
     ("geneva.ramp", "driver_law", {"driver_law": "from-rest", "driver_acceleration": 10}),
     ("bore.keyway-series", "keyway_width", {"keyway_width": 3}),
     ("geneva.clearance", "groove_clearance", {"groove_clearance": 0.05}),

@@ -81,7 +81,7 @@ class TestGeneva(DayContract):
             {"roller_radius": 7, "crank_half_angle": 50, "offset_angle": 5, "entry_radius": 100},
             "roller_radius",
         ),
-        ({"bore": 60, "crank_half_angle": 50, "offset_angle": 5}, "crank_half_angle"),
+        ({"bore": 60, "crank_half_angle": 50, "offset_angle": 5}, "roller_radius"),
         ({"construction": "through"}, "construction"),
         ({"law": "polynomial", "polynomial": [0, 1]}, "polynomial"),
         ({"law": "table", "table": [[0, 0], [1, 1]]}, "table"),

@@ -70,6 +70,12 @@ STUDIES = {
         {"crank_half_angle": 60, "offset_angle": 10, "slots": 6, "driver_direction": "backwards"},
         {"entry_radius": np.linspace(70, 120, 5), "roller_radius": np.linspace(3, 6, 5)},
     ),
+    "lopsided": (
+        {"slots": 6, "law": "polynomial", "polynomial": [0, 0, 0, 12, -21, 12, -2], "speed": 10,
+         "load_inertia": 0.001, "pin_fit": "P7"},
+        {"crank_half_angle": np.linspace(54, 60, 8), "offset_angle": np.linspace(8, 13, 8),
+         "roller_radius": np.linspace(3, 4.2, 8)},
+    ),
     "straight": (
         {"law": "straight", "roller_radius": 6},
         {"slots": np.array([3, 4, 5, 6, 8, 10]), "entry_radius": np.linspace(50, 140, 6),

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright.build import Build
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.designs.design import load
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing
 from mechwright_cam.controls.contract import Control

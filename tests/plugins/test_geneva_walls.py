@@ -11,8 +11,9 @@ from geneva_slots import valid_slots
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.design_table import with_columns
 from mechwright.mechanics.laws import LAWS, Polynomial
-from mechwright_geneva.defaults.dimensions import mechanism_of
+from mechwright_geneva.defaults.dimensions import mechanism_of, table_of
 from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Frame, regime, stroke
 from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, measure
 from mechwright_geneva.parameters import GenevaParams
@@ -259,6 +260,7 @@ class TestLopsided:
         {"law": "4-5-6-7", "offset_angle": 9},
         {"offset_angle": -12, "crank_half_angle": 45, "entry_radius": 70},
         {"slots": 3},
+        {"law": "polynomial", "polynomial": [0, 0, 0, 12, -21, 12, -2]},
     ],
 )
 def test_the_fitted_walls_are_within_what_they_say(table):
@@ -271,6 +273,10 @@ def test_the_fitted_walls_are_within_what_they_say(table):
         line = shapely.LineString(np.column_stack((exact.real, exact.imag)))
         fitted = np.concatenate([s.flatten(1e-4) for s in wall.segments if s.tag == "wall"])
         assert shapely.distance(line, shapely.points(fitted)).max() < wall.deviation + 2e-4
+        trimmed = slot.wall(side, trimmed=True)
+        assert [math.hypot(*end) for end in (trimmed.start, trimmed.end)] == pytest.approx(
+            [m.rim] * 2, abs=1e-9
+        )
 
 
 @pytest.mark.parametrize("table", [{}, {"law": "straight"}, {"offset_angle": -12, "crank_half_angle": 45}])
@@ -290,6 +296,28 @@ def test_the_groove_is_the_union_of_its_discs(table):
     swept = shapely.LineString(np.column_stack((track.real, track.imag))).buffer(m.groove, quad_segs=256)
     missing = groove.intersection(disc).symmetric_difference(swept.intersection(disc)).area
     assert missing < 1e-3 * groove.length
+
+
+@pytest.mark.parametrize("law", [{}, {"law": "polynomial", "polynomial": [0, 0, 0, 12, -21, 12, -2]}])
+@pytest.mark.parametrize("side", [LEFT, RIGHT])
+def test_a_wall_passes_the_rim_at_its_mouth_or_on_its_lead(law, side):
+    half, offset = np.linspace(40, 64, 9)[:, None], np.linspace(16, 6, 9)[:, None]
+    params = with_columns(GenevaParams(slots=6, **law), {"crank_half_angle": half, "offset_angle": offset})
+    table = table_of(params, 9)
+    angle = Slot(table).lead_angle(side)
+    for end in (0, 1):
+        mouth = Slot(table).mouth(side, end)
+        inside = angle == table.crank_half
+        assert 0 < inside.sum() < 9 or side == LEFT
+        np.testing.assert_array_equal(mouth != end, inside)
+        place = np.where(
+            inside,
+            Slot(table).exact(side, mouth),
+            table.axes - (table.crank + side * table.groove) * np.exp(1j * angle),
+        )
+        np.testing.assert_allclose(np.abs(place), np.broadcast_to(table.rim, (9, 1)), rtol=1e-13)
+        for row, one in enumerate(mouth.ravel()):
+            assert Slot(table.row(row)).mouth(side, end).item() == pytest.approx(one, abs=1e-15)
 
 
 class Whole:

@@ -1,6 +1,7 @@
 """Pins, eyes and bushings of planar linkages: forces of the dynamics on the sizes of the parts, and what helps."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,16 +9,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity
-from mechwright_four_bar import strength_checks as four
+from mechwright.mechanics.strength.turning_pair import eye_stresses, pin_stresses
 from mechwright_four_bar.family import FourBars
-from mechwright_slider_crank import strength_checks as slider
+from mechwright_four_bar.rules import strength as four
 from mechwright_slider_crank.family import SliderCrankFamily
+from mechwright_slider_crank.rules.loads import pairs_of
 
 BAR, SLIDE = FourBars(), SliderCrankFamily()
 CODES = {
     BAR: ("four-bar.pin", "four-bar.eye", "four-bar.bushing"),
     SLIDE: ("slider-crank.pin", "slider-crank.eye", "slider-crank.bushing"),
 }
+
+SLIDER_STRESSES = SimpleNamespace(
+    pins=lambda table: pin_stresses(pairs_of(table)),
+    eyes=lambda table: eye_stresses(pairs_of(table)),
+)
 
 
 def of(family, **table):
@@ -31,7 +38,7 @@ def found(family, **table):
 def test_a_slow_slider_crank_carries_its_load():
     """Without inertia the rod carries load over cosine, and the pins what the rod does."""
     params = of(SLIDE, load=-500.0, speed=0.01, pin=4.0)
-    pairs = {pair.name: pair for pair in slider.pairs_of(params)}
+    pairs = {pair.name: pair for pair in pairs_of(SLIDE.table(params))}
     motion = SLIDE.solve(params, 3601)
     lean = np.abs(np.arcsin((10 - 30 * np.sin(motion.channels["phi"].values)) / 100))
     for name in ("the crank pin", "the wrist pin", "the shaft"):
@@ -48,7 +55,7 @@ def test_a_slow_slider_crank_carries_its_load():
 def test_a_slow_four_bar_carries_its_load():
     """Without inertia the coupler pushes the follower with T/(b sin μ)."""
     params = of(BAR, load_torque=5.0, speed=0.01)
-    pairs = {pair.name: pair for pair in four.pairs_of(params)}
+    pairs = {pair.name: pair for pair in four.pairs_of(BAR.table(params)).values()}
     places = {name: channel.values for name, channel in BAR.solve(params, 3601).channels.items()}
     a = params.crank * np.exp(1j * places["phi"])
     b = params.ground + params.follower * np.exp(1j * places["psi"])
@@ -63,11 +70,12 @@ def test_a_slow_four_bar_carries_its_load():
 @settings(deadline=None, max_examples=8)
 @given(st.floats(0.1, 100))
 def test_twice_the_load_is_twice_the_stress(load):
-    for family, module, key in ((BAR, four, "load_torque"), (SLIDE, slider, "load")):
+    for family, module, key in ((BAR, four, "load_torque"), (SLIDE, SLIDER_STRESSES, "load")):
         one, two = (of(family, **{key: times * load}, speed=0.001) for times in (1, 2))
         for group in (module.pins, module.eyes):
-            assert [stress.value for stress in group(two)] == pytest.approx(
-                [2 * stress.value for stress in group(one)], rel=1e-6
+            of_one, of_two = (group(family.table(params)) for params in (one, two))
+            assert [stress.value for stress in of_two] == pytest.approx(
+                [2 * stress.value for stress in of_one], rel=1e-6
             )
 
 

@@ -12,15 +12,15 @@ from mechwright.contracts.made_part import MadeHole
 from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors
 from mechwright_cam.pages.as_made.plot import plot
-from mechwright_four_bar.as_made import as_made as bar_as_made
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bosses_of
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.table import FourBarTable
 from mechwright_four_bar.tolerances import FourBarTolerances
-from mechwright_slider_crank.as_made import as_made as slider_as_made
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.as_made.plates import as_made as slider_as_made
+from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.table import SliderCrankTable
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.tolerances import SphericalTolerances
 
@@ -38,11 +38,11 @@ H2 = dict(zip(ARCS, (90.0, 25.0, 80.0, 75.0), strict=True))
 
 
 def four_bar(sizes):
-    return FourBarTolerances(FourBarParams(**sizes), EXACT)
+    return FourBarTolerances(FourBarTable.of(FourBarParams(**sizes)), EXACT)
 
 
 def slider(sizes):
-    return SliderCrankTolerances(SliderCrankParams(**sizes), EXACT)
+    return SliderCrankTolerances(SliderCrankTable.of(SliderCrankParams(**sizes)), EXACT)
 
 
 def spherical(arcs):
@@ -87,7 +87,7 @@ def test_errors_of_a_coupler_point_are_differences_of_positions():
         loop = close(FourBar(*sizes.values()), phi)
         return loop.joint_a + point * loop.coupler.direction
 
-    model = FourBarTolerances(FourBarParams(**F1, coupler_point_x=30, coupler_point_y=20), EXACT)
+    model = four_bar(F1 | {"coupler_point_x": 30, "coupler_point_y": 20})
     model.positions = phi
     both = {"crank": MadeLink(off, 0.0), "follower": MadeLink(-2 * off, 0.0)}
     _, error = made_errors(model, both, {}, {})
@@ -118,13 +118,10 @@ class Bored:
 
 
 def test_where_links_line_up_the_play_alone_is_told(monkeypatch):
-    bar = FourBarParams(crank=40, coupler=80, follower=40, ground=80, bushing_wall=0)
-    plates = {name: [Bored()] for name in bosses_of(bar)}
-    assert [one.name for one in bar_as_made(bar, plates).figures] == ["pin.room"]
     slide = SliderCrankParams(crank=40, rod=40, offset=0, bushing=0)
     plates = {name: [Bored()] for name in ("base", "rail", "crank", "rod", "slider")}
-    monkeypatch.setattr("mechwright_slider_crank.as_made._guide", lambda *_: (0.05, 0.0))
-    assert [one.name for one in slider_as_made(slide, plates).figures] == ["slider.play"]
+    monkeypatch.setattr("mechwright_slider_crank.as_made.plates._guide", lambda *_: (0.05, 0.0))
+    assert [one.name for one in slider_as_made(SliderCrankTable.of(slide), plates).figures] == ["slider.play"]
 
 
 @pytest.mark.parametrize(
@@ -153,11 +150,11 @@ def test_the_plates_of_the_examples_are_judged(name, figures):
 def test_a_slider_and_pins_that_do_not_fit_are_refused():
     parts, _, params = example("slider-crank-quick-return")
     made = {part.name: [replace(part, corridor=0.03)] for part in parts}
-    (jammed,) = slider_as_made(params, made).findings
+    (jammed,) = slider_as_made(SliderCrankTable.of(params), made).findings
     assert (jammed.severity, jammed.parameter) == (Severity.ERROR, "play")
     better = params.model_copy(update={"play": float(jammed.remedy.split()[2].rstrip(":"))})
     rail = {name: [replace(part, corridor=0.03)] for name, (part,) in made.items()}
-    assert not slider_as_made(better, rail).findings
+    assert not slider_as_made(SliderCrankTable.of(better), rail).findings
 
 
 def test_pins_that_do_not_turn_in_reamed_bores_are_refused(tmp_path):

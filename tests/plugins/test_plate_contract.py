@@ -14,7 +14,7 @@ import mechwright as mw
 from mechwright.designs.files import INPUT_LIMIT
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
-from mechwright.sweep.study import load_study
+from mechwright.studies.study import load_study
 from mechwright.testing.commands import run
 from mechwright_plate.family import Plate
 

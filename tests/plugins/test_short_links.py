@@ -7,17 +7,18 @@ from hypothesis import strategies as st
 
 import mechwright as mw
 from mechwright import Stage
+from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.refusals import refusals
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_five_bar.defaults.complete_parameters import CompleteParams
 from mechwright_five_bar.family import FiveBars
-from mechwright_five_bar.sized import SizedParams
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.defaults.dimensions import complete
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.sizes import filled_in, sizes_of
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.parts.dimensions import dimensions_of
 
 SHORT = {
     "four-bar of 20 mm": ("four-bar", {"crank": 5, "coupler": 18, "follower": 15, "ground": 20}),
@@ -63,7 +64,7 @@ def test_small_mechanisms_are_built_as_they_are(name):
 
 def test_what_is_given_stays_and_usual_links_have_usual_pins():
     assert FourBarParams().pin_diameter == 6
-    assert SizedParams().web_width == 12
+    assert CompleteParams().web_width == 12
     small = FourBarParams(crank=5, coupler=18, follower=15, ground=20, rim=1)
     assert (small.pin_diameter, small.rim) == (4, 1)
     asked = FourBarParams(crank=5, coupler=18, follower=15, ground=20, pin_diameter=6)
@@ -123,17 +124,17 @@ def test_a_slider_crank_has_the_pin_that_its_load_asks_for(load):
     press = mw.design("slider-crank", crank=30, rod=120, offset=0, thickness=12, load=load)
     assert not thin_pins(press)
     (bore, *_) = [one for one in press.parts["rod"].features if one.name.startswith("bore")]
-    assert bore.diameter == sizes_of(press.design.params).pin + 2
+    assert bore.diameter == dimensions_of(press.design.params).pin + 2
     thin = press.with_(pin=2)
     assert thin_pins(thin)
 
 
 def test_loads_of_many_slider_cranks_give_each_its_pin():
     loads = np.array([0.0, 100.0, -500.0, 1500.0, 9000.0])
-    table = {"crank": 30.0, "rod": 120.0, "offset": 5.0, "thickness": 12.0, "gap": 0.3, "bushing": 1.0}
-    many = filled_in(lambda name: loads if name == "load" else table.get(name)).pin
-    each = [sizes_of(SliderCrankParams(**{**table, "load": float(load)})).pin for load in loads]
-    assert many.tolist() == each
+    one = SliderCrankParams(crank=30, rod=120, offset=5, thickness=12)
+    pins = dimensions_of(with_columns(one, {"load": loads[:, None]})).pin
+    each = [dimensions_of(one.model_copy(update={"load": float(load)})).pin for load in loads]
+    assert pins.ravel().tolist() == each
     assert each == sorted(each)
 
 
@@ -147,7 +148,7 @@ def test_small_geneva_wheels_have_pins_and_dowels_whose_holes_can_be_made(law, w
     assert sizes.fixing == 0 or sizes.fixing >= 1
 
 
-@pytest.mark.parametrize(("model", "short"), [(FourBarParams, 9.0), (SizedParams, 8.0)])
+@pytest.mark.parametrize(("model", "short"), [(FourBarParams, 9.0), (CompleteParams, 8.0)])
 def test_a_first_design_with_fitted_sizes_does_not_send_all_the_slow_way(model, short):
     assert model(crank=short).rim < model.model_fields["rim"].default
     assert refusals(Batch(model, {}, {"crank": np.array([short, 40.0])})).known.all()

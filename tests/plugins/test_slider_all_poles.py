@@ -14,7 +14,7 @@ from mechwright.mechanics.continuation.paths import tracked
 from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright_slider_crank.all_poles import CUT, FILE, SOLUTIONS, all_linkages
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.pole_equations import PoleProblem
 from mechwright_slider_crank.pole_system import MOVING, TWO_POLES, any_parameters, any_solution
 from mechwright_slider_crank.poles_synthesis import completed, through_poles

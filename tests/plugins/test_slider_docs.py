@@ -18,7 +18,7 @@ PAGE = (ROOT / "docs" / "slider-crank.md").read_text(encoding="utf-8")
 
 
 def test_every_finding_is_on_the_page_and_no_other():
-    sources = (ROOT / "plugins" / "mechwright_slider_crank").glob("*.py")
+    sources = (ROOT / "plugins" / "mechwright_slider_crank").rglob("*.py")
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
     said = set(re.findall(r'"(slider-crank\.[a-z-]+)"', code))
     said |= {f"slider-crank.{name}-range" for name in ("crank", "rod", "offset")}

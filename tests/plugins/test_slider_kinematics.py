@@ -15,14 +15,14 @@ from signed_distances import of_slider_crank
 from mechwright.errors import KinematicsError
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_slider_crank.figures import (
+from mechwright_slider_crank.kinematics.forces import balance, joint_forces
+from mechwright_slider_crank.kinematics.limits import (
     crank_turns,
     least_transmission_angle,
     limits,
     transmission_angle,
 )
-from mechwright_slider_crank.forces import balance, joint_forces
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.simulate import simulated
 from mechwright_slider_crank.stroke import rocking_angle
 
@@ -212,7 +212,7 @@ def test_closed_form_limits_are_those_of_the_simulation(seed, which):
     assert stroke == pytest.approx(found.stroke, rel=1e-9)
     assert ratio == pytest.approx(found.time_ratio, rel=1e-7)
     for angle, position in ((found.far, found.far_position), (found.near, found.near_position)):
-        s, v, _ = linkage.rates(angle)
+        s, v = linkage.positions(angle), linkage.velocities(angle)
         assert s == pytest.approx(position, rel=1e-9, abs=1e-9)
         assert abs(v) < 1e-6 * linkage.crank
     phi = np.linspace(0, math.tau, 3601)
@@ -259,7 +259,7 @@ def test_the_slider_pin_goes_straight():
 
 def test_reference_forces():
     masses = {"crank": Mass(0.0), "rod": Mass(1.2, 50 + 0j, 2500.0), "slider": Mass(2.0)}
-    found = joint_forces(REFERENCE, REFERENCE.bodies(PHI, 10.0), masses, -300.0)
+    found = joint_forces(REFERENCE.bodies(PHI, 10.0), masses, -300.0)
     assert found.drive[0] == pytest.approx(number("input_torque") / 1e3, rel=1e-7)
     assert found.joints["wrist-pin"][0] == pytest.approx(place("pin_force_coupler_on_slider") / 1e3, rel=1e-7)
     assert found.joints["crank-pin"][0] == pytest.approx(place("pin_force_crank_on_coupler") / 1e3, rel=1e-7)
@@ -295,7 +295,7 @@ def test_counterweights_stop_the_shaking():
         "crank": together([masses["crank"], Mass(1.0, weights.crank)]),
         "slider": masses["slider"],
     }
-    before = np.abs(joint_forces(REFERENCE, bodies, masses).shaking).max()
-    after = np.abs(joint_forces(REFERENCE, bodies, balanced).shaking).max()
+    before = np.abs(joint_forces(bodies, masses).shaking).max()
+    after = np.abs(joint_forces(bodies, balanced).shaking).max()
     assert before > 10
     assert after < 1e-9 * before

@@ -12,9 +12,10 @@ from mechwright.contracts.finding import errors
 from mechwright.testing.compare import assert_derivative
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.rules import motion_faults
-from mechwright_slider_crank.course import ways
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.motion import peaks
+from mechwright_slider_crank.kinematics.course import ways
+from mechwright_slider_crank.kinematics.figures import peaks
+from mechwright_slider_crank.table import SliderCrankTable
 
 RATES = (
     ("phi", "omega_a"),
@@ -180,7 +181,7 @@ def test_the_ways_of_a_crank_are_all_angles_at_which_the_rod_reaches_the_slide(
     angles = np.linspace(-math.pi, math.pi, 721)[:-1]
     off = np.abs(offset - crank * np.sin(angles - math.radians(slide))) - rod * math.cos(least)
     inside = np.zeros(angles.shape, bool)
-    for low, high in ways(design, least):
+    for low, high in ways(SliderCrankTable.of(design), least):
         inside |= (angles - low) % math.tau <= high - low
     clear = np.abs(off) > 1e-9 * (crank + rod)
     assert (inside == (off <= 0))[clear].all()

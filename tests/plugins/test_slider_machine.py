@@ -21,7 +21,7 @@ from mechwright.remedies import tried
 from mechwright.standards.couplings import BORES
 from mechwright.testing import commands
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "slider-crank-machine.toml"
 FAMILY = SliderCrankFamily()

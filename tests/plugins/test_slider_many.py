@@ -1,19 +1,18 @@
 """Many slider-cranks at once are what each is by itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from by_night import in_ci
 from many import Many
 
 from mechwright import Stage
-from mechwright.contracts import by_arrays
-from mechwright_slider_crank.bounds import bears
-from mechwright_slider_crank.dealing import ORDER
-from mechwright_slider_crank.evaluation import moved
+from mechwright.contracts.by_arrays import Designs
+from mechwright.contracts.table_evaluation import tables
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.masses import BALANCES, BODIES
-from mechwright_slider_crank.rooms import bounds_of, decided, measure
-from mechwright_slider_crank.sizes import filled_in
+from mechwright_slider_crank.parts.layers import ORDER, bounds_of, measure, rooms_of
+from mechwright_slider_crank.rules.loads import bears
 
 pytestmark = in_ci
 
@@ -36,7 +35,17 @@ PARTS = (
     "base", "rail", "crank", "rod", "slider", "shaft", "crank-pin", "wrist-pin", "dowel", "spacer", "bushing",
     "shaft-bushing",
 )  # fmt: skip
+BALANCES = (
+    "balance_rod_x", "balance_rod_y", "balance_crank_x", "balance_crank_y", "balance_rod_weight",
+)  # fmt: skip
+BODIES = ("mass_crank", "mass_rod", "mass_slider")
 MASSES = ["mass", *(f"mass.{part}" for part in PARTS), *BODIES, *BALANCES]
+
+
+def table_of(batch):
+    """The table of a batch of one structure."""
+    ((_, params),) = tables(Designs(batch.common, batch.varied), (), ())
+    return FAMILY.table(params, len(batch))
 
 
 @pytest.mark.parametrize(
@@ -89,42 +98,39 @@ def test_accelerating_cranks_and_sizes_that_are_given():
     assert not MANY.alone
 
 
-def test_what_may_tear_is_asked_by_itself():
+def test_what_tears_is_forbidden():
     batch = MANY.drawn(
         6, {"load": 20000, "thickness": 2}, crank=(15, 30), rod=(120, 200), material=["pom", "steel"]
     )
     found = MANY.same(batch, ["a_max"], Stage.PARTS)
     assert "slider-crank.eye" in found.counts
-    assert MANY.alone
 
 
 @pytest.mark.parametrize("content", [{"crank_shape": "arm"}, {"rod_bend": 3}, {"screw_hole": 5}])
-def test_what_has_no_way_goes_one_by_one(content):
-    MANY.same(MANY.drawn(2, content, crank=(15, 25)), ["a_max"], Stage.MOTION)
-    assert MANY.alone == 2
+def test_other_shapes_are_judged_as_each_is(content):
+    MANY.same(MANY.drawn(2, content, crank=(15, 25)), ["a_max", "mass_rod", "mass"], Stage.PARTS)
 
 
 def test_bounds_of_rooms_hold_the_rooms_and_leave_few_open():
-    batch = MANY.drawn(400, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40))
-    designs = by_arrays.Designs(batch.common, batch.varied)
-    many, sizes = moved(by_arrays.Answer(400), designs), filled_in(designs.__getitem__)
-    blocked, free = bounds_of(designs, many, sizes, rods=True)
-    overhang = np.broadcast_to(sizes.overhang, 400)
+    table = table_of(MANY.drawn(400, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40)))
+    rooms = bounds_of(table, table.dimensions, rods=True)
+    blocked, free = rooms.blocked, rooms.free
     assert not (blocked & free).any()
-    stuck, stands = decided(blocked, free)
-    assert np.mean(stuck | stands) > 0.99
+    assert rooms.known().mean() > 0.99
     for place in range(6):
         none = np.zeros_like(blocked)
-        measured, clear = none.copy(), none.copy()
-        measure(designs, place, overhang[place], measured, clear)
-        assert (measured[place] ^ clear[place]).all()
-        assert not (blocked[place] & clear[place]).any()
-        assert not (free[place] & measured[place]).any()
+        exact = replace(rooms, blocked=none.copy(), free=none.copy())
+        measure(table, place, exact)
+        assert (exact.blocked[place] ^ exact.free[place]).all()
+        assert not (blocked[place] & exact.free[place]).any()
+        assert not (free[place] & exact.blocked[place]).any()
+
+
+def test_bounds_and_measured_rooms_decide_all_layers():
+    rooms = rooms_of(table_of(MANY.drawn(60, {}, crank=(15, 60), rod=(60, 200), offset=(-40, 40))))
+    assert rooms.known().all()
 
 
 def test_an_unloaded_one_bears_for_sure_and_an_overloaded_one_does_not():
     for load, sure in ((0.0, True), (1e6, False)):
-        batch = MANY.drawn(5, {"load": load}, crank=(15, 25))
-        designs = by_arrays.Designs(batch.common, batch.varied)
-        many = moved(by_arrays.Answer(5), designs)
-        assert (bears(designs, many, filled_in(designs.__getitem__)) == sure).all()
+        assert (bears(table_of(MANY.drawn(5, {"load": load}, crank=(15, 25)))) == sure).all()

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.descent import squares
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.paths.room import Limits, SliderRoom
 from mechwright_slider_crank.requirements import PathRequirement
 

@@ -6,19 +6,23 @@ import numpy as np
 import pytest
 import shapely
 
+from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.motion import Poses
 from mechwright.errors import DesignError
 from mechwright_cad.interference import interference
-from mechwright_slider_crank.checks import findings
-from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.figures import limits
-from mechwright_slider_crank.outlines import crank_outline
-from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import body_poses, layout_of, masses_of, parts_of, standing_sizes
-from mechwright_slider_crank.sizes import clear_overhang, filled_in, sizes_of
+from mechwright_slider_crank.kinematics.course import course_of
+from mechwright_slider_crank.kinematics.limits import limits
+from mechwright_slider_crank.parameters import SliderCrankParams
+from mechwright_slider_crank.parts.dimensions import clear_overhang, dimensions_of
+from mechwright_slider_crank.parts.masses import bodies_of
+from mechwright_slider_crank.parts.outlines import crank_outline
+from mechwright_slider_crank.parts.parts import parts_of
+from mechwright_slider_crank.parts.plates import body_poses, layout_of, standing_dimensions
+from mechwright_slider_crank.table import SliderCrankTable
 
+table_of, findings = SliderCrankTable.of, SliderCrankFamily().check
 DESIGNS = (
     {"crank": 51.23710482942299, "rod": 113.28305527097052, "offset": 50},
     {"crank": 40, "rod": 150, "offset": -20, "assembly": "behind", "rod_width": 8, "slide_direction": 100},
@@ -38,7 +42,7 @@ def codes(params, severity=Severity.ERROR):
 def test_nothing_collides_over_a_turn(design):
     """Plates only: the contract's designs are compared with pins and bushings."""
     family = SliderCrankFamily()
-    report = interference(parts_of(design), family.solve(design, 181), solids=False)
+    report = interference(parts_of(table_of(design)), family.solve(design, 181), solids=False)
     assert report.collisions == ()
     assert report.pairs >= 10
 
@@ -46,7 +50,7 @@ def test_nothing_collides_over_a_turn(design):
 @pytest.mark.parametrize("shape", ["arm", "disc"])
 def test_a_crank_reaches_as_far_as_its_walls_about_shaft_and_pin(shape):
     params = SliderCrankParams(crank_shape=shape)
-    sizes, outline = sizes_of(params), crank_outline(params)
+    sizes, outline = dimensions_of(params), crank_outline(table_of(params))
     far = params.crank + sizes.pin_boss
     behind = sizes.shaft / 2 + sizes.wall if shape == "arm" else far
     assert outline.bounds[::2] == pytest.approx((-behind, far))
@@ -56,7 +60,7 @@ def test_a_crank_reaches_as_far_as_its_walls_about_shaft_and_pin(shape):
 @pytest.mark.parametrize("ends", [(60.0, 160.0), (10.0, 70.0), (-30.0, 90.0)])
 @pytest.mark.parametrize("crank", [20.0, 45.0])
 def test_dowels_of_rails_stand_outside_of_what_crank_and_rod_sweep(crank, ends):
-    sizes, clearance = sizes_of(SliderCrankParams()), 1.5
+    sizes, clearance = dimensions_of(SliderCrankParams()), 1.5
     overhang = clear_overhang(sizes, crank, ends, clearance)
     half = (ends[1] - ends[0] + sizes.slider_length) / 2 + overhang
     # The nearer of both dowels from the crank's axis, half a rail's width from the end of the rail.
@@ -73,13 +77,17 @@ def test_a_bent_crank_pin_place_is_seen(design):
     side = 3 * pose.rotation[:, :, 1]
     poses = {**motion.poses, "slider": Poses(pose.position + side, pose.rotation)}
     moved = type(motion)(motion.input_name, motion.channels, poses, motion.scalars)
-    report = interference(parts_of(design), moved, solids=False)
+    report = interference(parts_of(table_of(design)), moved, solids=False)
     assert {"rail-1", "rail-2"} & {name for hit in report.collisions for name in (hit.first, hit.second)}
 
 
 def test_joints_are_where_the_pins_are(design):
     """Each bore meets its pin or bushing, in every pose, with the same axis."""
-    motion, layout, linkage = SliderCrankFamily().solve(design, 37), layout_of(design), design.linkage
+    motion, layout, linkage = (
+        SliderCrankFamily().solve(design, 37),
+        layout_of(table_of(design)),
+        design.linkage,
+    )
     phi = motion.channels["phi"].values
     bodies = linkage.bodies(phi)
 
@@ -103,7 +111,7 @@ def test_joints_are_where_the_pins_are(design):
 
 
 def test_the_slider_stays_between_and_on_its_rails(design):
-    motion, layout = SliderCrankFamily().solve(design, 73), layout_of(design)
+    motion, layout = SliderCrankFamily().solve(design, 73), layout_of(table_of(design))
 
     def placed(name, body, k):
         pose = motion.poses[body]
@@ -115,7 +123,7 @@ def test_the_slider_stays_between_and_on_its_rails(design):
         for rail in ("rail-1", "rail-2"):
             gap = shapely.distance(slider, placed("rail", rail, k))
             assert gap == pytest.approx(design.play, abs=2e-3)
-    ends, half = limits(design.linkage), sizes_of(design).slider_length / 2
+    ends, half = limits(design.linkage), dimensions_of(design).slider_length / 2
     rail_ends = [layout.rails[0].real + x for x in layout.outlines["rail"].bounds[0::2]]
     low, high = sorted((ends.near_position, ends.far_position))
     assert rail_ends[0] < low - half
@@ -123,7 +131,7 @@ def test_the_slider_stays_between_and_on_its_rails(design):
 
 
 def test_pins_reach_from_plate_to_plate(design):
-    layout, parts = layout_of(design), {part.name: part for part in parts_of(design)}
+    layout, parts = layout_of(table_of(design)), {part.name: part for part in parts_of(table_of(design))}
     for name, (low_plate, high_plate) in {
         "crank-pin": ("crank", "rod"),
         "wrist-pin": ("slider", "rod"),
@@ -140,10 +148,10 @@ def test_masses_are_those_of_the_solids(design):
     from mechwright.contracts.materials import material
     from mechwright_cad.solids.solid import part_solid
 
-    found = masses_of(design)
+    found = bodies_of(table_of(design))
     weights = dict.fromkeys(("crank", "rod", "slider"), 0.0)
     owner = {"crank": "crank", "crank-pin": "crank", "rod": "rod", "rod-end": "rod", "slider": "slider"}
-    for part in parts_of(design):
+    for part in parts_of(table_of(design)):
         mass = part_solid(part).Volume() * material(part.material).density * 1e-6
         for instance in part.instances:
             if instance.body in owner:
@@ -236,34 +244,34 @@ def test_turning_clockwise_runs_the_film_backwards():
 def test_rails_are_longer_where_only_that_leaves_layers(table):
     """Their dowels stand outside of crank and rod over the whole turn; with usual rails there are no layers."""
     params = SliderCrankParams(**table)
-    layout = layout_of(params)
+    layout = layout_of(table_of(params))
     assert errors(findings(params)) == []
-    assert layout.sizes == standing_sizes(params)
+    assert layout.sizes == standing_dimensions(table_of(params))
     assert layout.sizes.overhang > layout.sizes.rail
     short = params.model_copy(update={"rail_overhang": layout.sizes.rail})
     assert [one.code for one in errors(findings(short))] == ["slider-crank.layers"]
     said = params.model_copy(update={"rail_overhang": layout.sizes.overhang})
-    assert layout_of(said).outlines["rail"].bounds == layout.outlines["rail"].bounds
-    poses = body_poses(params, course_of(params).way(181))
+    assert layout_of(table_of(said)).outlines["rail"].bounds == layout.outlines["rail"].bounds
+    poses = body_poses(table_of(params), course_of(table_of(params)).way(181))
     assert poses["dowel-1"].position[0] == pytest.approx(
-        body_poses(said, course_of(said).way(181))["dowel-1"].position[0]
+        body_poses(table_of(said), course_of(table_of(said)).way(181))["dowel-1"].position[0]
     )
 
 
 def test_usual_rails_stay_as_they_are():
-    layout = layout_of(SliderCrankParams())
+    layout = layout_of(table_of(SliderCrankParams()))
     assert layout.sizes.overhang == layout.sizes.rail
-    assert layout.sizes == sizes_of(SliderCrankParams())
+    assert layout.sizes == dimensions_of(SliderCrankParams())
 
 
 @pytest.mark.parametrize(("crank", "pin"), [(3, 1.5), (2.5, 1.0), (3.5, 2.0), (2.9, 1.5), (40, 5)])
 def test_short_cranks_have_fine_pins(crank, pin):
     params = SliderCrankParams(crank=crank, rod=4 * crank, offset=0)
-    assert sizes_of(params).pin == pin
+    assert dimensions_of(params).pin == pin
     assert errors(findings(params)) == []
-    plain = {"rod": 160.0, "offset": 0.0, "load": 0.0, "thickness": 6.0, "gap": 0.3, "bushing": 1.0}
-    assert filled_in({**plain, "crank": np.array([crank, 40.0])}.get).pin.tolist() == [pin, 5.0]
+    both = SliderCrankTable(with_columns(params, {"crank": np.array([[crank], [40.0]])}), 2)
+    assert both.dimensions.pin.ravel().tolist() == [pin, 5.0]
 
 
 def test_a_shaft_that_is_said_leaves_room_for_the_pin():
-    assert sizes_of(SliderCrankParams(crank=4, rod=20, shaft=4.2)).pin == 1.5
+    assert dimensions_of(SliderCrankParams(crank=4, rod=20, shaft=4.2)).pin == 1.5

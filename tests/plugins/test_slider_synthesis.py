@@ -13,9 +13,9 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_slider_crank.checks import findings
-from mechwright_slider_crank.figures import crank_turns, least_transmission_angle, limits
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.family import SliderCrankFamily
+from mechwright_slider_crank.kinematics.limits import crank_turns, least_transmission_angle, limits
+from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.pole_equations import PoleProblem
 from mechwright_slider_crank.poles_synthesis import through_poles
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
@@ -117,7 +117,9 @@ def test_the_design_is_simulated_and_has_the_wanted_quick_stroke(given_, quick):
     assert candidate.figures["stroke_simulated"].value == pytest.approx(120, rel=1e-10)
     assert candidate.figures["time_ratio_simulated"].value == pytest.approx(1.5, rel=1e-10)
     assert limits(candidate.params.linkage).slow_outward == (quick == "inward")
-    (told,) = [one for one in findings(candidate.params) if one.code == "slider-crank.stroke"]
+    (told,) = [
+        one for one in SliderCrankFamily().check(candidate.params) if one.code == "slider-crank.stroke"
+    ]
     assert ("slower away from the crank" in told.message) == (quick == "inward")
 
 
@@ -184,7 +186,7 @@ def test_bounds_are_findings_with_the_nearest_value(table, code, parameter, limi
 )
 def test_small_strokes_are_met_by_designs_whose_rails_stand_clear(stroke, ratio):
     for candidate in from_stroke(StrokeRequirement(stroke=stroke, time_ratio=ratio)).candidates:
-        assert not errors(findings(candidate.params))
+        assert not errors(SliderCrankFamily().check(candidate.params))
         assert candidate.figures["stroke_simulated"].value == pytest.approx(stroke, rel=1e-6)
         break
     else:

@@ -8,8 +8,8 @@ from synthesis_reference import facts
 from test_double_cranks import free_orders
 
 from mechwright.mechanics.planar import Turning
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_spherical.clearances import point_to_arc
 from mechwright_spherical.fourbar import FourBar as SphericalFourBar
 

@@ -15,13 +15,13 @@ from mechwright.mechanics.tolerance.places import place_at
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
-from mechwright_four_bar.params import FourBarParams
-from mechwright_geneva.as_made.tube import Tube
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.params import SphericalParams
 
@@ -207,7 +207,8 @@ def test_the_least_backlash_is_that_with_no_play_in_the_worst_case():
 def test_the_wheel_turns_as_far_as_the_tube_lets_it(design):
     wanted = [fact for fact in facts("geneva.play_total") if fact["inputs"]["design"] == design]
     at = np.radians([fact["inputs"]["theta_d_deg"] for fact in wanted])
-    there, back = Tube(mechanism_of(GenevaParams(**DESIGNS[design])), 0.025).play(at)
+    m = mechanism_of(GenevaParams(**DESIGNS[design]))
+    there, back = Play.of(m.way(at), drawn_room(m, 0.025)).turns()
     for fact, play in zip(wanted, there + back, strict=True):
         close(fact, play)
 

@@ -10,7 +10,7 @@ function planePicture(place) {
   const stretch = ghost ? (Math.max(...Object.values(ghost.poses).map((pose) => pose.columns[0].length)) - 1) / last : 1;
   const groups = data.layers.map((layer) => {
     const drawn = element("path", layer.bones
-      ? { class: "bone", d: layer.path, stroke: layer.colour } : { class: "part", d: layer.path, fill: layer.colour }, turned);
+      ? { class: "bone", d: layer.path, stroke: layer.colour } : { class: layer.clear ? "part clear" : "part", d: layer.path, fill: layer.colour }, turned);
     element("title", { text: layer.name }, drawn);
     const show = shown.get(layer.name) || { colour: layer.colour, parts: [] };
     show.parts.push((on) => { drawn.style.display = on ? "" : "none"; });

@@ -1,6 +1,6 @@
 """A mechanism whose bodies stay in parallel planes: their layers as paths, seen from above."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -33,6 +33,33 @@ def layers_of(body: Body, *, solids: bool) -> list[dict[str, Any]]:
             "path": path_of(slab.polygon),
         }
         for slab in _slabs(body, solids)
+    ]
+
+
+def see_through(
+    layers: Sequence[dict[str, Any]], poses: Mapping[str, Any], plates: Collection[str]
+) -> list[dict[str, Any]]:
+    """The layers, where plates that stand still over what moves are ``clear``, so that one sees it.
+
+    Parameters
+    ----------
+    layers, poses
+        As a page has them.
+    plates
+        Names of the layers that are plates.
+
+    >>> layers = [{"body": "a", "name": "a", "top": 6.0}, {"body": "ground", "name": "lid", "top": 9.0}]
+    >>> poses = {"a": {"columns": [[0, 1], [0], [0]]}, "ground": {"columns": [[0], [0], [0]]}}
+    >>> [one.get("clear", False) for one in see_through(layers, poses, {"a", "lid"})]
+    [False, True]
+    """
+    moving = {name for name, pose in poses.items() if any(len(column) > 1 for column in pose["columns"])}
+    tops = [one["top"] for one in layers if one["body"] in moving and one["name"] in plates]
+    return [
+        {**one, "clear": True}
+        if tops and one["body"] not in moving and one["name"] in plates and one["top"] > min(tops)
+        else one
+        for one in layers
     ]
 
 

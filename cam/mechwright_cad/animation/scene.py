@@ -57,10 +57,11 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     if bare:
         found |= _skeleton(motion, plane=plane)
     elif plane:
-        from mechwright_cad.animation.plane import layers_of, window
+        from mechwright_cad.animation.plane import layers_of, see_through, window
 
         layers = [layer for body in bodies for layer in layers_of(body, solids=solids)]
-        found["layers"] = sorted(layers, key=lambda layer: layer["top"])
+        plates = {label_of(body) for body in bodies if body.is_plate}
+        found["layers"] = see_through(sorted(layers, key=lambda layer: layer["top"]), found["poses"], plates)
         found["window"] = window(bodies, solids=solids, paths=list(paths.values()))
     else:
         from mechwright_cad.animation.space import meshes_of, upwards

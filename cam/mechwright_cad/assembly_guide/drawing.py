@@ -20,6 +20,8 @@ ROW = 6.0
 
 COLUMNS = (10.0, 10.0, 45.0, 60.0)
 """Widths of item, quantity, name, material or designation, mm."""
+CHARACTER = 0.7
+"""Width of a character over its height; long words are written smaller, so that they stay in their column."""
 
 _CORNERS = 24
 """Of a ring."""
@@ -96,7 +98,8 @@ def _list(sheet: Sheet, items: Mapping[int, Sequence[Part]]) -> None:
     for k, row in enumerate(rows):
         y, x = low + ROW * k, x0
         for width, words in zip(COLUMNS, row, strict=True):
-            sheet.add(Text((x + 1.5, y + 1.8), words, height=2.5))
+            height = min(2.5, (width - 3.0) / max(1, len(words)) / CHARACTER)
+            sheet.add(Text((x + 1.5, y + 1.8), words, height=height))
             x += width
         sheet.lines([(x0, y + ROW), (x, y + ROW)], "DIM")
     sheet.lines([(x0, low), (x0, low + ROW * len(rows))], "DIM")

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.output.templates import templates
+from mechwright.pipeline import Build, FileName, Page, Wanted
 
 if TYPE_CHECKING:
     from mechwright.contracts.part import Part
@@ -29,7 +29,7 @@ class AssemblyGuide(Page):
         """Whether a second process makes solids meanwhile."""
         from mechwright_cad.making import Solids
 
-        return build.made(Solids).beside
+        return build.made_as_wanted(Solids).beside
 
     def shown(self, build: Build) -> bool:
         """Whether a build has this page."""

@@ -14,8 +14,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from types import MappingProxyType
 
-from mechwright.build import Blank
 from mechwright.contracts.part import Part
+from mechwright.pipeline import Blank
 from mechwright_cad.bill.items import FIRST, items
 from mechwright_cad.bill.stock import count, finished, pieces
 

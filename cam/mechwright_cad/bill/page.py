@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, FileName, Page, RawStock, Wanted
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
+from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
 from mechwright_cad.turned_drawing.page import SUFFIXES
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ class BillOfMaterials(Page):
         """Whether a second process weighs the parts."""
         from mechwright_cad.making import Solids
 
-        return build.made(Solids).beside
+        return build.made_as_wanted(Solids).beside
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """Both files."""
@@ -50,7 +50,7 @@ class BillOfMaterials(Page):
             for blank in one.blanks(build)
         ]
         torques = build.made(plan_of).torques
-        masses = build.made(Solids).masses()
+        masses = build.made_as_wanted(Solids).masses()
         lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build), torques)
         return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 

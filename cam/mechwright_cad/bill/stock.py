@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from mechwright.build import Blank
 from mechwright.contracts.materials import material
 from mechwright.contracts.part import Part
+from mechwright.pipeline import Blank
 
 ACROSS, ALONG = 2.0, 3.0
 """What a round bar has more than the part, mm, before both are rounded up: in diameter, and at each end."""

@@ -1,10 +1,10 @@
-"""What speaks against the joints of an assembly; asked by every command that asks for its parts."""
+"""What speaks against the joints of an assembly."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Finding, Stage, at_stage
+from mechwright.pipeline import Build, Inspection
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
@@ -12,15 +12,12 @@ if TYPE_CHECKING:
     from mechwright_cad.contacts.screw_joints import ScrewJoint
     from mechwright_cad.contacts.touching import Gap
 
-COMMANDS = frozenset({"check", "solve", "model", "cam", "build"})
-
 
 class ScrewLengths(Inspection):
     """Screws that bottom out in a blind thread, engage too little of one, or are in none."""
 
     name = "screw-lengths"
-    commands = COMMANDS
-    stage = Stage.PARTS
+    stage = Stage.ASSEMBLY
     order = 12
     doing = "screw engagement"
 
@@ -93,8 +90,7 @@ class Contact(Inspection):
     """Bodies of a machine or a chain that touch nothing, and gaps that no part declares."""
 
     name = "contact"
-    commands = COMMANDS
-    stage = Stage.PARTS
+    stage = Stage.ASSEMBLY
     order = 14
     doing = "contacts"
 

@@ -87,7 +87,7 @@ class Report:
         """Whether nothing that was compared collides."""
         return not self.collisions
 
-    @of_stage(Stage.PARTS)
+    @of_stage(Stage.ASSEMBLY)
     def findings(self) -> Iterator[Finding]:
         """An error for each of the deepest collisions, or a note that there is none."""
         for place, hit in enumerate(self.collisions[:MOST]):
@@ -118,7 +118,7 @@ class Report:
                 yield Finding.note("interference.clear", message, gap.distance, "mm")
 
 
-@of_stage(Stage.PARTS)
+@of_stage(Stage.ASSEMBLY)
 def settings_findings(reports: "Mapping[str, Report | list[Finding]]") -> Iterator[Finding]:
     """An error for each of the deepest collisions of other settings of a machine, or one note for all.
 

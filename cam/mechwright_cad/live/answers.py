@@ -1,6 +1,6 @@
 """What a page is given for a change of its design: first what is quick, then what takes longer."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +9,14 @@ import numpy as np
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
+from mechwright.contracts.target import Target
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build
 from mechwright.plugins.host import host
-from mechwright.remedies import tried
+from mechwright.scripting.checking import checked
 from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
+from mechwright_cad.live.places import drawn, still
 
 Answer = dict[str, Any]
 
@@ -26,7 +29,19 @@ def motion(design: Design) -> Answer:
 
     What stands around it takes a check of the design, and a frame takes seconds: it comes with the parts.
     """
-    return {"scene": scene((), design.family.solve(design.params, QUICK), solids=False)}
+    found = scene((), design.family.solve(design.params, QUICK), solids=False)
+    return {"scene": _with_targets(design, found)}
+
+
+def targets(design: Design) -> Sequence[Target]:
+    """The places of a design that a page lets one drag."""
+    return design.family.design_targets(design.params)
+
+
+def _with_targets(design: Design, found: Mapping[str, Any]) -> Answer:
+    """A picture of a design that has room for its places, and these."""
+    places = targets(design)
+    return {**still(places, found), "targets": drawn(places)} if places else dict(found)
 
 
 def parts(design: Design) -> Answer:
@@ -39,10 +54,10 @@ def parts(design: Design) -> Answer:
             made = design.parts()
             # Solids take the CAD kernel: what has no plates that move is shown by its links.
             shown = not design.family.moves or _seen(made, solved)
-            answer["scene"] = scene(made if shown else (), solved, solids=False)
+            answer["scene"] = _with_targets(design, scene(made if shown else (), solved, solids=False))
         except MechwrightError as error:
             answer["unmade"] = str(error)
-            answer["scene"] = scene((), solved, solids=False)
+            answer["scene"] = _with_targets(design, scene((), solved, solids=False))
         answer["figures"] = {
             name: {"value": one.value, "unit": one.unit} for name, one in solved.scalars.items()
         }
@@ -60,9 +75,8 @@ def _seen(made: Sequence[Part], solved: Motion) -> bool:
 
 
 def remedies(path: Path, change: Change) -> list[dict[str, Any]]:
-    """The findings with remedies that were tried; it may take seconds, so a second process is asked."""
-    design = load(path, host()).changed(change)
-    return told(tried(design, design.check()))
+    """What ``check`` finds, with remedies that were tried; it may take seconds, in a second process."""
+    return told(checked(Build(load(path, host()).changed(change), host())))
 
 
 def told(findings: Sequence[Finding]) -> list[dict[str, Any]]:

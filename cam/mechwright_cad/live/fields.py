@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
-from mechwright.contracts.parameters import first_fields
+from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
 from mechwright.designs.change import found_at
 from mechwright.designs.design import Design
@@ -56,16 +56,33 @@ def _of_tables(
 
 
 def _of_model(
-    model: type[BaseModel], value: BaseModel | None, where: str, content: Mapping[str, Any], *, first: bool
+    model: type[BaseModel],
+    value: BaseModel | None,
+    where: str,
+    content: Mapping[str, Any],
+    *,
+    first: bool,
+    whole: bool = False,
 ) -> Iterator[dict[str, Any]]:
+    """Fields of a table and of those in it; of a ``whole`` one each is among the ``first``."""
     schema = model_schema(model)
     shared = schema.get("$defs", {})
-    chosen = first_fields(model) if first else ()
+    chosen = () if not first else tuple(model.model_fields) if whole else first_fields(model)
+    unused = value.unused_fields() if isinstance(value, Parameters) else ()
     for name, field in model.model_fields.items():
+        if name in unused:
+            continue
         own = getattr(value, name) if value is not None else field.get_default(call_default_factory=True)
         key = f"{where}.{name}"
         if isinstance(own, BaseModel):
-            yield from _of_model(type(own), own, key, content, first=first and name in chosen)
+            marked = isinstance(field.json_schema_extra, dict) and bool(field.json_schema_extra.get("first"))
+            yield from _of_model(
+                type(own), own, key, content, first=first and name in chosen, whole=whole or marked
+            )
+            continue
+        if isinstance(own, dict) and any(isinstance(one, BaseModel) for one in own.values()):
+            for inner, one in own.items():
+                yield from _of_model(type(one), one, f"{key}.{inner}", content, first=first)
             continue
         facts = _facts(schema["properties"][name], shared)
         default = None if field.is_required() else field.get_default(call_default_factory=True)

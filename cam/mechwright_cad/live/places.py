@@ -1,4 +1,4 @@
-"""The places that a requirement asks for, as a page draws them: in the plane, or on a sphere."""
+"""The places that a requirement or a design states, as a page draws them: in the plane, or on a sphere."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright.contracts.motion import Channel, Motion
 from mechwright.contracts.target import Target
+from mechwright.errors import DesignError
 from mechwright_cad.animation.figures import DRAWN
 from mechwright_cad.animation.plane import window
 from mechwright_cad.animation.scene import scene
@@ -20,6 +21,25 @@ def drawn(places: Sequence[Target]) -> list[dict[str, Any]]:
     return [
         {"name": one.name, "place": [float(part) for part in one.place], "line": one.line} for one in places
     ]
+
+
+def dragged(places: Sequence[Target], body: Mapping[str, Any]) -> Mapping[str, Any]:
+    """What the table says once the target that a page names is at the place that it sends.
+
+    Raises
+    ------
+    DesignError
+        The page sent no target or no place, or there is no such target.
+    """
+    name, to = body.get("target"), body.get("place")
+    if not isinstance(name, str):
+        raise DesignError("the page sent no target")
+    if not isinstance(to, list) or not all(type(part) in {int, float} for part in to):
+        raise DesignError("the page sent no place")
+    for one in places:
+        if one.name == name and len(one.place) == len(to):
+            return one.moved(tuple(to))
+    raise DesignError(f"{name}: there is no such place now")
 
 
 def still(places: Sequence[Target], found: Mapping[str, Any] | None = None) -> dict[str, Any]:

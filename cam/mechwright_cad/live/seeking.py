@@ -5,17 +5,21 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Mapping
+from concurrent.futures import Future
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from mechwright.beside import Beside
-from mechwright.cli.progress import in_line, line_of
+from mechwright.contracts.synthesis import Progress
 from mechwright.designs.change import changed
 from mechwright.designs.files import read_toml
 from mechwright.designs.requirement import requirement_of
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import host
 from mechwright.scripting.synthesis import sought
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import WorkerPool
+from mechwright.worker_pool.serving import report_progress
 from mechwright_cad.live.answers import told
 
 KEPT = 16
@@ -29,13 +33,13 @@ _MODULES = ("mechwright_cad.live.seeking",)
 Found = dict[str, Any]
 
 
-def designs(path: Path, change: Mapping[str, Any]) -> Found:
+def designs(path: Path, change: Mapping[str, Any], progress: Progress) -> Found:
     """What a requirement file with a change leads to, as plain data; ``error`` says why it leads nowhere."""
     try:
         content, digest = read_toml(path)
         installed = host()
         asked = requirement_of(changed(content, change), path, digest, installed)
-        found = sought(asked, installed, in_line)
+        found = sought(asked, installed, progress)
     except MechwrightError as error:
         return {"error": str(error)}
     except Exception as error:  # a plugin may raise anything
@@ -75,20 +79,17 @@ class Run:
         self.at: dict[str, Any] = {}
         self._since = time.monotonic()
         self.began = self._since
-        self.beside = Beside(_MODULES, self._hear)
+        self.pool = WorkerPool([available_cores()], _MODULES, quiet=True)
 
-    def _hear(self, line: str) -> None:
-        at = line_of(line)
-        if at is None:
-            return
-        if at.get("doing") != self.at.get("doing"):
+    def _progress(self, done: float, what: str) -> None:
+        if what != self.at.get("doing"):
             self._since = time.monotonic()
-        self.at = at
+        self.at = {"done": done, "doing": what}
 
-    def begin(self, path: Path, change: Mapping[str, Any]) -> None:
+    def begin(self, path: Path, change: Mapping[str, Any]) -> Future[Found]:
         """Start the synthesis."""
         self.began = self._since = time.monotonic()
-        self.beside.ask(designs, path, dict(change))
+        return self.pool.submit(designs, path, dict(change), report_progress, progress=self._progress)
 
     def state(self) -> dict[str, Any]:
         """What it is at, the seconds it took, and those that are left of what it is at, None if not known."""
@@ -120,16 +121,18 @@ class Seeking:
                 return
             mine, self._ready = self._ready or Run(), None
             self._run = mine
-        mine.begin(self._path, change)
-        threading.Thread(target=self._wait, args=(mine, key), daemon=True).start()
+        found = mine.begin(self._path, change)
+        threading.Thread(target=self._wait, args=(mine, found, key), daemon=True).start()
 
     def prepare(self) -> None:
         """Let a process import what a synthesis needs, so that the next one begins at once."""
         with self._lock:
             self._ready = self._ready or Run()
 
-    def _wait(self, mine: Run, key: str) -> None:
-        found: Found | None = mine.beside.answer(dict)
+    def _wait(self, mine: Run, answer: Future[Found], key: str) -> None:
+        found: Found | None = None
+        with mine.pool, suppress(Exception):
+            found = mine.pool.result(answer)
         with self._lock:
             if mine is not self._run:
                 return
@@ -179,10 +182,10 @@ class Seeking:
         self._number += 1
         run, self._run = self._run, None
         if run is not None:
-            run.beside.close()
+            run.pool.close()
 
     def close(self) -> None:
         """End all processes."""
         self.stop()
         if self._ready is not None:
-            self._ready.beside.close()
+            self._ready.pool.close()

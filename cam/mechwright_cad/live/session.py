@@ -2,17 +2,20 @@
 
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from mechwright.beside import Beside
 from mechwright.designs.design import Design, design_of, load
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
+from mechwright.worker_pool.budget import available_cores
+from mechwright.worker_pool.pool import WorkerPool
 from mechwright_cad.live import answers
 from mechwright_cad.live.building import Building
 from mechwright_cad.live.fields import fields_of
 from mechwright_cad.live.following import Answering, Asked, Change, Following, change_of
+from mechwright_cad.live.places import dragged, drawn
 
 _REMEDIES = ("mechwright.remedies", "mechwright_cad.live.answers")
 
@@ -24,7 +27,7 @@ class Session(Following):
         super().__init__(path, host)
         self.building = Building(path)
         self._design: Design | None = None
-        self._beside: Beside | None = None
+        self._pool: WorkerPool | None = None
         self._lock = threading.Lock()
 
     @property
@@ -33,6 +36,7 @@ class Session(Following):
         return {
             **self.common(),
             "motion": lambda body: answers.motion(self.changed(change_of(body), settle=False)),
+            "drag": self._drag,
             "parts": lambda body: answers.parts(self.changed(change_of(body))),
             "remedies": lambda body: {"findings": self.remedies(change_of(body))},
             "build": self._build,
@@ -71,16 +75,24 @@ class Session(Following):
         """The findings with remedies that were tried, by a second process; None if a newer question came."""
         self.design().changed(change)  # what is wrong with it is told here
         with self._lock:
-            if self._beside is not None:
-                self._beside.close()
-            mine = self._beside = Beside(_REMEDIES)
-        mine.ask(answers.remedies, self.path, dict(change))
-        found = mine.answer(list)
-        return found if self._beside is mine else None
+            if self._pool is not None:
+                self._pool.close()
+            mine = self._pool = WorkerPool([available_cores()], _REMEDIES, quiet=True)
+        with mine, suppress(Exception):
+            found = mine.result(mine.submit(answers.remedies, self.path, dict(change)))
+            return found if self._pool is mine else None
+        return None
 
     def accept(self, content: Mapping[str, Any]) -> None:
         """As :func:`~mechwright.designs.design.design_of` raises."""
         design_of(content, self.path, "", self.host)
+
+    def _drag(self, body: Asked) -> Mapping[str, Any]:
+        """What a target dragged to a place makes of the change."""
+        change = change_of(body)
+        moved = dragged(answers.targets(self.changed(change, settle=False)), body)
+        after = {**change, **{f"parameters.{key}": value for key, value in moved.items()}}
+        return {"change": after, "targets": drawn(answers.targets(self.changed(after, settle=False)))}
 
     def _build(self, body: Asked) -> Mapping[str, Any]:
         if change_of(body):
@@ -95,5 +107,5 @@ class Session(Following):
     def close(self) -> None:
         """End what runs beside, a build too."""
         self.building.stop()
-        if self._beside is not None:
-            self._beside.close()
+        if self._pool is not None:
+            self._pool.close()

@@ -18,7 +18,7 @@ from mechwright.plugins.host import Host
 from mechwright_cad.live import answers
 from mechwright_cad.live.fields import fields_of_requirement
 from mechwright_cad.live.following import Answering, Asked, Change, Following, change_of, text_of
-from mechwright_cad.live.places import drawn, still
+from mechwright_cad.live.places import dragged, drawn, still
 from mechwright_cad.live.seeking import Seeking
 
 
@@ -96,15 +96,10 @@ class Wishing(Following):
 
     def _drag(self, body: Asked) -> Mapping[str, Any]:
         """What a target dragged to a place makes of the change."""
-        change, name, to = change_of(body), text_of(body, "target"), body.get("place")
-        if not isinstance(to, list) or not all(type(part) in {int, float} for part in to):
-            raise DesignError("the page sent no place")
-        for one in self._places(change):
-            if one.name == name and len(one.place) == len(to):
-                written = {f"requirement.{key}": value for key, value in one.moved(tuple(to)).items()}
-                after = {**change, **written}
-                return {"change": after, "targets": drawn(self._places(after))}
-        raise DesignError(f"{name}: there is no such place now")
+        change = change_of(body)
+        moved = dragged(self._places(change), body)
+        after = {**change, **{f"requirement.{key}": value for key, value in moved.items()}}
+        return {"change": after, "targets": drawn(self._places(after))}
 
     def _seek(self, body: Asked) -> Mapping[str, Any]:
         change = change_of(body)

@@ -1,6 +1,6 @@
 """The drawings of turned parts as files of a build."""
 
-from mechwright.build import Build, FileName, Page, Wanted
+from mechwright.pipeline import Build, FileName, Page, Wanted
 
 SUFFIXES = (".dxf", ".pdf")
 """Of the files of one drawing."""

@@ -31,13 +31,12 @@ class Cam(Command):
         DXF, G-code, the tool table of the control, the setup sheet, and the proof. Of several designs each
         goes into a folder of its own in DIR.
         """
-        from mechwright.build import Wanted
         from mechwright.cli.several import write
-        from mechwright.contracts.finding import Stage
+        from mechwright.pipeline import Wanted
 
         nothing = "makes no plate part, so there is nothing to mill; use mechwright model"
         wanted = Wanted("cam", curves=dxf_curves)
-        write(designs, output, wanted, Stage.MACHINING, workers, nothing, as_json)
+        write(designs, output, wanted, workers, nothing, as_json)
 
 
 def cam_settings(incomplete: str) -> list[tuple[str, str]]:

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import typer
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.contracts.finding import errors
 from mechwright.designs.design import Design, load
 from mechwright.designs.inches import Units
+from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import Host
 from mechwright_cam.commands.tools_table import doing, listing, unneeded_lines
 from mechwright_cam.machining import Machining

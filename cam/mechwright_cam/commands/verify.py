@@ -8,7 +8,6 @@ from typing import Any
 
 import typer
 
-from mechwright.build import Build, Wanted
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.cli.progress import fraction
@@ -17,11 +16,12 @@ from mechwright.contracts.synthesis import Progress
 from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Build, Wanted
 from mechwright_cam.commands.verify_drawing import drawn_scene, job_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machining, machine, second_setup
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.prepare import cut_plates, library_of
+from mechwright_cam.planning.prepare import Preparation
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
 from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.judge import judge
@@ -135,10 +135,9 @@ def scene_of(
         Name of the control that reads it; by default that of the design.
     """
     design = build.design
-    library, assignments = library_of(design), build.made(Machining).assignments
-    known = {
-        part.name: part for part in (*build.parts, *cut_plates(design, build.parts, library, assignments))
-    }
+    assignments = build.made(Machining).assignments
+    preparation = Preparation(design, build.parts, assignments)
+    known = {part.name: part for part in (*build.parts, *preparation.cut)}
     name = part_name if part_name in known else part_name.removesuffix(UNDERSIDE)
     if name not in known:
         raise DesignError(
@@ -146,8 +145,8 @@ def scene_of(
         )
     reader, rules = _reader(build, control), build.host.all(Rule)
     part, underside = known[name], name != part_name
-    cam = settings_of(design).of(part.name)
-    library = library.cutting(cam.cutting)
+    cam = preparation.settings.of(part.name)
+    library = preparation.library.cutting(cam.cutting)
     if underside or sides(part)[1]:
         jobs, found = lay_out_setups(part, cam, library, assignments)
         chosen = [job for job in jobs if (job.side == "underside") == underside]

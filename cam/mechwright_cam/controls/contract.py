@@ -2,9 +2,8 @@
 
 from abc import abstractmethod
 from copy import copy
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.guard import is_foreign
 from mechwright.contracts.plugin import Plugin
 from mechwright.designs.inches import FACTORS
 from mechwright.errors import ProgramError
@@ -15,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from typing import Self
 
+    from mechwright.contracts.file_names import File, Files, Text
     from mechwright.contracts.finding import Finding
     from mechwright.designs.inches import Units
-    from mechwright_cam.controls.lookahead import Lookahead
-    from mechwright_cam.controls.reading.run import Run
+    from mechwright_cam.controls.answers import GuardedLookahead, RunOfText
     from mechwright_cam.program.moves import Program
     from mechwright_cam.program.touches import ToolTouches, Touches
     from mechwright_cam.shop.machine import Machine
@@ -42,7 +41,6 @@ class Control(Plugin):
     kind = "control"
     plural = "controls"
     limited = True
-    texts = ("title", "suffix")
 
     title: ClassVar[str]
     """Name for people."""
@@ -68,41 +66,6 @@ class Control(Plugin):
     units: "Units" = "mm"
     """Of the programs and tables that it writes, and of the words on its sheets; it reads both."""
 
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """Texts can be written, files have plain names, and a run is one."""
-        from mechwright.contracts.declared import Declared, hold
-        from mechwright_cam.controls.answers import HeldLookahead, hold_files, hold_run
-
-        if method == "read":
-            hold(cls, method, answer, Declared(finite=False, nan=True))  # places that no text says are NaN
-            hold_run(answer)
-            return answer
-        found = super().sound(method, answer, arguments)
-        if method == "lookahead" and is_foreign():
-            return HeldLookahead(found)
-        if method in {"files", "measure"}:
-            hold_files(found)
-        elif method in {"tool_table", "offset_table"}:
-            hold_files({found[0]: found[1]} if any(found) else {})
-        elif method in {"write", "probe"}:
-            hold_files({"text": found})
-        return found
-
-    @classmethod
-    def named(cls) -> "Mapping[str, Any]":
-        """What its methods give and its attributes are, which a listing of controls does not load."""
-        from collections.abc import Mapping, Sequence
-
-        from mechwright.contracts.finding import Finding
-        from mechwright.designs.inches import Units
-        from mechwright_cam.controls.lookahead import Lookahead
-        from mechwright_cam.controls.reading.run import Run
-        from mechwright_cam.shop.posting import ToolChange
-
-        found = (Mapping, Sequence, Finding, Lookahead, Run)
-        return {one.__name__: one for one in found} | {"Units": Units, "ToolChange": ToolChange}
-
     def speaking(self, units: "Units") -> "Self":
         """The same control with other units."""
         if units == self.units:
@@ -114,10 +77,10 @@ class Control(Plugin):
     # -- programs -----------------------------------------------------------------------------------------
 
     @abstractmethod
-    def write(self, program: "Program") -> str:
+    def write(self, program: "Program") -> "Text":
         """The program text, lines ended by a line feed."""
 
-    def files(self, program: "Program") -> dict[str, str]:
+    def files(self, program: "Program") -> "Files":
         """The program as files, stem to text, in the order in which they are run; most controls take one."""
         return {program.name: self.write(program)}
 
@@ -136,7 +99,7 @@ class Control(Plugin):
         block_delete: bool = False,
         upper_end: float = 0.0,
         diameters: "Mapping[int, float] | None" = None,
-    ) -> "Run":
+    ) -> "RunOfText":
         """Run a program as the control would, wherever it comes from.
 
         Parameters
@@ -177,7 +140,7 @@ class Control(Plugin):
         return EXACT
 
     @property
-    def lookahead(self) -> "Lookahead":
+    def lookahead(self) -> "GuardedLookahead":
         """How it goes from move to move: how long that takes, and how far off the path."""
         from mechwright_cam.controls.lookahead import USUAL
 
@@ -229,10 +192,10 @@ class Control(Plugin):
     """What it needs for rigid tapping, a sentence for the setup sheet."""
 
     @abstractmethod
-    def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:
+    def tool_table(self, tools: "Sequence[Tool]") -> "File":
         """File name and text of the control's tool table; two empty strings if it has none."""
 
-    def offset_table(self, tools: "Sequence[Tool]", settings: "CamSettings") -> tuple[str, str]:  # noqa: ARG002
+    def offset_table(self, tools: "Sequence[Tool]", settings: "CamSettings") -> "File":  # noqa: ARG002
         """The tool table of a job with cutter compensation, whose D offsets it holds as well.
 
         By default that of :meth:`tool_table`.
@@ -269,7 +232,7 @@ class Control(Plugin):
         """Why it has no program that probes the zero of a job with these tools; nothing where it has one."""
         return f"{self.title} has no program that probes here: set the zero by hand, or with its own cycles"
 
-    def probe(self, touches: "Touches", machine: "Machine") -> str:  # noqa: ARG002
+    def probe(self, touches: "Touches", machine: "Machine") -> "Text":  # noqa: ARG002
         """The text of a program that probes; raises ProgramError where it has none."""
         raise ProgramError(f"program {touches.name}: {self.cannot_probe(())}")
 
@@ -277,7 +240,7 @@ class Control(Plugin):
         """Why it has no program that measures these tools on a setter; nothing where it has one."""
         return f"{self.title} has no program that measures tools here: use its own cycle, or measure by hand"
 
-    def measure(self, touches: "ToolTouches", machine: "Machine") -> "dict[str, str]":  # noqa: ARG002
+    def measure(self, touches: "ToolTouches", machine: "Machine") -> "Files":  # noqa: ARG002
         """Stem and text of the programs that measure tools, in order; raises ProgramError without any."""
         raise ProgramError(f"program {touches.name}: {self.cannot_measure(())}")
 

@@ -27,14 +27,14 @@ A design asks for it by its name, ``[cam] operations = ["plunge"]``, and it is a
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, get_args
+from typing import Annotated, Any, get_args
 
 import shapely
 
-from mechwright.contracts.declared import Declared, hold
+from mechwright.contracts.declared import Declared
 from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
-from mechwright.contracts.guard import UnsoundError, is_foreign
+from mechwright.contracts.guard import UnsoundError, is_foreign, now
 from mechwright.contracts.part import Feature
 from mechwright.contracts.plugin import Plugin
 from mechwright.geometry.segments import Point
@@ -84,37 +84,62 @@ class Task:
         return getattr(self.feature, "side", "") == "outside"
 
 
+def _hold_task(task: Task | None, feature: Feature | Detail, job: Job, *_: object) -> None:
+    """Raise UnsoundError where a task is of something else, or wants tools that the job has not."""
+    if task is None:
+        return
+    if task.feature.name != feature.name:
+        raise UnsoundError(f"claims {task.feature.name!r}; it is asked about {feature.name!r}")
+    for tool in (*task.tools, *([task.hole.drill] if task.hole else [])):
+        if tool not in job.tools:
+            raise UnsoundError(
+                f"takes {tool.name!r}, which is no tool of the job, or another one of that name"
+            )
+    if is_foreign(now()) and not shapely.is_valid(task.region):
+        raise UnsoundError(f"region of what it gives is no area: {shapely.is_valid_reason(task.region)}")
+
+
+def _hold_cuts(left: Stock, task: Task, stock: Stock, steps: Steps) -> None:  # noqa: ARG001
+    """Raise UnsoundError where something else than cuts was added, or some of before are gone.
+
+    Of our own operations no move is looked at: there are thousands, and the proof looks at all.
+    """
+    if len(steps.cuts) < steps.held:
+        raise UnsoundError(f"takes away {steps.held - len(steps.cuts)} of the cuts that are not its own")
+    added, steps.held = steps.cuts[steps.held :], len(steps.cuts)
+    if is_foreign(now()) and (found := Declared().fault(added, list[Cut])):
+        where, said = found
+        raise UnsoundError(f"cut {where.lstrip('.')} of those it adds {said}")
+
+
+Claim = Annotated[Task | None, _hold_task]
+"""A task of the feature that was asked about, with tools of the job."""
+StockLeft = Annotated[Stock, _hold_cuts]
+"""What cuts leave, which were added to those of before."""
+
+
 class Operation(Plugin):
     """A way to cut features; it keeps nothing between calls."""
 
     kind = "operation"
     plural = "operations"
     limited = True
-
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """Numbers are finite, a task is of what was asked about, and its cuts are some."""
-        hold(cls, method, answer, Declared())
-        if isinstance(answer, Task):
-            _hold_task(answer, *arguments[:2])
-        elif method == "cut":
-            _hold_cuts(arguments[2])
-        return answer
+    finite = True
 
     @abstractmethod
-    def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
+    def claim(self, feature: Feature | Detail, job: Job) -> Claim:
         """Decide who cuts a feature, and how deep; None leaves it to the next operation.
 
         Raises ToolError where it is this operation's, and the cutters of the job cannot make it; DesignError
         where the feature, the holding or the stock is wrong.
         """
 
-    def claim_copy(self, feature: Feature | Detail, job: Job, known: Task) -> Task | None:
+    def claim_copy(self, feature: Feature | Detail, job: Job, known: Task) -> Claim:
         """The same for a turned copy of a feature whose task is ``known``: what was decided there holds."""
         return self.claim(feature, job)
 
     @abstractmethod
-    def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
+    def cut(self, task: Task, stock: Stock, steps: Steps) -> StockLeft:
         """Add the cuts of a task, each waiting for the one before, and give what they leave of the stock."""
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
@@ -136,29 +161,3 @@ class Operation(Plugin):
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """What the cutters of a task do not reach."""
         return []
-
-
-def _hold_task(task: Task, feature: Feature | Detail, job: Job) -> None:
-    """Raise UnsoundError where a task is of something else, or wants tools that the job has not."""
-    if task.feature.name != feature.name:
-        raise UnsoundError(f"claims {task.feature.name!r}; it is asked about {feature.name!r}")
-    for tool in (*task.tools, *([task.hole.drill] if task.hole else [])):
-        if tool not in job.tools:
-            raise UnsoundError(
-                f"takes {tool.name!r}, which is no tool of the job, or another one of that name"
-            )
-    if is_foreign() and not shapely.is_valid(task.region):
-        raise UnsoundError(f"region of what it gives is no area: {shapely.is_valid_reason(task.region)}")
-
-
-def _hold_cuts(steps: Steps) -> None:
-    """Raise UnsoundError where something else than cuts was added, or some of before are gone.
-
-    Of our own operations no move is looked at: there are thousands, and the proof looks at all.
-    """
-    if len(steps.cuts) < steps.held:
-        raise UnsoundError(f"takes away {steps.held - len(steps.cuts)} of the cuts that are not its own")
-    added, steps.held = steps.cuts[steps.held :], len(steps.cuts)
-    if is_foreign() and (found := Declared().fault(added, list[Cut])):
-        where, said = found
-        raise UnsoundError(f"cut {where.lstrip('.')} of those it adds {said}")

@@ -8,9 +8,9 @@ from operator import methodcaller
 
 import shapely
 
-from mechwright.cores import together
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
+from mechwright.worker_pool.budget import threaded_map
 from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
@@ -189,7 +189,7 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
     for mill in roughers(first.mills, first.finishers):
         allowance = first.allowance_for(mill, layers[0].settings.stock_to_leave)
         first.rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
-        cuts = together(methodcaller("roughing", mill), layers)
+        cuts = threaded_map(methodcaller("roughing", mill), layers)
         # The layers share their cutters: the tallest one decides.
         tallest, cut = max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)
         if not tallest.stock.begun or cut.share >= WORTH_A_TOOL or tallest.saves(cut):
@@ -197,11 +197,11 @@ def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
     # Places that layers of an outside have in common are roughed before the first of them is finished.
     whole = _may_be_whole(layers)
     if at_once := whole or (first.kind == "outside" and layers[0].stock.begun):
-        found += _roughed(layers, together(methodcaller("roughing", first.finishers[0]), layers))
+        found += _roughed(layers, threaded_map(methodcaller("roughing", first.finishers[0]), layers))
         if whole and _finished_whole(*layers):
             return found + [cut for layer in layers for cut in layer.taken()]
     # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
-    together(methodcaller("finished", roughed=at_once), layers)
+    threaded_map(methodcaller("finished", roughed=at_once), layers)
     return found + [cut for layer in layers for cut in layer.taken()]
 
 
@@ -236,7 +236,7 @@ def _finished_whole(upper: Layer, lower: Layer) -> bool:
 def _roughed(layers: Sequence[Layer], cuts: list[Roughing]) -> list[Cut]:
     """Rough each layer with its cut; places of an outside that layers have in common are cut at once."""
     if layers[0].zone.kind == "outside" and layers[0].stock.begun:
-        together(lambda cut: cut.cavities, cuts)
+        threaded_map(lambda cut: cut.cavities, cuts)
         join(cuts)
-    together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
+    threaded_map(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
     return [cut for layer in layers for cut in layer.taken()]

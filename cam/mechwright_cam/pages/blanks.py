@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from mechwright.build import Blank, Build, RawStock
 from mechwright.contracts.part import Part
+from mechwright.pipeline import Blank, Build, RawStock
 
 
 class MilledPlates(RawStock):

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mechwright.build import Build, FileName
 from mechwright.contracts.finding import errors
+from mechwright.pipeline import Build, FileName
 from mechwright_cam.planning.nesting import NEST_NAME
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import PROBE

@@ -6,9 +6,9 @@ Nothing heavy is imported before one of them is made.
 import json
 from typing import TYPE_CHECKING, cast, get_args
 
-from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.errors import DesignError
 from mechwright.output.folder import distinct_files
+from mechwright.pipeline import Build, FileName, Page, Wanted
 from mechwright_cad.assembly_guide.page import HTML as GUIDE
 from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import HTML as BILL

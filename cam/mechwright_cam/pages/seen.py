@@ -3,7 +3,7 @@
 from functools import cached_property
 from typing import Any
 
-from mechwright.build import Build
+from mechwright.pipeline import Build
 from mechwright_cam.machining import Machined, Machining
 from mechwright_cam.proof.simulation import Simulation
 from mechwright_cam.proof.walls import Walls, wall_deviation

@@ -52,7 +52,7 @@ def _no_thickness(job: Job, shop: Shop, design: Design) -> Finding:
         if "thickness" in key.path and key.numeric and key.now(design.content) == thickness
     ]
     proposed: tuple[Change, ...] = tuple({key: one} for one in near for key in keys)
-    remedy = f"add the plate to {shop.path.name}"
+    remedy = f"add {thickness:g} to the thicknesses of {material} in {shop.path.name}"
     if near:
         remedy = f"make it {near[0]:g} mm, or {remedy}"
     where = keys[0].removeprefix("parameters.") if keys else "shop"

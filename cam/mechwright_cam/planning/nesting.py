@@ -16,7 +16,6 @@ import shapely
 from mechwright.contracts.file_names import free_name
 from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.part import Part, check_name
-from mechwright.designs.design import Design
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.operations.channel import channel_width
 from mechwright_cam.planning.assign import Assignments
@@ -28,7 +27,7 @@ from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.holding import Nesting
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.table import settings_of
+from mechwright_cam.shop.table import JobSettings
 from mechwright_cam.shop.tool import MILLS, widest_mill
 
 NEST_NAME = "cam.nest.name"
@@ -81,41 +80,45 @@ class _Layout:
 
 
 def arranged(
-    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments | None = None
+    path: Path,
+    settings: JobSettings,
+    parts: Sequence[Part],
+    library: Library,
+    assignments: Assignments | None = None,
 ) -> list[Part]:
     """The plate parts as they are cut: those that go together are one nest, at the place of the first.
 
     Raises DesignError where a part of ``[cam.nest]`` is not known or does not go with the others, or the
     plate is too small.
     """
-    wanted = settings_of(design).cam.nest
+    wanted = settings.cam.nest
     if wanted is None:
         return list(parts)
-    groups = _groups(design, wanted, parts)
+    groups = _groups(path, settings, wanted, parts)
     made: dict[str, Nest] = {}
     for number, group in enumerate(groups, start=1):
         name = wanted.name if number == 1 else f"{wanted.name}-{number}"
         try:
             check_name(name)
         except DesignError as error:
-            raise DesignError(f"{design.path}: {NEST_NAME}: {error}") from error
+            raise DesignError(f"{path}: {NEST_NAME}: {error}") from error
         if name in (others := {part.name for part in parts}):
             other = free_name(f"{wanted.name}-nest", others)
-            raise NestNameError(design.path, name, other)
-        nest = _nested(design, wanted, name, group, library, assignments)
+            raise NestNameError(path, name, other)
+        nest = _nested(path, settings.of(name), wanted, name, group, library, assignments)
         made |= {part.name: nest for part in group}
     return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())
 
 
-def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list[Part]]:
+def _groups(path: Path, settings: JobSettings, wanted: Nesting, parts: Sequence[Part]) -> list[list[Part]]:
     """The parts of each nest: those named, or all that are alike in material and thickness."""
     names = wanted.parts
     known = {part.name: part for part in parts}
-    where = f"{design.path}: cam.nest.parts"
+    where = f"{path}: cam.nest.parts"
     if not names:
         alike: dict[tuple[str, float], list[Part]] = {}
         for part in parts:
-            if part.name not in settings_of(design).parts and not sides(part)[1]:
+            if part.name not in settings.parts and not sides(part)[1]:
                 alike.setdefault((part.material, part.thickness), []).append(part)
         groups = [group for group in alike.values() if sum(map(copies, group)) > 1]
         if not groups:
@@ -135,9 +138,9 @@ def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list
                 f"{where}: {name} is {part.thickness:g} mm {part.material}, {first.name} is "
                 f"{first.thickness:g} mm {first.material}; one plate has one thickness and one material"
             )
-        if name in settings_of(design).parts:
+        if name in settings.parts:
             raise DesignError(
-                f"{design.path}: cam.part.{name}: the part is cut in the nest; set it in "
+                f"{path}: cam.part.{name}: the part is cut in the nest; set it in "
                 f"[cam.part.{wanted.name}], or take the part out of cam.nest.parts"
             )
         if sides(part)[1]:
@@ -151,29 +154,27 @@ def copies(part: Part) -> int:
 
 
 def _nested(
-    design: Design,
+    path: Path,
+    settings: CamSettings,
     wanted: Nesting,
     name: str,
     group: Sequence[Part],
     library: Library,
     assignments: Assignments | None,
 ) -> Nest:
-    settings = settings_of(design).of(name)
     total = sum(map(copies, group))
     if total > MOST:
-        raise DesignError(
-            f"{design.path}: cam.nest: {total} copies on one plate, at most {MOST}; name fewer parts"
-        )
+        raise DesignError(f"{path}: cam.nest: {total} copies on one plate, at most {MOST}; name fewer parts")
     if settings.stock.finished:
         raise DesignError(
-            f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
+            f"{path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
             "none at a finished edge; leave finished out, or cam.nest"
         )
     gap = wanted.gap or 2 * channel_of(group, settings, library, assignments) + WEB
     try:
         return nest_of(name, group, settings, gap, turn=wanted.turn)
     except DesignError as error:
-        raise DesignError(f"{design.path}: {error}") from error
+        raise DesignError(f"{path}: {error}") from error
 
 
 def channel_of(

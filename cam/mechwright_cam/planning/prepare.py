@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
 
 import shapely
 
@@ -23,6 +25,7 @@ from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.setup.measured import check_measured
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.table import settings_of
 
@@ -34,24 +37,6 @@ cut do not go together, one after the other."""
 def plates(parts: Sequence[Part]) -> list[Part]:
     """The parts that are milled from a plate."""
     return [part for part in parts if part.outline is not None and part.bought is None]
-
-
-def cut_plates(
-    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments
-) -> list[Part]:
-    """The plates among the parts as they are cut: nested where that is wanted.
-
-    Raises DesignError where a nest is not possible, or ``[cam.part.NAME]`` names no plate and no nest.
-    """
-    cut = arranged(design, plates(parts), library, assignments)
-    known = sorted({part.name for part in (*plates(parts), *cut)})
-    for name in settings_of(design).parts:
-        if name not in known:
-            raise DesignError(
-                f"{design.path}: cam.part.{name}: no plate part has this name; "
-                f"there is: {', '.join(known) or 'none'}"
-            )
-    return cut
 
 
 def library_of(design: Design) -> Library:
@@ -70,6 +55,129 @@ def library_of(design: Design) -> Library:
     return library.cutting(settings.cam.cutting)
 
 
+class Preparation:
+    """The plates of a design on their way to jobs: nested where wanted, with cutters, stock and holding.
+
+    Parameters
+    ----------
+    design
+        The design.
+    parts
+        Its parts; those that are no plates are passed over.
+    assignments
+        Who cuts what.
+    """
+
+    def __init__(self, design: Design, parts: Sequence[Part], assignments: Assignments) -> None:
+        self.design, self.assignments = design, assignments
+        self.settings, self.shop, self.library = settings_of(design), shop_of(design), library_of(design)
+        self.plates = plates(parts)
+
+    @cached_property
+    def cut(self) -> list[Part]:
+        """The plates as they are cut.
+
+        Raises DesignError where a nest is not possible, or ``[cam.part.NAME]`` names no plate and no nest.
+        """
+        path = self.design.path
+        cut = arranged(path, self.settings, self.plates, self.library, self.assignments)
+        known = sorted({part.name for part in (*self.plates, *cut)})
+        for name in self.settings.parts:
+            if name not in known:
+                raise DesignError(
+                    f"{path}: cam.part.{name}: no plate part has this name; "
+                    f"there is: {', '.join(known) or 'none'}"
+                )
+        return cut
+
+    def laid(self) -> tuple[list[Finding], list[Job]]:
+        """What is found, and the jobs; finer mills than the usual ones are tried for the sake of corners."""
+        findings, jobs = self._laid(None)
+        for finest in FINER:
+            left = _left_in_corners(findings)
+            if left and any(finest < self._finest(part) for part in self.cut):
+                found, laid = self._laid(finest)
+                if len(_left_in_corners(found)) < len(left):
+                    said = f"{left[0].message}; {_chosen(jobs, laid)}"
+                    found.append(Finding("cam.corner-mill", Severity.NOTE, "cam.corner_mill", said))
+                    findings, jobs = found, laid
+        if all(FINER[-1] < self._finest(part) for part in self.cut):
+            findings = [_without_mills(one) for one in findings]  # they have been tried
+        return findings, jobs
+
+    def _laid(self, finest: float | None) -> tuple[list[Finding], list[Job]]:
+        """The jobs of plates, and all that is found of them, with ``finest`` as the finest mill for corners.
+
+        None leaves it to the design, and so does a part for which the design says one.
+        """
+        findings: list[Finding] = [*_incomplete(self.library, self.design.path)]
+        jobs: list[Job] = []
+        for part in self.cut:
+            cam = self.settings.of(part.name)
+            if finest is not None and finest < self._finest(part):
+                cam = cam.model_copy(update={"corner_mill": finest})
+            found, laid = self._of_part(part, cam)
+            findings += dict.fromkeys(found)  # two features may have the same to say
+            if not errors(found):
+                jobs += laid
+        findings += [*check_measured(jobs), *dict.fromkeys(worn(jobs))]
+        tops = [job for job in jobs if job.side == "top"]
+        if len(tops) == len(self.cut):
+            findings = judged_together(findings, _used(jobs, self.assignments))
+            findings += self._as_cut(tops)
+            findings += self._unused_data(jobs)
+        return findings, jobs
+
+    def _of_part(self, part: Part, cam: CamSettings) -> tuple[list[Finding], list[Job]]:
+        """The jobs of one plate out of what is in hand, and what is found of it."""
+        own = self.library.cutting(cam.cutting).measured(cam.measured.lengths)
+        laid, found = lay_out_setups(part, cam, own, self.assignments)
+        if self.shop is not None and laid and not errors(found):
+            blank, more = from_hand(laid[0], self.shop, self.design)
+            if blank is not None:
+                cam = cam.model_copy(update={"stock": blank})
+                laid, found = lay_out_setups(part, cam, own, self.assignments)
+            found += more
+        found += [finding for job in laid for finding in check_machine(job)]
+        if self.shop is not None and errors(found):
+            buy = to_buy(part, cam, own, self.assignments, self.shop)
+            found += [] if buy is None else [buy]
+        return found, laid
+
+    def _finest(self, part: Part) -> float:
+        """The finest mill that may be chosen for corners of a part, mm; 0 where the design says it."""
+        cam = self.settings.of(part.name)
+        return 0.0 if cam.tools or "corner_mill" in cam.model_fields_set else cam.corner_mill
+
+    def _as_cut(self, tops: Sequence[Job]) -> list[Finding]:
+        """What the family says of the parts as the cutters leave them.
+
+        The copies of a part in a nest may be left different by their neighbours: the family sees all.
+        """
+        family, params = self.design.family, self.design.params
+        copies: dict[str, list[shapely.Polygon]] = {}
+        for job in tops:
+            for name, outline in parts_as_cut(job, self.assignments):
+                copies.setdefault(name, []).append(outline)
+        findings: list[Finding] = []
+        for number in range(max(map(len, copies.values()), default=0)):
+            cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
+            findings += [f for f in family.check_cut(params, cut) if f not in findings]
+        return findings
+
+    def _unused_data(self, jobs: Sequence[Job]) -> Iterator[Finding]:
+        """Cutting data in the design for tools that no job has."""
+        settings = self.settings
+        named = dict.fromkeys(
+            name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting
+        )
+        used = {tool.name for job in jobs for tool in job.tools}
+        for name in named:
+            if name not in used:
+                message = f"{name} is not used here, so its cutting data change nothing"
+                yield Finding("cam.cutting-unused", Severity.NOTE, f"cam.cutting.{name}", message)
+
+
 def prepare(
     design: Design, parts: Sequence[Part], assignments: Assignments | None = None
 ) -> tuple[list[Finding], list[Job]]:
@@ -78,68 +186,12 @@ def prepare(
     Gives what the cutters cannot do, with what the family says of the parts as they leave them, and a job for
     each part, with one more where the underside is milled as well; fewer if a finding is an error.
     """
-    assignments = assignments or Assignments()
-    library = library_of(design)
+    preparation = Preparation(design, parts, assignments or Assignments())
     try:
-        cut = cut_plates(design, parts, library, assignments)
+        findings, jobs = preparation.laid()
     except NestNameError as error:
-        return at_stage(Stage.MACHINING, [error.finding]), []
-    findings, jobs = _laid(design, cut, library, assignments, None)
-    for finest in FINER:
-        left = _left_in_corners(findings)
-        if left and any(finest < _finest(design, part) for part in cut):
-            found, laid = _laid(design, cut, library, assignments, finest)
-            if len(_left_in_corners(found)) < len(left):
-                said = f"{left[0].message}; {_chosen(jobs, laid)}"
-                found.append(Finding("cam.corner-mill", Severity.NOTE, "cam.corner_mill", said))
-                findings, jobs = found, laid
-    if all(FINER[-1] < _finest(design, part) for part in cut):
-        findings = [_without_mills(one) for one in findings]  # they have been tried
+        findings, jobs = [error.finding], []
     return at_stage(Stage.MACHINING, findings), jobs
-
-
-def _laid(
-    design: Design, cut: Sequence[Part], library: Library, assignments: Assignments, finest: float | None
-) -> tuple[list[Finding], list[Job]]:
-    """The jobs of plates, and all that is found of them, with ``finest`` as the finest mill for corners.
-
-    None leaves it to the design, and so does a part for which the design says one.
-    """
-    shop = shop_of(design)
-    findings: list[Finding] = [*_incomplete(library, design)]
-    jobs: list[Job] = []
-    for part in cut:
-        cam = settings_of(design).of(part.name)
-        if finest is not None and finest < _finest(design, part):
-            cam = cam.model_copy(update={"corner_mill": finest})
-        own = library.cutting(cam.cutting).measured(cam.measured.lengths)
-        laid, found = lay_out_setups(part, cam, own, assignments)
-        if shop is not None and laid and not errors(found):
-            blank, more = from_hand(laid[0], shop, design)
-            if blank is not None:
-                cam = cam.model_copy(update={"stock": blank})
-                laid, found = lay_out_setups(part, cam, own, assignments)
-            found += more
-        found += [finding for job in laid for finding in check_machine(job)]
-        if shop is not None and errors(found):
-            buy = to_buy(part, cam, own, assignments, shop)
-            found += [] if buy is None else [buy]
-        findings += dict.fromkeys(found)  # two features may have the same to say
-        if not errors(found):
-            jobs += laid
-    findings += [*check_measured(jobs), *dict.fromkeys(worn(jobs))]
-    tops = [job for job in jobs if job.side == "top"]
-    if len(tops) == len(cut):
-        findings = judged_together(findings, _used(jobs, assignments))
-        findings += _as_cut(design, tops, assignments)
-        findings += _unused_data(design, jobs)
-    return findings, jobs
-
-
-def _finest(design: Design, part: Part) -> float:
-    """The finest mill that may be chosen for corners of a part, mm; 0 where the design says it."""
-    cam = settings_of(design).of(part.name)
-    return 0.0 if cam.tools or "corner_mill" in cam.model_fields_set else cam.corner_mill
 
 
 def _left_in_corners(findings: Sequence[Finding]) -> list[Finding]:
@@ -189,41 +241,14 @@ def _used(jobs: Sequence[Job], assignments: Assignments) -> set[str]:
     return {use.tool.name for job in jobs for use in uses(job, assignments.of(job))}
 
 
-def _incomplete(library: Library, design: Design) -> Iterator[Finding]:
+def _incomplete(library: Library, path: Path) -> Iterator[Finding]:
     """That a library of another program is not taken over as it is."""
     if library.told:
         message = (
             f"of the library not all is taken over as it stands ({len(library.told)} remarks); "
-            f"mechwright tools {design.path} lists them"
+            f"mechwright tools {path} lists them"
         )
         yield Finding("cam.tool-library", Severity.NOTE, "cam.tool_library", message)
-
-
-def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> list[Finding]:
-    """What the family says of the parts as the cutters leave them.
-
-    The copies of a part in a nest may be left different by their neighbours: the family sees all.
-    """
-    copies: dict[str, list[shapely.Polygon]] = {}
-    for job in tops:
-        for name, outline in parts_as_cut(job, assignments):
-            copies.setdefault(name, []).append(outline)
-    findings: list[Finding] = []
-    for number in range(max(map(len, copies.values()), default=0)):
-        cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
-        findings += [f for f in design.family.check_cut(design.params, cut) if f not in findings]
-    return findings
-
-
-def _unused_data(design: Design, jobs: Sequence[Job]) -> Iterator[Finding]:
-    """Cutting data in the design for tools that no job has."""
-    settings = settings_of(design)
-    named = dict.fromkeys(name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting)
-    used = {tool.name for job in jobs for tool in job.tools}
-    for name in named:
-        if name not in used:
-            message = f"{name} is not used here, so its cutting data change nothing"
-            yield Finding("cam.cutting-unused", Severity.NOTE, f"cam.cutting.{name}", message)
 
 
 def cut_outlines(job: Job, assignments: Assignments | None = None) -> tuple[shapely.Polygon, ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import count
 
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, ToolError
 from mechwright_cam.planning.assign import Assignments
@@ -18,13 +18,33 @@ from mechwright_cam.shop.workshop_file import Shop
 def to_buy(
     part: Part, cam: CamSettings, library: Library, assignments: Assignments, shop: Shop
 ) -> Finding | None:
-    """What is to be bought so that a part can be cut, see :func:`lacking`; None where nothing helps."""
+    """What a crib lacks for a part: data of tools that are in it, else tools; None if nothing helps."""
+    if known := _without_data(part, cam, library, assignments):
+        names = ", ".join(tool.name for tool in known)
+        message = f"{part.name} can be cut with what is there once {names} has data for {part.material}"
+        remedy = f"give cutting_speed and chip_load of each in [cam.cutting.NAME], or in {shop.path.name}"
+        return Finding.warning("shop.data", "shop", message, remedy=remedy)
     wanted = lacking(part, cam, library, assignments)
     if not wanted:
         return None
     told = ", ".join(_described(tool) for tool in wanted)
-    message = f"{part.name} can be cut with what {shop.path.name} has and {told} besides: buy {_it(wanted)}"
-    return Finding("shop.buy", Severity.NOTE, "shop", message)
+    message = f"{part.name} can be cut with what {shop.path.name} has and {told} besides"
+    return Finding.warning("shop.buy", "shop", message, remedy=f"buy {_it(wanted)}")
+
+
+def _without_data(part: Part, cam: CamSettings, library: Library, assignments: Assignments) -> list[Tool]:
+    """The tools of a crib with which a part can be cut once they have data for its material.
+
+    What a built-in tool of the kind and of about the size does stands for their data while this is tried.
+    """
+    supposed = []
+    for tool in library:
+        alike = [one for one in built_in() if one.kind is tool.kind and part.material in one.cutting]
+        if part.material not in tool.cutting and alike:
+            data = min(alike, key=lambda one: abs(one.diameter - tool.diameter)).cutting[part.material]
+            cutting = {**tool.cutting, part.material: data}
+            supposed.append(tool.model_copy(update={"cutting": cutting}))
+    return _used(part, cam, library, supposed, assignments) or [] if supposed else []
 
 
 def lacking(part: Part, cam: CamSettings, library: Library, assignments: Assignments) -> list[Tool]:

@@ -7,10 +7,11 @@ from itertools import count
 
 import numpy as np
 
-from mechwright.contracts.guard import is_own
+from mechwright.contracts.guard import is_foreign
+from mechwright.contracts.plugin import who_of
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.cores import together
 from mechwright.errors import ProgramError
+from mechwright.worker_pool.budget import threaded_map
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.beyond import SPOTS
@@ -116,8 +117,8 @@ def _judged(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -
         progress(SIMULATED + (1 - SIMULATED) * next(asked) / len(rules), "asking the rules")
         return ask(rule, scene=scene)
 
-    ours = [rule for rule in rules if is_own(rule)]
-    known = dict(zip(ours, together(answer, ours), strict=True))  # none depends on another
+    ours = [rule for rule in rules if not is_foreign(who_of(rule))]
+    known = dict(zip(ours, threaded_map(answer, ours), strict=True))  # none depends on another
     # Those of others in this thread, in which the guard has an alarm, and keeps the ground.
     checks = [known.get(rule) or answer(rule) for rule in rules]
     seconds, left = step_times(run, scene.job.settings.machine, scene.motion), scene.remains

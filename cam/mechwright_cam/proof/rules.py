@@ -6,15 +6,14 @@ Nothing heavy is imported before one is asked.
 from abc import abstractmethod
 from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from mechwright.contracts.guard import UnsoundError, who_of
-from mechwright.contracts.plugin import Plugin
+from mechwright.contracts.plugin import Plugin, who_of
 from mechwright.errors import MechwrightError, PluginFaultError, ProgramError
 from mechwright_cam.proof.report import Check
 
 if TYPE_CHECKING:
-    from mechwright_cam.proof.scene import Scene
+    from mechwright_cam.proof.scene import OneLineCheck, Scene
 
 
 class Rule(Plugin):
@@ -28,19 +27,8 @@ class Rule(Plugin):
     plural = "rules"
     limited = True
 
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:  # noqa: ARG003
-        """What is told is one line."""
-        from mechwright.contracts.declared import Declared, hold
-
-        hold(cls, method, answer, Declared(finite=False, nan=True))  # of a place that is not known
-        found: Check = answer
-        if len(found.message.splitlines()) != 1:
-            raise UnsoundError(f"message of what it gives is {found.message!r:.80}; one line is wanted")
-        return found
-
     @abstractmethod
-    def check(self, scene: "Scene") -> Check:
+    def check(self, scene: "Scene") -> "OneLineCheck":
         """The answer: one line that says what was found, or what is wrong, where, the limit, what to do."""
 
 
@@ -60,9 +48,6 @@ def ask(rule: Rule, scene: "Scene") -> Check:
             f"rule {rule.name} cannot judge the program of {scene.job.part.name}: {error}"
         ) from error
 
-
-if TYPE_CHECKING:
-    from mechwright_cam.proof.scene import Scene
 
 _HOMES = (
     ("machine_rules", "program_end modes tools work_offset"),

@@ -3,11 +3,14 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from mechwright.contracts.declared import Declared
+from mechwright.contracts.guard import UnsoundError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.lookahead import Motion
 from mechwright_cam.controls.offsets import place_of
@@ -29,6 +32,15 @@ from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
+
+
+def _hold_line(check: Check, *_: object) -> None:
+    if len(check.message.splitlines()) != 1:
+        raise UnsoundError(f"message of what it gives is {check.message!r:.80}; one line is wanted")
+
+
+OneLineCheck = Annotated[Check, Declared(finite=False, nan=True), _hold_line]
+"""A check with a message of one line; a place that is not known is NaN."""
 
 _OF_MOVES = frozenset(
     {

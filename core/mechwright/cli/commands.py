@@ -87,6 +87,14 @@ class New(Command):
                 autocompletion=completing.requirement_kinds,
             ),
         ] = "",
+        source: Annotated[
+            str,
+            typer.Option(
+                "--from",
+                metavar="SOURCE",
+                help="What it begins with: an entry of the family's catalogue, or a file that it reads.",
+            ),
+        ] = "",
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
         ] = False,
@@ -95,7 +103,7 @@ class New(Command):
         """Write a commented design file that builds as it is."""
         from mechwright.cli import listing
 
-        listing.new(family, requirement, output, force, everything)
+        listing.new(family, requirement, source, output, force, everything)
 
 
 class Schema(Command):
@@ -143,6 +151,20 @@ class Check(Command):
     def run(
         self,
         designs: DesignFiles,
+        to: Annotated[
+            str,
+            typer.Option(
+                "--to",
+                metavar="STAGE",
+                help="Make all up to a stage, and judge it: motion, parts, assembly, machining or output. "
+                "By default all stages are judged, and nothing is made.",
+                autocompletion=completing.stages,
+            ),
+        ] = "",
+        also: Also = "",
+        figures: Annotated[
+            bool, typer.Option("--figures", help="Add a table of the figures that were found.")
+        ] = False,
         as_json: AsJson = False,
         tolerances: Annotated[
             bool, typer.Option("--tolerances", help="What tolerances do: sensitivities, worst case, yield.")
@@ -154,8 +176,9 @@ class Check(Command):
         The exit code is 1 if something forbids building.
         """
         from mechwright.cli import several
+        from mechwright.pipeline import Wanted
 
-        several.check(designs, workers, as_json, tolerances)
+        several.check(designs, Wanted(formats=names(also)), to, workers, as_json, tolerances, figures)
 
 
 class Fix(Command):
@@ -172,10 +195,10 @@ class Fix(Command):
             typer.Option(
                 "--to",
                 metavar="STAGE",
-                help="How far it has to build: parts or machining.",
+                help="How far it has to build: motion, parts, assembly, machining or output.",
                 autocompletion=completing.stages,
             ),
-        ] = "machining",
+        ] = "output",
         output: Annotated[
             Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
         ] = None,
@@ -205,12 +228,11 @@ class Solve(Command):
         They are motion.csv, summary.json and motion.html; poles.html and
         construction.html of linkages.
         """
-        from mechwright.build import Wanted
         from mechwright.cli.perform import perform
-        from mechwright.contracts.finding import Stage
+        from mechwright.pipeline import Wanted
 
         still = "stands still: there is no motion to write; build writes its drawings and programs"
-        perform(design, output, Wanted("solve", samples), Stage.MOTION, still, as_json=as_json)
+        perform(design, output, Wanted("solve", samples), still, as_json=as_json)
 
 
 class Build(Command):
@@ -234,12 +256,11 @@ class Build(Command):
 
         Of several designs each goes into a folder of its own in DIR. The exit code is 1 if one is refused.
         """
-        from mechwright.build import Wanted
         from mechwright.cli.several import write
-        from mechwright.contracts.finding import Stage
+        from mechwright.pipeline import Wanted
 
         wanted = Wanted("build", samples, at, names(also), dxf_curves)
-        write(designs, output, wanted, Stage.MACHINING, workers, as_json=as_json)
+        write(designs, output, wanted, workers, as_json=as_json)
 
 
 class Synthesize(Command):

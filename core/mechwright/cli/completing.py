@@ -67,7 +67,9 @@ def curves(incomplete: str) -> list[str]:
 
 def stages(incomplete: str) -> list[str]:
     """How far a design has to build."""
-    return _begun(("parts", "machining"), incomplete)
+    from mechwright.contracts.finding import Stage
+
+    return _begun(tuple(Stage), incomplete)
 
 
 def design_files(incomplete: str) -> list[str]:

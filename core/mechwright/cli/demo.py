@@ -8,12 +8,11 @@ from pathlib import Path
 
 import typer
 
-from mechwright.build import Wanted
 from mechwright.cli.perform import perform
-from mechwright.contracts.finding import Stage
 from mechwright.designs.files import read_text
 from mechwright.errors import MechwrightError, OutputError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Wanted
 from mechwright.reading import regular
 
 DESIGN = "elliptic-pair.toml"
@@ -35,7 +34,7 @@ def demo(folder: Path, show: bool | None) -> None:
     path = folder / DESIGN
     _place(path, text)
     out = folder / "out"
-    perform(path, out, Wanted("build"), Stage.MACHINING)
+    perform(path, out, Wanted("build"))
     page = out / SHOWN
     typer.echo(f"go on with: mechwright check {path}, or change it and: mechwright build {path} -o {out}")
     if (show if show is not None else sys.stdout.isatty()) and _open(page):

@@ -5,7 +5,7 @@ import traceback
 from pathlib import Path
 
 from mechwright.cli.streams import say
-from mechwright.contracts.guard import now
+from mechwright.contracts.guard import described, now
 from mechwright.errors import MechwrightError, PluginFaultError, shortened
 
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
@@ -49,10 +49,7 @@ def _unexpected(error: BaseException) -> str:
         return "there is not enough memory for this; nothing was written"
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'output'}: {error.strerror}"
-    frames = traceback.extract_tb(error.__traceback__)
-    reason = " ".join(f"{type(error).__name__}: {error}".split())
-    place = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}" if frames else "unknown place"
-    return f"{_owner(error)} failed: {reason} ({place}); please report it, with what {TRACEBACK}=1 shows"
+    return f"{_owner(error)} failed: {described(error)}; please report it, with what {TRACEBACK}=1 shows"
 
 
 def _owner(error: BaseException) -> str:
@@ -60,8 +57,8 @@ def _owner(error: BaseException) -> str:
     from mechwright.plugins.host import host
 
     found = host()
-    owners = {
-        type(entry.item).__module__.partition(".")[0]: f"plugin {entry.plugin} of {entry.distribution}"
+    owners: dict[str, str] = {
+        type(entry.item).__module__.partition(".")[0]: entry.item.registered_by
         for entries in found.registered.values()
         for entry in entries.values()
     }

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import typer
 
+from mechwright.cli.check import stage_of
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.telling import tell
@@ -18,7 +19,7 @@ from mechwright.designs.design import Design, design_of, load
 from mechwright.designs.files import read_bytes, read_text
 from mechwright.designs.hints import schemas_of
 from mechwright.designs.inches import written
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import OutputError
 from mechwright.output.folder import rewrite
 from mechwright.plugins.host import Host
 from mechwright.remedies import MOST_CHANGES, Repair, repaired
@@ -35,16 +36,14 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
     OutputError
         The file is there already, or cannot be written.
     """
-    stages = {str(stage): stage for stage in (Stage.PARTS, Stage.MACHINING)}
-    if to not in stages:
-        raise DesignError(f"--to: {to!r} is not known; one of: {', '.join(stages)}")
+    stage = stage_of(to) or Stage.OUTPUT
     target = _target(path, output, write)
     found = open_host()
     text, digest = read_text(path)
     require_rewritable(text, f"{path}:")
     design = load(path, found)
     with fraction() as progress:
-        repair = repaired(design, found, stages[to], progress)
+        repair = repaired(design, found, stage, progress)
     new = text
     if repair.change:
         change = written(repair.change, design.units, schemas_of(found, design.content, "parameters"))

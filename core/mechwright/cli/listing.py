@@ -10,6 +10,7 @@ from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
+from mechwright.designs.files import read_text
 from mechwright.designs.requirement import require_synthesis
 from mechwright.designs.schema import as_file, file_schema, schema_name
 from mechwright.designs.tables import unknown
@@ -59,10 +60,12 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
     }
 
 
-def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> None:
+def new(name: str, kind: str, source: str, output: Path | None, force: bool, whole: bool) -> None:
     """Write or print a design file, or a requirement file of a kind; all keys if ``whole``."""
     found = open_host()
     family = found.family(name)
+    if kind and source:
+        raise DesignError("--from: a requirement file begins with its defaults; leave --from out")
     if kind:
         require_synthesis(family, "--requirement")
         if kind not in family.requirements:
@@ -70,7 +73,8 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
         text = requirement_template(family, kind, name, found.all(Table), short=not whole)
         command = "mechwright synthesize"
     else:
-        text, command = template(family, name, found.all(Table), short=not whole), "mechwright build"
+        draft = family.draft(source, _text(source))
+        text, command = template(family, name, found.all(Table), short=not whole, draft=draft), BUILD
     if output is None:
         typer.echo(text, nl=False)
     else:
@@ -82,6 +86,17 @@ def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> 
             typer.echo(
                 f"for an editor that completes and checks it: mechwright schema {name}{option} -o {file}"
             )
+
+
+BUILD = "mechwright build"
+"""What one goes on with after ``new``."""
+
+
+def _text(source: str) -> str:
+    """What a file says that ``--from`` names; nothing of what is no file, such as an entry of a catalogue."""
+    path = Path(source)
+    looks_like_one = bool(path.suffix) or path.exists()
+    return read_text(path)[0] if source and looks_like_one and "?" not in source else ""
 
 
 def schema(name: str, requirement: bool, study: bool, output: Path | None, force: bool) -> None:
@@ -97,7 +112,7 @@ def schema(name: str, requirement: bool, study: bool, output: Path | None, force
     if schema:
         schema = as_file(schema)
     elif study:
-        from mechwright.sweep.schema import study_schema
+        from mechwright.studies.schema import study_schema
 
         schema = study_schema(found, name)
     else:

@@ -5,12 +5,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mechwright.build import Wanted
 from mechwright.contracts.file_names import file_key
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress
 from mechwright.errors import DesignError
+from mechwright.pipeline import Wanted
 from mechwright.plugins.host import host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.performing import Written
@@ -26,15 +26,17 @@ class Order:
         The design file, and what is asked of it besides.
     folder
         Where its files go; None for a check.
-    stage, empty
+    empty
         As of :func:`~mechwright.scripting.performing.perform`.
+    to
+        The last stage of a check, or None.
     """
 
     path: Path
     wanted: Wanted
     folder: Path | None = None
-    stage: Stage = Stage.MACHINING
     empty: str = ""
+    to: Stage | None = None
 
 
 @dataclass(frozen=True)
@@ -98,10 +100,10 @@ def done(order: Order, progress: Progress) -> Outcome:
         with Mechanism(order.path, host(), order.wanted) as build:
             name = build.design.name
             if order.folder is None:
-                findings = build.check(progress)
+                findings = build.check(progress, order.to)
                 said, ok = Written(folder, (), _sorted(findings)), not errors(findings)
             else:
-                said = build.write(folder, order.stage, progress, order.empty)
+                said = build.write(folder, progress, order.empty)
     except RefusedError as refused:
         said, ok = Written(folder, (), refused.findings), False
     except Exception as error:  # noqa: BLE001,RUF100 - a fault of one design stops no other

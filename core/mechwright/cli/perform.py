@@ -7,7 +7,6 @@ from typing import Any, NoReturn
 
 import typer
 
-from mechwright.build import Wanted
 from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction, standing
@@ -15,14 +14,13 @@ from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.refused import RefusedError
 from mechwright.errors import PluginError
+from mechwright.pipeline import Wanted
 from mechwright.plugins.host import Host
 from mechwright.scripting.mechanism import Mechanism
 from mechwright.scripting.performing import Written
 
 
-def perform(
-    path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str = "", as_json: bool = False
-) -> None:
+def perform(path: Path, folder: Path, wanted: Wanted, empty: str = "", as_json: bool = False) -> None:
     """Run a command that writes a folder.
 
     Parameters
@@ -31,8 +29,6 @@ def perform(
         The design file, and where the files go.
     wanted
         The command's name, and what is asked for besides.
-    stage
-        The last stage of the command's work: errors of later ones are told and stop nothing.
     empty
         What is wrong if no page has a file; it follows the family's name.
     as_json
@@ -43,7 +39,7 @@ def perform(
     with standing(folder), Mechanism(path, found, wanted) as build:
         try:
             with fraction() as progress:
-                written = build.write(folder, stage, progress, empty)
+                written = build.write(folder, progress, empty)
         except RefusedError as refused:
             if as_json:
                 _print(data_of(build.design.name, Written(folder, (), refused.findings), ok=False))
@@ -52,7 +48,7 @@ def perform(
         if as_json:
             _print(data_of(build.design.name, written, ok=True))
         else:
-            say(path, stage, written)
+            say(path, wanted.extent.stage, written)
 
 
 def say(path: Path, stage: Stage, written: Written, *, files: bool = True) -> None:

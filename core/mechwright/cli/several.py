@@ -9,8 +9,8 @@ from typing import Any
 
 import typer
 
-from mechwright.build import Wanted
 from mechwright.cli.check import check as check_one
+from mechwright.cli.check import shown, stage_of, verdict
 from mechwright.cli.hosting import open_host
 from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.cli.perform import check_formats, data_of, perform, say
@@ -18,10 +18,13 @@ from mechwright.cli.progress import fraction, stamp
 from mechwright.cli.stopping import StoppedError
 from mechwright.cli.telling import plain, tell
 from mechwright.contracts.finding import Stage
-from mechwright.cores import cores, keep_to
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
-from mechwright.scripting.crew import side_by_side
+from mechwright.pipeline import Wanted
+from mechwright.plugins.host import host
+from mechwright.scripting.checking import unmade
+from mechwright.worker_pool.budget import available_cores, limit_cores
+from mechwright.worker_pool.sharing import side_by_side
 
 COLUMNS = ("design", "outcome", "seconds", "reason")
 
@@ -30,7 +33,6 @@ def write(
     designs: Sequence[Path],
     folder: Path,
     wanted: Wanted,
-    stage: Stage,
     workers: int | None,
     empty: str = "",
     as_json: bool = False,
@@ -48,31 +50,50 @@ def write(
     """
     if len(designs) == 1:
         _keep(workers)
-        perform(designs[0], folder, wanted, stage, empty, as_json)
+        perform(designs[0], folder, wanted, empty, as_json)
         return
     check_formats(open_host(), wanted.formats)
     places = into(designs, folder)
     for place in places.values():
         check_folder(place)
-    orders = [Order(path, wanted, place, stage, empty) for path, place in places.items()]
+    orders = [Order(path, wanted, place, empty) for path, place in places.items()]
     _run(orders, workers, as_json, ("written", "refused"), _say_written, folder)
 
 
-def check(designs: Sequence[Path], workers: int | None, as_json: bool, tolerances: bool) -> None:
-    """Check designs; the exit code is 1 if one cannot be built."""
+def check(
+    designs: Sequence[Path],
+    wanted: Wanted,
+    to: str,
+    workers: int | None,
+    as_json: bool,
+    tolerances: bool,
+    figures: bool,
+) -> None:
+    """Check designs; the exit code is 1 if one cannot be built.
+
+    Raises
+    ------
+    DesignError
+        An option is not known, or goes with none of the others.
+    """
+    stage = stage_of(to)
+    if wanted.formats and stage not in {Stage.ASSEMBLY, Stage.OUTPUT}:
+        raise DesignError(f"--also: goes with --to {Stage.ASSEMBLY} or --to {Stage.OUTPUT}, which make files")
+    check_formats(open_host(), wanted.formats)
     if len(designs) == 1:
         _keep(workers)
-        check_one(designs[0], as_json, tolerances)
-    if tolerances:
-        raise DesignError("--tolerances: tells of one design; give one, and not several")
-    open_host()
-    orders = [Order(path, Wanted("check")) for path in dict.fromkeys(designs)]
-    _run(orders, workers, as_json, ("can be built", "cannot be built"), _say_checked)
+        check_one(designs[0], wanted, stage, as_json=as_json, tolerances=tolerances, figures=figures)
+    if tolerances or figures:
+        raise DesignError("--tolerances and --figures tell of one design; give one, and not several")
+    orders = [Order(path, wanted, to=stage) for path in dict.fromkeys(designs)]
+    # What they were judged without is the same for all of them.
+    remark = verdict(stage, unmade(host(), stage), failed=False).removeprefix("can be built")
+    _run(orders, workers, as_json, ("can be built", "cannot be built"), _say_checked, remark=remark)
 
 
 def _keep(workers: int | None) -> None:
     if workers is not None:
-        keep_to(workers)
+        limit_cores(workers)
 
 
 def _run(
@@ -82,6 +103,7 @@ def _run(
     words: tuple[str, str],
     say_one: Callable[[Outcome], None],
     folder: Path | None = None,
+    remark: str = "",
 ) -> None:
     before = {order.path: stamp(order.folder) for order in orders}
     found: dict[int, Outcome] = {}
@@ -101,7 +123,7 @@ def _run(
         say_one(one)
     for line in _table(outcomes, words):
         typer.echo(line)
-    typer.echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}")
+    typer.echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}{remark}")
     raise typer.Exit(int(bool(failed)))
 
 
@@ -116,7 +138,7 @@ def _all(orders: Sequence[Order], workers: int | None, found: dict[int, Outcome]
             at = f"{len(found)} of {len(orders)} done; {orders[place].path.stem}: {what}"
             progress(sum(parts) / len(parts), at)
 
-        with closing(side_by_side(done, orders, workers or cores(), heard)) as outcomes:
+        with closing(side_by_side(done, orders, workers or available_cores(), heard)) as outcomes:
             for place, outcome in outcomes:
                 found[place] = outcome or killed(orders[place], time.perf_counter() - begun)
                 heard(place, 1.0, "done")
@@ -134,7 +156,7 @@ def _say_written(outcome: Outcome) -> None:
     if not outcome.said.findings and outcome.fault:
         typer.echo(f"mechwright: {_located(outcome)}", err=True)
     elif outcome.ok:
-        say(outcome.order.path, outcome.order.stage, outcome.said, files=False)
+        say(outcome.order.path, outcome.order.wanted.extent.stage, outcome.said, files=False)
     else:
         _say_findings(outcome)
 
@@ -146,7 +168,7 @@ def _say_checked(outcome: Outcome) -> None:
 
 
 def _say_findings(outcome: Outcome) -> None:
-    for finding in outcome.said.findings:
+    for finding in shown(outcome.said.findings):
         tell(finding, err=True, path=outcome.order.path)
 
 

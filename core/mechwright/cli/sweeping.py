@@ -1,7 +1,6 @@
 """The command ``sweep``."""
 
 import json
-import os
 from dataclasses import asdict
 from pathlib import Path
 
@@ -11,27 +10,22 @@ from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.stopping import StoppedError, deaf
 from mechwright.cli.streams import say
-from mechwright.cores import cores
-from mechwright.errors import DesignError, MechwrightError
-from mechwright.extras import require
-from mechwright.sweep.run import Swept, sweep
-from mechwright.sweep.standing import Standing
-from mechwright.sweep.study import load_study
-from mechwright.sweep.workers import Alone, Cluster, Processes, Workers
-
-ADDRESS = "DASK_SCHEDULER_ADDRESS"
-"""Environment variable: the scheduler that is asked where the command names none."""
+from mechwright.errors import MechwrightError
+from mechwright.studies.run import Swept, evaluate
+from mechwright.studies.standing import Standing
+from mechwright.studies.study import load_study
+from mechwright.studies.workers import workers_of
 
 
 def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bool) -> None:
     """Evaluate the designs of a study; the exit code is 1 if none is allowed."""
-    workers = _workers(count, scheduler)
+    workers = workers_of(count, scheduler)
     installed = open_host()
     study = load_study(path, installed)
     standing = Standing(study)
     try:
         with fraction(lines=True) as progress:
-            found = sweep(study, folder, workers, installed, progress, standing)
+            found = evaluate(study, folder, workers, installed, progress, standing)
     except KeyboardInterrupt:
         deaf()
         raise StoppedError(standing.sentence()) from None
@@ -54,19 +48,6 @@ def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bo
     raise typer.Exit(int(not found.counts.feasible))
 
 
-def _workers(count: int | None, scheduler: str) -> Workers:
-    address = scheduler or ("" if count else os.environ.get(ADDRESS, ""))
-    if scheduler and count:
-        raise DesignError(
-            "--workers: goes with processes of this machine, and --scheduler with a cluster; take one"
-        )
-    if address:
-        require("distributed", by="--scheduler" if scheduler else ADDRESS)
-        return Cluster(address)
-    number = count or cores()
-    return Alone() if number == 1 else Processes(number)
-
-
 def _say(folder: Path, found: Swept) -> None:
     counts = found.counts
     if not counts.feasible:
@@ -79,10 +60,7 @@ def _say(folder: Path, found: Swept) -> None:
     for one in found.chosen:
         told = ", ".join(f"{name} {_shown(value)}" for name, value in one.figures.items())
         typer.echo(f"{one.name}.toml: {told}" if one.name else f"design {one.design}: refused: {one.refused}")
-    typer.echo(
-        f"{folder}: {counts.designs:,} designs, {counts.feasible:,} allowed, {found.front:,} on the front; "
-        f"{', '.join(found.files)}"
-    )
+    typer.echo(f"{folder}: {found}; {', '.join(found.files)}")
 
 
 def _shown(value: object) -> str:

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.contracts.finding import Stage
+from mechwright.contracts.parameters import value_at
 from mechwright.contracts.refusals import refusals
 from mechwright.contracts.singly import Asked, singly
 from mechwright.contracts.slices import Chunk, Skipped, Slices
@@ -61,10 +62,7 @@ class Designs:
         """The values (n,) of a parameter that is varied, the one value of another."""
         if name in self.varied:
             return self.varied[name]
-        value: Any = self.common
-        for step in name.split("."):
-            value = getattr(value, step)
-        return value
+        return value_at(self.common, name)
 
     def full(self, name: str) -> NDArray[Any]:
         """The values (n,) of a parameter, varied or not."""

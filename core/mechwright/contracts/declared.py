@@ -4,6 +4,7 @@ Python keeps nobody from building a ``Part`` with a text where a height is wante
 fails much later, and looks guilty. So the guard asks here of all that a plugin gives, before it is read.
 """
 
+import ast
 import inspect
 import math
 import sys
@@ -13,7 +14,21 @@ from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache
-from typing import Any, ClassVar, Literal, Self, TypeVar, Union, get_args, get_origin, get_type_hints
+from importlib import import_module
+from itertools import takewhile
+from textwrap import dedent
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Literal,
+    Self,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -69,13 +84,29 @@ class Declared:
         return next(_Walk(self).faults(value, kind), None)
 
 
-LOOSE = Declared(finite=False)
-"""A recess without an end, a figure that no design has, are numbers too."""
+def declared(contract: Any, method: str, answer: Any, arguments: tuple[Any, ...] | None = None) -> Any:
+    """The answer of a contract's method, if it is what the method's annotation declares.
 
+    An annotation says all that is asked: ``Annotated[Sequence[Part], Declared(), hold_parts]`` is held to the
+    kind, to that :class:`Declared`, and by the function, which takes the answer and the arguments. It raises
+    UnsoundError, or gives what stands for the answer; None leaves it. Where ``arguments`` is None, the answer
+    is one of those that a method gives one by one.
 
-def hold(contract: Any, method: str, answer: Any, asked: Declared = LOOSE) -> None:
-    """Raise UnsoundError where an answer is not what the annotation of a contract's method says it gives."""
-    refuse(asked.fault(answer, gives(contract, method)))
+    Raises
+    ------
+    UnsoundError
+        What is wrong with it; the guard says whose it is.
+    """
+    kind = gives(contract, method)
+    if arguments is None and get_origin(kind) is Iterator:
+        (kind,) = get_args(kind)
+    more = getattr(kind, "__metadata__", ())
+    asked = next((one for one in more if isinstance(one, Declared)), Declared(finite=contract.finite))
+    refuse(asked.fault(answer, kind))
+    for hold in more:
+        if not isinstance(hold, Declared) and (other := hold(answer, *(arguments or ()))) is not None:
+            answer = other
+    return answer
 
 
 @cache
@@ -83,7 +114,7 @@ def gives(contract: Any, method: str) -> Any:
     """What a method or property of a contract gives, as its annotation declares it."""
     own = vars(contract)[method]
     function = getattr(own, "fget", own)
-    return _resolved(function.__annotations__["return"], function.__module__, contract.named(), contract)
+    return _of_contract(function.__annotations__["return"], function.__module__, contract)
 
 
 def unstated(contract: Any, cls: Any) -> str:
@@ -91,20 +122,20 @@ def unstated(contract: Any, cls: Any) -> str:
 
     Those are the ones that the contract annotates, and its properties where a class has a value instead.
     """
-    declared = inspect.get_annotations(contract)
+    annotated = inspect.get_annotations(contract)
     plain = [name for name, own in vars(contract).items() if isinstance(own, property)]
-    for name in (*declared, *plain):
+    for name in (*annotated, *plain):
         value = inspect.getattr_static(cls, name, None)
         if not hasattr(cls, name):
             return f"has no {name}"
         if name in plain and hasattr(value, "__get__"):
             continue  # asked for, and held, call by call
         kind = (
-            _resolved(declared[name], contract.__module__, contract.named(), contract)
-            if name in declared
+            _of_contract(annotated[name], contract.__module__, contract)
+            if name in annotated
             else gives(contract, name)
         )
-        found = LOOSE.fault(getattr(cls, name), kind)
+        found = Declared(finite=False).fault(getattr(cls, name), kind)
         if found is not None:
             return f"{name}{found[0]} {found[1]}"
     return ""
@@ -114,6 +145,8 @@ def refuse(found: Fault | None) -> None:
     """Raise UnsoundError where a fault was found."""
     if found is not None:
         where, said = found
+        if not where and said.startswith("is "):
+            raise UnsoundError(f"gives {said.removeprefix('is ')}")
         raise UnsoundError(f"{where.lstrip('.')} of what it gives {said}".removeprefix(" of "))
 
 
@@ -141,6 +174,8 @@ class _Walk:
             yield from self.faults(value, whole.__value__[arguments] if arguments else whole.__value__)
         elif origin in {Union, types.UnionType}:
             yield from self._any(value, arguments)
+        elif origin is Annotated:
+            yield from self.faults(value, arguments[0])
         elif origin is Literal:
             if not any(type(value) is type(one) and value == one for one in arguments):
                 yield _wrong(value, f"one of {', '.join(map(repr, arguments))}")
@@ -181,7 +216,9 @@ class _Walk:
 
     def _many(self, value: Any, origin: Any, kinds: Sequence[Any]) -> Iterator[Fault]:
         if not isinstance(value, origin) or isinstance(value, (str, bytes)):
-            yield _wrong(value, "something to call" if origin is Callable else _a(origin))
+            one = kinds[0] if kinds[1:] in ((), (...,)) and kinds else None
+            of = f" of {one.__name__}" if isinstance(one, type) and one.__module__ != "builtins" else ""
+            yield _wrong(value, "something to call" if origin is Callable else _a(origin) + of)
         elif origin is Callable:
             pass
         elif issubclass(origin, Mapping):
@@ -221,8 +258,8 @@ class _Walk:
         elif _has_fields(value) and not isinstance(value, self._asked.leave) and not self._known(value):
             self._seen[id(value)] = value
             own: Any = type(value)
-            for name, declared in _fields(own):
-                yield from self._within(f".{name}", getattr(value, name), declared)
+            for name, kind in _fields(own):
+                yield from self._within(f".{name}", getattr(value, name), kind)
             if isinstance(value, Loop | Outline):
                 _SOUND[self._asked.finite][id(value)] = value
         elif type(value).__module__.partition(".")[0] == "shapely":
@@ -281,9 +318,9 @@ def _fields(cls: Any) -> tuple[tuple[str, Any], ...]:
     """The fields of a class and their kinds, without those whose kind cannot be found."""
     found = {}
     for base in reversed(cls.__mro__):
-        for name, declared in inspect.get_annotations(base).items():
+        for name, annotation in inspect.get_annotations(base).items():
             with suppress(NameError):
-                found[name] = _resolved(declared, base.__module__)
+                found[name] = _resolved(annotation, base.__module__)
     names: Collection[str]
     if is_dataclass(cls):
         names = [one.name for one in fields(cls)]
@@ -292,10 +329,37 @@ def _fields(cls: Any) -> tuple[tuple[str, Any], ...]:
     return tuple((name, found[name]) for name in names if name in found)
 
 
-def _resolved(declared: Any, module: str, more: Mapping[str, Any] | None = None, own: Any = Any) -> Any:
-    """What an annotation of a module says, with names that the module imports for type checkers alone."""
-    holder = type("Holder", (), {"__annotations__": {"it": declared}})  # of classes ClassVar is known as well
-    kind = get_type_hints(holder, {**vars(sys.modules[module]), "Self": Self, **(more or {})})["it"]
+def _of_contract(annotation: Any, module: str, contract: Any) -> Any:
+    """What an annotation of a contract says, with names that its module imports for type checkers alone."""
+    names = {"Self": contract}
+    while True:
+        try:
+            kind = _resolved(annotation, module, names)
+            return contract if kind is Self else kind
+        except NameError as error:
+            name = str(error.name)
+            if name not in (known := _imports_for_types(module)):
+                raise
+            names[name] = getattr(import_module(known[name]), name)
+
+
+@cache
+def _imports_for_types(module: str) -> Mapping[str, str]:
+    """Names that a module imports for type checkers alone, to the modules that have them."""
+    block = inspect.getsource(sys.modules[module]).partition("\nif TYPE_CHECKING:\n")[2]
+    lines = takewhile(lambda line: line[:1] in {"", " "}, block.splitlines())
+    found = ast.parse(dedent("\n".join(lines))).body
+    return {
+        one.name: str(line.module) for line in found if isinstance(line, ast.ImportFrom) for one in line.names
+    }
+
+
+def _resolved(annotation: Any, module: str, names: Mapping[str, Any] | None = None) -> Any:
+    """What an annotation of a module says."""
+    # Of classes ClassVar is known as well.
+    holder = type("Holder", (), {"__annotations__": {"it": annotation}})
+    scope = {**vars(sys.modules[module]), **(names or {})}
+    kind = get_type_hints(holder, scope, include_extras=True)["it"]
     while get_origin(kind) is ClassVar:
         (kind,) = get_args(kind)
-    return own if kind is Self else kind
+    return kind

@@ -158,7 +158,7 @@ class DesignRule(Generic[D]):
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) that break it; see :class:`RuleLike`."""
-        if self.severity is not Severity.ERROR or _is_later(self.stage, stage) or self.slow == "value":
+        if self.severity is not Severity.ERROR or self.stage.is_after(stage) or self.slow == "value":
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
         if not asked.any():
@@ -246,6 +246,12 @@ class Procedure(Generic[D]):
         Which designs are asked.
     slow
         Whether it takes long: the quick judge does not ask it.
+    stage
+        The earliest stage of what it finds: studies up to an earlier one do not ask it.
+    certain
+        Whether it finds an error of that stage in every design that is asked: tables are not inspected.
+    warns
+        Whether it finds no errors, and so forbids nothing.
     """
 
     codes: Sequence[str]
@@ -253,12 +259,17 @@ class Procedure(Generic[D]):
     common: bool = False
     when: Callable[[D], Any] | None = None
     slow: bool = False
+    stage: Stage = Stage.MOTION
+    certain: bool = False
+    warns: bool = False
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
-        if self.slow or not table.size:
+        if self.slow or self.warns or not table.size or self.stage.is_after(stage):
             return None
         asked = _truth(True if self.when is None else self.when(table), table.size)
+        if self.certain:
+            return asked
         if self.common:
             return asked & self._stops(table.row(0), stage) if asked.any() else None
         wrong = np.zeros(table.size, bool)
@@ -355,12 +366,7 @@ def _breaks(must_be: Comparison, value: Any, limit: Any) -> Any:
 
 
 def _forbids(finding: Finding, stage: Stage) -> bool:
-    return finding.severity is Severity.ERROR and not _is_later(finding.stage, stage)
-
-
-def _is_later(stage: Stage, last: Stage) -> bool:
-    order = list(Stage)
-    return order.index(stage) > order.index(last)
+    return finding.severity is Severity.ERROR and not finding.stage.is_after(stage)
 
 
 def _truth(value: Any, size: int) -> Bools:

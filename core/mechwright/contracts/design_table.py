@@ -135,10 +135,22 @@ def with_columns(params: P, columns: Mapping[str, Any]) -> P:
         table, dot, rest = name.partition(".")
         if dot:
             inner.setdefault(table, {})[rest] = value
-    own |= {table: with_columns(getattr(params, table), some) for table, some in inner.items()}
+    for table, some in inner.items():
+        value = getattr(params, table)
+        own[table] = _named_columns(value, some) if isinstance(value, Mapping) else with_columns(value, some)
     changed = params.model_copy(update=own)
     changed.__dict__.update(changed.fitted())
     return changed
+
+
+def _named_columns(tables: Mapping[str, Any], columns: Mapping[str, Any]) -> dict[str, Any]:
+    """The same of tables by their names."""
+    inner: dict[str, dict[str, Any]] = {}
+    for name, value in columns.items():
+        table, _, rest = name.partition(".")
+        inner.setdefault(table, {})[rest] = value
+    changed = {name: with_columns(tables[name], some) for name, some in inner.items()}
+    return {name: changed.get(name, table) for name, table in tables.items()}
 
 
 def plain(params: P, place: int, size: int) -> P:
@@ -161,6 +173,12 @@ def _with(model: Any, change: Callable[[Any], Any]) -> Any:
             update[name] = change(value)
         elif isinstance(value, BaseModel) and (inner := _with(value, change)) is not value:
             update[name] = inner
+        elif type(value) is dict and any(isinstance(one, BaseModel) for one in value.values()):
+            update[name] = {key: _with(one, change) for key, one in value.items()}
+        elif type(value) is tuple and any(isinstance(one, BaseModel) for one in value):
+            tables = tuple(_with(one, change) if isinstance(one, BaseModel) else one for one in value)
+            if any(new is not old for new, old in zip(tables, value, strict=True)):
+                update[name] = tables
     if not update:
         return model
     changed = model.model_copy(update=update)

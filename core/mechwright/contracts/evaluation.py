@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from mechwright.arrays import Array
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.masses import is_mass, masses_of
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import Parameters, value_at
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.slices import Slices
 from mechwright.errors import MechwrightError, PluginFaultError
@@ -67,10 +67,7 @@ class Batch(Generic[P]):
         """The values (n,) of a parameter, varied or not; raises AttributeError where there is none."""
         if name in self.varied:
             return self.varied[name]
-        value: Any = self.common
-        for step in name.split("."):
-            value = getattr(value, step)
-        return np.full(len(self), value)
+        return np.full(len(self), value_at(self.common, name))
 
     def at(self, places: NDArray[np.intp]) -> "Batch[P]":
         """Those at these places, not divided."""

@@ -18,7 +18,6 @@ class Exporter(Plugin):
     kind = "exporter"
     plural = "formats"
     piecewise = frozenset({"part", "assembly"})
-    texts = ("suffix",)
 
     suffix: ClassVar[str]
     """Ending of its files."""

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
+from mechwright.errors import DesignError
 
 if TYPE_CHECKING:
     import shapely
 
+    from mechwright.arrays import Array
+    from mechwright.contracts.answers import Evaluated, Findings, Parts, WholeMotion
     from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.design_table import DesignTable
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.evaluation import Batch
     from mechwright.contracts.figure import Figure, PartMass
     from mechwright.contracts.made_part import MadePart
-    from mechwright.contracts.motion import Channel, Motion
+    from mechwright.contracts.motion import Channel
     from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
-    from mechwright.contracts.part import Part
     from mechwright.contracts.rule_list import Rules
     from mechwright.contracts.synthesis import Progress, Synthesis
     from mechwright.contracts.target import Target
@@ -41,12 +43,11 @@ class Family(Plugin, Generic[P]):
 
     kind = "family"
     plural = "families"
-    texts = ("title", "summary")
     limited = True
     steady = True
     unlimited = frozenset({"synthesise", "evaluate", "stretches"})
     derived = frozenset({"check", "judge", "evaluate"})
-    inner = frozenset({"rules", "table", "remedy", "figures", "channels", "masses"})
+    inner = frozenset({"rules", "table", "remedy", "figures", "channels", "extremes", "masses"})
     piecewise = frozenset({"stretches"})
 
     title: ClassVar[str]
@@ -70,43 +71,6 @@ class Family(Plugin, Generic[P]):
     sampled: ClassVar[int] = 64
     """Designs of it whose channels are evaluated at once."""
 
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """Whether it is findings, a motion of finite numbers, parts that can be made."""
-        from mechwright.contracts.answers import sound
-
-        return sound(cls, method, answer, arguments)
-
-    @classmethod
-    def named(cls) -> Mapping[str, Any]:
-        """What its methods give, which a listing of families does not load."""
-        from mechwright.contracts.as_made import AsMade
-        from mechwright.contracts.design_table import DesignTable
-        from mechwright.contracts.evaluation import Columns
-        from mechwright.contracts.figure import Figure, PartMass
-        from mechwright.contracts.motion import Channel, Motion
-        from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
-        from mechwright.contracts.part import Part
-        from mechwright.contracts.rule_list import Rules
-        from mechwright.contracts.synthesis import Synthesis
-        from mechwright.contracts.target import Target
-        from mechwright.contracts.tolerances import ToleranceModel
-        from mechwright.contracts.transmission import Transmission
-
-        found = (
-            *(AsMade, Channel, Columns, DesignTable, Figure, Flange, GroundPlate, Motion, Mounting, Part),
-            *(PartMass, Rules, Synthesis, Target, ToleranceModel, Transmission),
-        )
-        return {one.__name__: one for one in found}
-
-    @classmethod
-    def fault(cls) -> str:
-        """Whether ``Params`` is a table."""
-        params = getattr(cls, "Params", None)
-        if isinstance(params, type) and issubclass(params, Parameters):
-            return ""
-        return "Params is no subclass of mechwright.Parameters"
-
     def rules(self) -> "Rules[Any]":
         """What an engineer objects to, in order: see :mod:`mechwright.contracts.design_rule`."""
         from mechwright.contracts.rule_list import in_turn
@@ -127,24 +91,24 @@ class Family(Plugin, Generic[P]):
         """A finding of its rules with the remedy that is found by looking at the whole design."""
         return finding
 
-    def check(self, params: P) -> Sequence[Finding]:
+    def check(self, params: P) -> "Findings":
         """Everything that an engineer would object to, and the figures worth knowing: from its rules."""
         from mechwright.contracts.checking import findings_of
 
         return findings_of(self, params, quick=False)
 
-    def judge(self, params: P) -> Sequence[Finding]:
+    def judge(self, params: P) -> "Findings":
         """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
 
-        What it finds has codes, severities and messages of ``check``. Notes and remedies that take long to
-        find may be missing; ``check`` is asked about every remedy before it is told.
+        What it finds has codes, severities, parameters and messages of ``check``. Notes and remedies that
+        take long to find may be missing; ``check`` is asked about every remedy before it is told.
         """
         from mechwright.contracts.checking import findings_of
 
         return findings_of(self, params, quick=True) if self.rules().every else self.check(params)
 
     @abstractmethod
-    def solve(self, params: P, samples: int) -> "Motion":
+    def solve(self, params: P, samples: int) -> "WholeMotion":
         """The motion over one period of the input, ``samples`` of them, both ends included.
 
         Motion needs closure, nothing else: it is asked for wherever ``check`` finds no error of the stage
@@ -156,7 +120,7 @@ class Family(Plugin, Generic[P]):
             ``check`` has an error of the motion.
         """
 
-    def stretches(self, params: P, samples: int) -> "Iterator[Motion]":
+    def stretches(self, params: P, samples: int) -> "Iterator[WholeMotion]":
         """The motion of ``solve``, as many samples after the other as memory is to be spent on.
 
         Tables of millions of samples are written so. What follows each other are motions of the same bodies
@@ -181,7 +145,7 @@ class Family(Plugin, Generic[P]):
         return ()
 
     @abstractmethod
-    def parts(self, params: P) -> "Sequence[Part]":
+    def parts(self, params: P) -> "Parts":
         """The parts to make.
 
         Raises
@@ -193,8 +157,7 @@ class Family(Plugin, Generic[P]):
     def mounting(self, params: P) -> "Mounting | GroundPlate | Flange | None":  # noqa: ARG002 - used by some
         """Where its shafts stand, or its own ground plate, so that a frame can be built around it.
 
-        It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,
-        and a frame is refused.
+        It is asked of a design whose ``check`` finds no error. None, the default, refuses a frame.
 
         Raises
         ------
@@ -216,6 +179,30 @@ class Family(Plugin, Generic[P]):
             This design is no stage: the key, what is wrong, and what to do.
         """
         return None
+
+    def draft(self, source: str, text: str) -> P:  # noqa: ARG002 - used by families that have some
+        """The design that ``new`` writes.
+
+        Parameters
+        ----------
+        source
+            What ``new --from`` names: something that the family knows, or a file; empty without it.
+        text
+            What that file says; empty where no file is named.
+
+        Returns
+        -------
+        params
+            What it sets is written, with the keys that one sets first. The default sets nothing.
+
+        Raises
+        ------
+        DesignError
+            The family begins with no such thing: what is wrong, and what it can begin with.
+        """
+        if source:
+            raise DesignError(f"--from: family {self.name} begins with its defaults alone; leave --from out")
+        return self.Params()
 
     def settings(
         self,
@@ -240,7 +227,7 @@ class Family(Plugin, Generic[P]):
         self,
         params: P,  # noqa: ARG002 - used by families whose parts mate
         cut: "Mapping[str, shapely.Polygon]",  # noqa: ARG002
-    ) -> Sequence[Finding]:
+    ) -> "Findings":
         """Judge the parts as the chosen cutters leave them.
 
         Parameters
@@ -339,6 +326,14 @@ class Family(Plugin, Generic[P]):
         """The channels (n, samples) of the motions of designs, whose extremes are columns of a study."""
         return {}
 
+    def extremes(
+        self, table: "DesignTable[P]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Least and greatest values (n,) of channels, and their units; the default takes samples of them."""
+        from mechwright.contracts.table_evaluation import extremes_of_samples
+
+        return extremes_of_samples(self, table, names)
+
     def masses(self, table: "DesignTable[P]") -> "Mapping[str, PartMass] | None":  # noqa: ARG002
         """The masses of the parts of designs by their names; None: those of ``parts``, design by design."""
         return None
@@ -363,7 +358,9 @@ class Family(Plugin, Generic[P]):
             return found
         return found | dict.fromkeys(names_of(self.parts(params)), UNIT)
 
-    def evaluate(self, batch: "Batch[P]", columns: Collection[str], stage: Stage = Stage.PARTS) -> "Columns":
+    def evaluate(
+        self, batch: "Batch[P]", columns: Collection[str], stage: Stage = Stage.PARTS
+    ) -> "Evaluated":
         """Many designs at once: their figures, and what forbids those that cannot be.
 
         Parameters
@@ -394,3 +391,10 @@ class Family(Plugin, Generic[P]):
         from mechwright.contracts.target import point_targets
 
         return point_targets(requirement)
+
+    def design_targets(self, params: P) -> "Sequence[Target]":  # noqa: ARG002 - some do
+        """The places of a design that its parameters state, which ``mechwright live`` lets one drag.
+
+        :attr:`Target.moved` gives dotted keys of the table ``[parameters]``. The default gives none.
+        """
+        return ()

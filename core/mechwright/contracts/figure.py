@@ -39,17 +39,21 @@ class PartMass:
     Parameters
     ----------
     value
-        The mass of one copy, kg.
+        The mass of one copy, kg; NaN for designs without it.
     copies
-        The number of copies in the mechanism.
+        The number of copies in the mechanism, a column (n, 1) where the designs differ in it.
     """
 
     value: "float | Callable[[], Any]"
-    copies: int = 1
+    copies: Any = 1
 
     def __call__(self) -> Any:
         """Give the number or the column."""
         return self.value() if callable(self.value) else self.value
+
+
+class SomeMasses(dict[str, PartMass]):
+    """Masses of some of the parts of designs by their names: the total is that of their ``parts``."""
 
 
 def scalars(figures: Mapping[str, Figure]) -> dict[str, Scalar]:

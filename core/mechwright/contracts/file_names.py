@@ -2,8 +2,11 @@
 
 import sys
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Annotated
+
+from mechwright.contracts.guard import UnsoundError
 
 DEVICES = frozenset(
     (
@@ -75,3 +78,27 @@ def path_fault(path: Path, system: str = sys.platform) -> str:
     There a name ``a:b`` is a stream of the file ``a``, and ``nul`` takes everything and holds nothing.
     """
     return name_fault(path.name) if system == "win32" and path.name not in {"", ".."} else ""
+
+
+def _hold_text(text: str, what: str) -> None:
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise UnsoundError(f"{what} cannot be written: {error.reason}") from error
+
+
+def hold_files(files: Mapping[str, object], *_: object) -> None:
+    """Raise UnsoundError where a name is no plain one, or a text cannot be written."""
+    for name, content in files.items():
+        if fault := name_fault(name):
+            raise UnsoundError(f"{name!r} {fault}")
+        if isinstance(content, str):
+            _hold_text(content, f"the text of {name!r}")
+
+
+Text = Annotated[str, lambda text, *_: _hold_text(text, "the text")]
+"""A text that can be written."""
+Files = Annotated[dict[str, str], hold_files]
+"""Texts by the names of their files."""
+File = Annotated[tuple[str, str], lambda file, *_: hold_files({file[0]: file[1]} if any(file) else {})]
+"""The name of a file and its text; both are empty where there is none."""

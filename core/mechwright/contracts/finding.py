@@ -32,9 +32,22 @@ class Stage(StrEnum):
     MOTION = "motion"
     """Whether and how the mechanism moves: closure, assembly, a law that can be run."""
     PARTS = "parts"
-    """Whether its parts can be made and run together: undercut, collisions, thin walls, hardware."""
+    """Whether each part can be made: undercut, thin walls, strength, hardware."""
+    ASSEMBLY = "assembly"
+    """Whether the parts go together: collisions, contacts, screws, the drive."""
     MACHINING = "machining"
-    """Whether they can be milled so: cutters, holding, stock, machine, control."""
+    """Whether they can be milled so: cutters, holding, stock, machine, control, the proof of each program."""
+    OUTPUT = "output"
+    """Whether the mechanism runs with its parts as they are made, and all files can be written."""
+
+    def is_after(self, other: "Stage") -> bool:
+        """Whether the work comes to this stage later than to another one.
+
+        >>> Stage.PARTS.is_after(Stage.MOTION), Stage.PARTS.is_after(Stage.PARTS)
+        (True, False)
+        """
+        order = list(Stage)
+        return order.index(self) > order.index(other)
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,13 +172,9 @@ class Findings(tuple[Finding, ...]):
         return html_table(["severity", "code", "parameter", "finding", "remedy"], rows)
 
 
-def errors(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> list[Finding]:
+def errors(findings: Iterable[Finding], stage: Stage = Stage.OUTPUT) -> list[Finding]:
     """Give the findings that forbid a stage: errors of it and of earlier stages; by default all errors."""
-    order = list(Stage)
-    stopping = order[: order.index(stage) + 1]
-    return [
-        finding for finding in findings if finding.severity is Severity.ERROR and finding.stage in stopping
-    ]
+    return [one for one in findings if one.severity is Severity.ERROR and not one.stage.is_after(stage)]
 
 
 def at_stage(stage: Stage, findings: Iterable[Finding]) -> list[Finding]:
@@ -211,7 +220,7 @@ def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[
 
 def refuse(
     findings: Iterable[Finding],
-    stage: Stage = Stage.MACHINING,
+    stage: Stage = Stage.OUTPUT,
     kind: type[MechwrightError] = DesignError,
 ) -> None:
     """Raise the first error that forbids a stage, as an error of a kind; do nothing if there is none."""

@@ -15,6 +15,7 @@ import gc
 import importlib
 import locale
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -24,6 +25,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
+
+from mechwright.contracts.stops import STOPS
 
 
 @dataclass(frozen=True)
@@ -117,17 +120,6 @@ def _mask() -> int:
     return mask
 
 
-def _twister(random: Any) -> tuple[Any, ...]:
-    name, key, *rest = random.get_state()
-    return name, key.tobytes(), *rest
-
-
-def _twisted(was: tuple[Any, ...]) -> None:
-    numpy = sys.modules["numpy"]
-    name, key, *rest = was
-    numpy.random.set_state((name, numpy.frombuffer(key, dtype=numpy.uint32), *rest))
-
-
 def _environment(was: Mapping[str, str]) -> None:
     for name in set(os.environ) - set(was):
         del os.environ[name]
@@ -156,13 +148,9 @@ def opened_again(stream: Any, number: int) -> Any:
     return stream
 
 
-_HEARD = tuple(
-    one
-    for one in (
-        getattr(signal, name, None)
-        for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM", "SIGCHLD", "SIGPIPE")
-    )
-    if one is not None
+_HEARD = (
+    *STOPS,
+    *(getattr(signal, name) for name in ("SIGALRM", "SIGCHLD", "SIGPIPE") if hasattr(signal, name)),
 )
 
 
@@ -189,24 +177,15 @@ def _of(module: str, read: Callable[[Any], Any]) -> Callable[[], Any]:
     return reading
 
 
-def _numpy(state: tuple[Any, ...]) -> None:
-    numpy = sys.modules["numpy"]
-    numpy.seterr(**dict(state))
-
-
-_DECIMAL = ("prec", "rounding", "Emin", "Emax", "capitals", "clamp")
-
-
 def _decimal(decimal: Any) -> tuple[Any, ...]:
-    context = decimal.getcontext()
-    traps = frozenset(one for one, caught in context.traps.items() if caught)
-    return (traps, *(getattr(context, name) for name in _DECIMAL))
+    """What makes the present context, without the flags that sums raise."""
+    _, (*settings, _, traps) = decimal.getcontext().__reduce__()
+    return (*settings, [], traps)
 
 
-def _decimals(was: tuple[Any, ...]) -> None:
-    traps, *rest = was
-    decimal: Any = sys.modules["decimal"]
-    decimal.setcontext(decimal.Context(**dict(zip(_DECIMAL, rest, strict=True)), traps=list(traps)))
+def _set_decimal(was: tuple[Any, ...]) -> None:
+    decimal = sys.modules["decimal"]
+    decimal.setcontext(decimal.Context(*was))
 
 
 def _filters(was: list[Any]) -> None:
@@ -240,9 +219,13 @@ PIECES: tuple[Piece, ...] = (
     ),
     Piece(
         "the state of numpy's random numbers",
-        _of("numpy", lambda numpy: _twister(numpy.random)),
-        _twisted,
+        _of("numpy", lambda numpy: pickle.dumps(numpy.random.get_state())),
+        lambda was: sys.modules["numpy"].random.set_state(pickle.loads(was)),  # noqa: S301 - our own
     ),
-    Piece("the context of decimal numbers", _of("decimal", _decimal), _decimals),
-    Piece("what numpy does about errors", _of("numpy", lambda numpy: tuple(numpy.geterr().items())), _numpy),
+    Piece("the context of decimal numbers", _of("decimal", _decimal), _set_decimal),
+    Piece(
+        "what numpy does about errors",
+        _of("numpy", lambda numpy: numpy.geterr()),
+        lambda was: sys.modules["numpy"].seterr(**was),
+    ),
 )

@@ -9,25 +9,24 @@ through the guard whoever makes it. Inside of a call
   in C that does not hold it back, and by processes that are started;
 - the working directory and what else everybody shares is as it was (:mod:`~mechwright.contracts.ground`);
 - a family's method has a time, :data:`SECONDS`, or as many as :data:`LIMIT` says;
-- the answer is what the contract says (:meth:`~mechwright.contracts.plugin.Plugin.sound`), and parameters
+- the answer is what the contract's annotations say (:mod:`~mechwright.contracts.declared`), and parameters
   stay as they were.
 
 The keyboard (:mod:`~mechwright.contracts.stops`), and a want of memory, pass through as they are.
 """
 
-import functools
-import inspect
 import os
 import signal
 import sys
 import threading
 import traceback
 import types
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar, Protocol
+from typing import Any
 
 from mechwright.contracts.ground import kept, leave_behind, opened_again
 from mechwright.contracts.stops import UnaskedError, listening
@@ -53,55 +52,12 @@ _files: list[tuple[int, int]] = []
 """Numbers of files, and those under which they are kept, while calls are under way."""
 
 
-class Called(Protocol):
-    """What the guard knows of a plugin, and of its contract; :class:`Plugin` says what each of them is."""
-
-    kind: ClassVar[str]
-    limited: ClassVar[bool]
-    steady: ClassVar[bool]
-    unlimited: ClassVar[frozenset[str]]
-    piecewise: ClassVar[frozenset[str]]
-    derived: ClassVar[frozenset[str]]
-    inner: ClassVar[frozenset[str]]
-    registered_by: str
-
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """The answer of a method, if it is what the contract says; raises UnsoundError if not."""
-
-
 class UnsoundError(Exception):
     """What is wrong with an answer, in words that follow who gave it."""
 
 
 class TimeUpError(BaseException):
     """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
-
-
-def guard(cls: "type[Called]", contract: type["Called"]) -> None:
-    """Wrap the methods of a contract that a class has of its own, whatever they are and wherever from.
-
-    A method may be a function of the class or of a base that is no plugin, under any name, kept by a cache,
-    or anything else that can be called.
-    """
-    for name in methods_of(contract):
-        home, own = next((base, vars(base)[name]) for base in cls.__mro__ if name in vars(base))
-        inherited = home in contract.__mro__ and name not in contract.derived
-        if inherited or name in contract.inner or getattr(getattr(own, "fget", own), _MARK, False):
-            continue
-        if not isinstance(vars(contract)[name], property):
-            setattr(cls, name, _wrapped(own, name, contract))
-        elif hasattr(own, "__get__"):  # else a plain value, which is looked at when it is registered
-            setattr(cls, name, property(_wrapped(_asked(own), name, contract)))
-
-
-def methods_of(contract: "type[Called]") -> list[str]:
-    """What is called, or asked for as a property, of the plugins of a contract."""
-    return [
-        name
-        for name, one in vars(contract).items()
-        if isinstance(one, (types.FunctionType, property)) and not name.startswith("_")
-    ]
 
 
 def now() -> str:
@@ -120,81 +76,25 @@ def during(who: str) -> Iterator[None]:
         del _inside[before:]
 
 
-_MARK = "_goes_through_the_guard"
-
-
-def _asked(own: Any) -> Callable[[Any], Any]:
-    """A function that gives what a property gives, cached or not."""
-
-    def asked(self: Any) -> Any:
-        return own.__get__(self, type(self))
-
-    getter = getattr(own, "fget", getattr(own, "func", None))
-    return functools.wraps(getter)(asked) if getter else asked
-
-
-def _wrapped(own: Any, method: str, contract: "type[Called]") -> Callable[..., Any]:
-    code = getattr(inspect.unwrap(own) if callable(own) else own, "__code__", _wrapped.__code__)
-
-    @functools.wraps(own, updated=("__dict__",) if isinstance(own, types.FunctionType) else ())
-    def called(self: "Called", *arguments: Any, **named: Any) -> Any:
-        with _guarded(self, method, code, contract, arguments):
-            function = own.__get__(self, type(self)) if hasattr(own, "__get__") else own
-            found = function(*arguments, **named)
-            if isinstance(found, Iterator) and method not in contract.piecewise:
-                found = tuple(found)
-            if not isinstance(found, Iterator):
-                return contract.sound(method, found, (*arguments, *named.values()))
-        return _pieces(self, method, code, contract, found)
-
-    setattr(called, _MARK, True)
-    return called
-
-
-def _pieces(
-    plugin: "Called", method: str, code: types.CodeType, contract: "type[Called]", found: Iterator[Any]
-) -> Generator[Any, None, None]:
-    """What a method gives one after the other, each asked for under the guard."""
-    while True:
-        with _guarded(plugin, method, code, contract, ()):
-            try:
-                one = contract.sound(method, next(found), ())
-            except StopIteration:
-                return
-        yield one
-
-
 @contextmanager
-def _guarded(
-    plugin: "Called",
-    method: str,
-    code: types.CodeType,
-    contract: "type[Called]",
-    arguments: tuple[Any, ...],
-) -> Iterator[None]:
-    limited = contract.limited and method not in contract.unlimited
-    seconds = _seconds() if limited else 0.0
-    said = method if isinstance(vars(contract)[method], property) else f"{method}()"
-    with _watched(f"{who_of(plugin)}: {said}", seconds, code, own=is_own(plugin)):
-        before = repr(arguments[0]) if contract.steady and arguments and len(_inside) == 1 else ""
-        yield
-        if before and repr(arguments[0]) != before:
-            raise UnsoundError("changes the parameters, which are everybody's; work on a copy")
+def watched(who: str, seconds: float, code: types.CodeType) -> Iterator[bool]:
+    """Report what goes wrong meanwhile with the call's name; ``seconds`` above 0 are its time limit.
 
-
-@contextmanager
-def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> Iterator[None]:
-    """Have what goes wrong meanwhile be told with who was called, in a time if it is above 0."""
+    Gives whether no other call is under way. Calls of our own plugins neither listen to the keyboard nor keep
+    the ground: their tests watch them, and it takes its time.
+    """
+    ours = _OURS in who
+    ground = nullcontext() if ours else kept(code.co_filename, code.co_firstlineno)
     try:
-        with _aside(who), _listening(who), _in_time(seconds), _ground(who, code):
-            yield
+        with _aside(who), nullcontext() if ours else listening(), _in_time(seconds), ground:
+            yield len(_inside) == 1
     except (MemoryError, KeyboardInterrupt):
         raise
     except TimeUpError as error:
         raise PluginFaultError(f"{who}: {error}; {LIMIT} in the environment sets another limit") from None
     except MechwrightError as error:
         # Which design is wrong the families of others mostly leave to whoever draws a line.
-        if type(error) in {GeometryError, KinematicsError} and not own and who not in str(error):
+        if type(error) in {GeometryError, KinematicsError} and is_foreign(who) and who not in str(error):
             raise type(error)(f"{who}: {error}") from error
         raise
     except UnsoundError as error:
@@ -206,7 +106,7 @@ def _watched(who: str, seconds: float, code: types.CodeType, *, own: bool) -> It
             f"{who}: ends the program by sys.exit({error.code!r}); raise an error"
         ) from error
     except BaseException as error:  # GeneratorExit, or a kind of its own: nobody above expects one
-        raise PluginFaultError(f"{who}: {_said(error)}") from error
+        raise PluginFaultError(f"{who}: {described(error)}") from error
 
 
 @dataclass(frozen=True)
@@ -224,37 +124,40 @@ class CalledLater:
     function: Callable[..., Any]
     who: str = field(compare=False)
     what: str = field(compare=False)
+    check: Callable[..., None] | None = field(default=None, compare=False)
+    """Raises UnsoundError where what the function gives for its arguments is wrong."""
+    limited: bool = field(default=True, compare=False)
+    """Whether a call has a time."""
 
     def __call__(self, *arguments: Any) -> Any:
         """What the function gives."""
         if not self.who:
             return self.function(*arguments)
         code = getattr(self.function, "__code__", CalledLater.__call__.__code__)
-        with _watched(f"{self.who}: {self.what}", _seconds(), code, own=_OURS in self.who):
-            return self.function(*arguments)
+        with watched(f"{self.who}: {self.what}", time_limit() if self.limited else 0.0, code):
+            found = self.function(*arguments)
+            if self.check is not None:
+                self.check(found, *arguments)
+            return found
 
 
-def later(function: Callable[..., Any], what: str) -> CalledLater:
+def later(function: Callable[..., Any], what: str, check: Callable[..., None] | None = None) -> CalledLater:
     """A function that the call under way gives away, which knows whose it is; one that does is as it was."""
-    return function if isinstance(function, CalledLater) else CalledLater(function, now(), what)
+    return function if isinstance(function, CalledLater) else CalledLater(function, now(), what, check)
+
+
+_END = object()
 
 
 def pieces(given: Iterable[Any], what: str) -> Iterator[bytes]:
     """Bytes that the call under way gives away one by one, each asked for under the guard."""
-    who, asked = now(), iter(given)
 
-    def one_by_one() -> Iterator[bytes]:
-        while True:
-            with _watched(f"{who}: {what}", 0.0, pieces.__code__, own=_OURS in who):
-                try:
-                    one = next(asked)
-                except StopIteration:
-                    return
-                if not isinstance(one, bytes):
-                    raise UnsoundError(f"gives {one!r:.80} among its pieces; bytes are wanted")
-            yield one
+    def are_bytes(piece: object) -> None:
+        if piece is not _END and not isinstance(piece, bytes):
+            raise UnsoundError(f"gives {piece!r:.80} among its pieces; bytes are wanted")
 
-    return one_by_one()
+    following = partial(next, iter(given), _END)
+    return iter(CalledLater(following, now(), what, are_bytes, limited=False), _END)
 
 
 @contextmanager
@@ -267,38 +170,18 @@ def loading(who: str, module: str) -> Iterator[None]:
         yield
 
 
-def _listening(who: str) -> AbstractContextManager[None]:
-    """Know the keyboard's stops from those of a plugin; ours raise none."""
-    return nullcontext() if _OURS in who else listening()
-
-
-def _ground(who: str, code: types.CodeType) -> AbstractContextManager[None]:
-    """The ground, but under plugins of this distribution: their tests watch them, and it takes its time."""
-    return nullcontext() if _OURS in who else kept(code.co_filename, code.co_firstlineno)
-
-
-def who_of(plugin: "Called") -> str:
-    """A plugin in words: what registered it, its kind and its name."""
-    name = getattr(plugin, "name", type(plugin).__name__)
-    return f"{plugin.registered_by}: {plugin.kind} {name}".removeprefix(": ")
-
-
-def is_foreign() -> bool:
-    """Whether the call under way is of a plugin that is not of this distribution."""
-    return now().startswith("plugin ") and _OURS not in now()
-
-
-def is_own(plugin: "Called") -> bool:
-    """Whether a plugin is of this distribution, or made by hand."""
-    return plugin.registered_by.endswith(f" of {OWN}") or not plugin.registered_by
+def is_foreign(who: str) -> bool:
+    """Whether a call, or a plugin in words, is of another distribution; one made by hand is not."""
+    return who.startswith("plugin ") and _OURS not in f"{who}: "
 
 
 def _at(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
-    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else " (unknown place)"
 
 
-def _said(error: BaseException) -> str:
+def described(error: BaseException) -> str:
+    """An error in one line: its kind, its words, and where it was raised."""
     try:
         reason = " ".join(str(error).split())
     except Exception:  # words of its own may fail as well
@@ -354,7 +237,8 @@ def _turned() -> list[tuple[int, int]]:
     return found
 
 
-def _seconds() -> float:
+def time_limit() -> float:
+    """Seconds that a call with a time may take."""
     said = os.environ.get(LIMIT, "")
     try:
         seconds = float(said or SECONDS)

@@ -10,6 +10,8 @@ from pydantic import BaseModel
 def model_schema(model: type[BaseModel]) -> dict[str, Any]:
     """The schema of a model, for the caller to change.
 
+    A table that another schema describes has that reference alone: readers of draft 7 skip all beside it.
+
     >>> from mechwright.contracts.parameters import Parameters
     >>> model_schema(Parameters)["type"]
     'object'
@@ -20,4 +22,12 @@ def model_schema(model: type[BaseModel]) -> dict[str, Any]:
 
 @cache
 def _text(model: type[BaseModel]) -> str:
-    return json.dumps(model.model_json_schema())
+    found = model.model_json_schema()
+    for table in (found, *found.get("$defs", {}).values()):
+        if "properties" in table:
+            table["properties"] = {name: _alone(field) for name, field in table["properties"].items()}
+    return json.dumps(found)
+
+
+def _alone(field: dict[str, Any]) -> dict[str, Any]:
+    return {"$ref": field["$ref"]} if "$ref" in field else field

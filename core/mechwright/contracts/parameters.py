@@ -1,8 +1,8 @@
 """Base of all tables of a design file, and what is kept of the designs that were asked for last."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
 from pydantic.config import JsonDict
@@ -38,6 +38,28 @@ KEPT = 32
 def kept(function: Callable[..., T]) -> "_lru_cache_wrapper[T]":
     """Compute what a function says of a design once."""
     return lru_cache(KEPT)(function)
+
+
+def value_at(params: Any, name: str) -> Any:
+    """The value of a dotted parameter, through tables and through tables by name.
+
+    >>> value_at({"points": {"A": {"x": 30.0}}}, "points.A.x")
+    30.0
+
+    Raises AttributeError or KeyError where there is none.
+    """
+    for step in name.split("."):
+        params = params[step] if isinstance(params, Mapping) else getattr(params, step)
+    return params
+
+
+def named_table(annotation: object) -> type[BaseModel] | None:
+    """The model of the tables that a field has by names, ``dict[str, Model]``; None for other fields."""
+    kinds = get_args(annotation)
+    if get_origin(annotation) is dict and _is_table(kinds[1]):
+        model: type[BaseModel] = kinds[1]
+        return model
+    return None
 
 
 SHORT = 10
@@ -93,6 +115,13 @@ class Parameters(BaseModel):
         Such fields are marked with :data:`FITTED`. A family's ``evaluate`` has to know it too.
         """
         return {}
+
+    def unused_fields(self) -> Collection[str]:
+        """Names of fields that mean nothing with the values of the others, such as tables of another choice.
+
+        New files and pages omit them, and remedies do not change them. The default names none.
+        """
+        return ()
 
     def model_post_init(self, context: Any, /) -> None:  # noqa: ARG002 - pydantic's
         """Take what :meth:`fitted` says; it still counts as left out."""

@@ -17,6 +17,7 @@ from mechwright.contracts.file_names import DEVICES
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.guard import later
+from mechwright.contracts.measure import Measure
 from mechwright.contracts.result import maker
 from mechwright.contracts.shape import Shape
 from mechwright.contracts.turned import Turned
@@ -236,6 +237,8 @@ class Part:
         clearance with which they are made to stand.
     vacant
         Names of its holes with a fit that may stay empty: places of a pin that is in one of them.
+    measures
+        Sizes that tell whether it is right, beside its overall sizes and its bores: they stand on the sheet.
 
     Raises
     ------
@@ -257,6 +260,7 @@ class Part:
     marks: tuple[FittingMark, ...] = ()
     play: float = 0.0
     vacant: tuple[str, ...] = ()
+    measures: tuple[Measure, ...] = ()
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")

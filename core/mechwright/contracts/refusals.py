@@ -9,20 +9,18 @@ left to the table itself, design by design.
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
-from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any
 
 import numpy as np
-from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import NDArray
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
+from mechwright.contracts.bounds import UnknownRefusalError, beyond, kind_of
 from mechwright.contracts.evaluation import PARAMETERS, Batch
-from mechwright.contracts.parameters import Parameters, is_fitted
+from mechwright.contracts.parameters import Parameters, is_fitted, named_table, value_at
 from mechwright.contracts.stand_in import Asked, StandIn, Unlike, changed
-from mechwright.units import Unit
 
 Bools = NDArray[np.bool_]
 
@@ -56,15 +54,11 @@ class Refusals:
     common: Any
 
 
-class _Unknown(Exception):  # noqa: N818 - says that the slow way has to be gone
-    """Arrays do not tell what a table says."""
-
-
 def refusals(batch: Batch[Any]) -> Refusals:
     """What the tables say of all designs of a batch."""
     try:
         return _told(batch)
-    except _Unknown:
+    except UnknownRefusalError:
         size = len(batch)
         return Refusals(np.zeros(size, np.int32), ("",), np.zeros(size, bool), dict(batch.varied), None)
 
@@ -80,6 +74,8 @@ def _told(batch: Batch[Any]) -> Refusals:
         found += [_Refused(field.place, f"{PARAMETERS}.{name}{key}", some) for key, some in refused.items()]
     common = _allowed(batch, content, np.flatnonzero(~_any(found, size)))
     for table in sorted({step for name in values for step in _tables(name)}, key=len, reverse=True):
+        if not isinstance(_inner(common, table), BaseModel):
+            continue  # tables by their names, each of which has its own rules
         place = _field(batch.model, table).place
         beyond = _any([one for one in found if one.place[: len(place)] == place], size)
         refused_too = _ruled(_inner(common, table), _below(values, table), np.flatnonzero(~beyond), size)
@@ -96,7 +92,7 @@ def _told(batch: Batch[Any]) -> Refusals:
 def _completed(batch: Batch[Any]) -> Mapping[str, Any]:
     """What all have in common after the rules that complete a table before it is read.
 
-    Raises _Unknown where such a rule looks at a value that is varied.
+    Raises UnknownRefusalError where such a rule looks at a value that is varied.
     """
     rules = [
         one
@@ -104,16 +100,16 @@ def _completed(batch: Batch[Any]) -> Mapping[str, Any]:
         if one.info.mode == "before"
     ]
     if any("." in name for name in batch.varied) and rules:
-        raise _Unknown
+        raise UnknownRefusalError
     unlike = {name: Unlike() for name in batch.varied}
     told: Any = {**batch.content, **unlike} if rules else batch.content
     for rule in rules:
         try:
             told = getattr(batch.model, rule.cls_var_name)(told)
         except (Asked, AttributeError, TypeError, ValueError, AssertionError, PydanticCustomError):
-            raise _Unknown from None
+            raise UnknownRefusalError from None
         if not isinstance(told, Mapping) or any(told.get(name) is not one for name, one in unlike.items()):
-            raise _Unknown
+            raise UnknownRefusalError
     return {name: value for name, value in told.items() if name not in unlike} if rules else batch.content
 
 
@@ -134,7 +130,7 @@ def _any(found: list[_Refused], size: int) -> Bools:
 
 
 def _allowed(batch: Batch[Any], content: Mapping[str, Any], places: NDArray[np.intp]) -> BaseModel:
-    """The table of a design that is allowed; raises _Unknown where none of the first is."""
+    """The table of a design that is allowed; raises UnknownRefusalError where none of the first is."""
     for place in places[:FEW].tolist():
         try:
             found: BaseModel = batch.one(place)
@@ -143,7 +139,7 @@ def _allowed(batch: Batch[Any], content: Mapping[str, Any], places: NDArray[np.i
         if type(found) is batch.model and _as_said(found, content, batch.varied):
             return found
         break  # a rule completes the table
-    raise _Unknown  # what is not varied may be refused
+    raise UnknownRefusalError  # what is not varied may be refused
 
 
 def _as_said(table: BaseModel, content: Mapping[str, Any], varied: Mapping[str, NDArray[Any]]) -> bool:
@@ -156,8 +152,18 @@ def _as_said(table: BaseModel, content: Mapping[str, Any], varied: Mapping[str, 
         if isinstance(value, BaseModel):
             if not _as_said(value, content.get(name, {}), _below(varied, name)):
                 return False
+        elif isinstance(value, dict) and named_table(info.annotation) is not None:
+            own = content.get(name, {})
+            if not all(
+                _as_said(one, own.get(key, {}), _below(varied, f"{name}.{key}")) for key, one in value.items()
+            ):
+                return False
         elif name not in varied and (name in content or not is_fitted(info)):
-            said = _adapter(info).validate_python(content[name]) if name in content else info.get_default()
+            said = (
+                _adapter(info).validate_python(content[name])
+                if name in content
+                else info.get_default(call_default_factory=True)
+            )
             if value != said:
                 return False
     return True
@@ -191,12 +197,19 @@ class _Field:
 def _field(model: type[BaseModel], name: str) -> _Field:
     place: list[int] = []
     *tables, key = name.split(".")
+    named: type[BaseModel] | None = None
     for step in tables:
+        if named is not None:  # the name of a table, whose tables have one place
+            model, named = named, None
+            continue
         _plain(model, step)
         place.append(list(model.model_fields).index(step))
         inner = model.model_fields[step].annotation
+        named = named_table(inner)
+        if named is not None:
+            continue
         if not (isinstance(inner, type) and issubclass(inner, BaseModel)):
-            raise _Unknown
+            raise UnknownRefusalError
         model = inner
     _plain(model, key)
     place.append(list(model.model_fields).index(key))
@@ -214,14 +227,14 @@ def _plain(model: type[BaseModel], key: str) -> None:
     ]
     before = [one for one in own.model_validators.values() if one.info.mode == "wrap"]
     if key not in model.model_fields or strange or before or own.root_validators or own.validators:
-        raise _Unknown
+        raise UnknownRefusalError
 
 
 def _read(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str, Bools]]:
     """Values (n,) of a field, and which of them (n,) it refuses, by what follows its name in the code."""
-    kind, metadata = _kind(info)
+    kind, metadata = kind_of(info)
     if kind in (float, int) and given.dtype.kind in "fiu":
-        refused = _beyond(metadata, given)
+        refused = beyond(metadata, given)
         if kind is int and given.dtype.kind == "f":
             refused |= given != np.floor(given)
         values = given.astype(np.int64) if kind is int and not refused.any() else given.astype(np.float64)
@@ -229,61 +242,21 @@ def _read(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str,
     if kind is bool and given.dtype.kind == "b":
         return given, {}
     if given.dtype.kind not in "OUi" or kind is None:
-        raise _Unknown
+        raise UnknownRefusalError
     return _choices(info, given if given.dtype.kind == "i" else _as_text(given))
 
 
 def _as_text(given: NDArray[Any]) -> NDArray[Any]:
     if not all(isinstance(one, str) for one in given.tolist()):
-        raise _Unknown
+        raise UnknownRefusalError
     return given.astype(str)
-
-
-def _kind(info: FieldInfo) -> tuple[Any, list[Any]]:
-    """The kind of a field's values, None of tables and lists, and its bounds."""
-    kind, metadata = info.annotation, list(info.metadata)
-    while True:
-        origin, arguments = get_origin(kind), get_args(kind)
-        if origin is Annotated:
-            kind, metadata = arguments[0], metadata + list(arguments[1:])
-        elif origin in (Union, UnionType):
-            real = [one for one in arguments if one is not NoneType]
-            if len(real) != 1:
-                return None, metadata
-            kind = real[0]
-        else:
-            break
-    table = isinstance(kind, type) and issubclass(kind, (BaseModel, tuple, list, dict, set, frozenset))
-    return None if table or origin in (tuple, list, dict, set, frozenset) else kind, metadata
-
-
-_BOUNDS: Mapping[type, tuple[str, Callable[[Any, Any], Any]]] = {
-    Ge: ("ge", np.less),
-    Gt: ("gt", np.less_equal),
-    Le: ("le", np.greater),
-    Lt: ("lt", np.greater_equal),
-}
-
-
-def _beyond(metadata: list[Any], given: NDArray[Any]) -> Bools:
-    """Which numbers bounds refuse; raises _Unknown where more than bounds are asked for."""
-    refused = np.asarray(~np.isfinite(given))
-    for one in metadata:
-        if isinstance(one, FieldInfo):
-            refused |= _beyond(one.metadata, given)
-        elif type(one) in _BOUNDS:
-            key, outside = _BOUNDS[type(one)]
-            refused |= outside(given, getattr(one, key))
-        elif not isinstance(one, Unit):
-            raise _Unknown
-    return refused
 
 
 def _choices(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[str, Bools]]:
     """The same of texts and whole numbers to choose from, each different one read once."""
     different, which = np.unique(given, return_inverse=True)
     if different.size > FEW:
-        raise _Unknown
+        raise UnknownRefusalError
     adapter = _adapter(info)
     read: list[Any] = []
     refused: dict[str, Bools] = {}
@@ -300,9 +273,8 @@ def _choices(info: FieldInfo, given: NDArray[Any]) -> tuple[NDArray[Any], dict[s
 
 
 def _inner(table: BaseModel, name: str) -> BaseModel:
-    for step in name.split(".") if name else ():
-        table = getattr(table, step)
-    return table
+    found: BaseModel = value_at(table, name) if name else table
+    return found
 
 
 def _rules(table: BaseModel) -> list[Callable[[Any], Any]]:
@@ -322,7 +294,7 @@ def _ruled(
         stand_in = StandIn(common, frozenset(values))
         try:
             if rule(stand_in) is not stand_in:
-                raise _Unknown
+                raise UnknownRefusalError
         except (Asked, AttributeError, TypeError):
             for alike, places in _alike(values, left):
                 some = _asked(rule, changed_copy(common, alike), values, alike, places)
@@ -368,7 +340,7 @@ def _asked(
     stand_in = StandIn(common, frozenset(values) - frozenset(alike))
     try:
         if rule(stand_in) is not stand_in:
-            raise _Unknown
+            raise UnknownRefusalError
     except (Asked, AttributeError, TypeError):
         return _each(rule, common, values, asked)
     except (ValueError, AssertionError, PydanticCustomError):
@@ -388,7 +360,7 @@ def _each(
         before = dict(table.__dict__)
         try:
             if rule(table) is not table or table.__dict__ != before:
-                raise _Unknown
+                raise UnknownRefusalError
         except (ValueError, AssertionError, PydanticCustomError):
             refused.append(place)
     return refused

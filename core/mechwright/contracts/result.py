@@ -7,15 +7,12 @@ The core has no solids and no programs; who makes them registers a result, and i
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, Literal, TypeVar
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import PluginError
 
 S = TypeVar("S")
-
-SUBJECTS = ("part", "build")
-"""What there are results of, named so that a plugin that makes some imports neither."""
 
 
 class Result(Plugin, Generic[S]):
@@ -33,13 +30,8 @@ class Result(Plugin, Generic[S]):
 
     kind = "result"
     plural = "results"
-    of: ClassVar[str]
-    """What can be asked for it: ``"part"`` or ``"build"``."""
-
-    @classmethod
-    def fault(cls) -> str:
-        """Whether it says what it is made of."""
-        return "" if getattr(cls, "of", None) in SUBJECTS else 'of is none of "part" and "build"'
+    of: ClassVar[Literal["part", "build"]]
+    """What can be asked for it, named so that a plugin imports neither."""
 
     @abstractmethod
     def make(self, subject: S) -> Any:

@@ -1,23 +1,23 @@
 """Whether what a table says of itself can be read: its schema by editors and by us, its lines as TOML."""
 
 import tomllib
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from mechwright.contracts.declared import shown
 from mechwright.contracts.guard import UnsoundError
 
-_NAMED = ("properties", "$defs", "patternProperties")
-"""Keys of a schema that hold schemas by name."""
-_LISTED = ("anyOf", "allOf", "oneOf", "prefixItems")
-"""Keys that hold several, one after the other."""
+_INNER: dict[str, tuple[Any, str]] = {
+    **dict.fromkeys(("properties", "$defs", "patternProperties"), (Mapping, "schemas by name are")),
+    **dict.fromkeys(("anyOf", "allOf", "oneOf", "prefixItems"), (list, "a list of schemas is")),
+}
+"""Keys of a schema that hold several schemas, to what holds them."""
 _ONE = ("items", "additionalProperties", "not")
 """Keys that hold one, which may be True or False as well."""
 _DEFS = "#/$defs/"
 
 
-def hold_lines(lines: Sequence[str]) -> None:
-    """Raise UnsoundError where lines are none of a TOML file."""
+def _hold_lines(lines: list[str], *_: object) -> None:
     for line in lines:
         if len(line.splitlines()) > 1:
             raise UnsoundError(f"gives {shown(line)} among its lines, which is several")
@@ -27,10 +27,15 @@ def hold_lines(lines: Sequence[str]) -> None:
         raise UnsoundError(f"gives lines that are no TOML: {error}") from error
 
 
-def hold_schema(schema: Mapping[str, Any]) -> None:
-    """Raise UnsoundError where a schema is not of JSON, or has something else in the place of one."""
+def _hold_schema(schema: dict[str, Any], *_: object) -> None:
     _plain(schema, "it")
     _schema(schema, "it", schema.get("$defs", {}))
+
+
+Lines = Annotated[list[str], _hold_lines]
+"""Lines of a TOML file."""
+Schema = Annotated[dict[str, Any], _hold_schema]
+"""A schema of JSON."""
 
 
 def _plain(value: Any, where: str, deep: int = 0) -> None:
@@ -55,16 +60,13 @@ def _schema(schema: Any, where: str, defs: Any) -> None:
     name = schema.get("$ref", _DEFS)
     if not isinstance(name, str) or (name != _DEFS and name.removeprefix(_DEFS) not in defs):
         raise UnsoundError(f"{where} refers to {shown(name)}, which is not among its $defs")
-    for key in _NAMED:
-        if not isinstance(found := schema.get(key, {}), Mapping):
-            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; schemas by name are wanted")
-        for named, one in found.items():
-            _schema(one, f"{where}[{key!r}][{named!r}]", defs)
-    for key in _LISTED:
-        if not isinstance(found := schema.get(key, []), list):
-            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; a list of schemas is wanted")
-        for place, one in enumerate(found):
-            _schema(one, f"{where}[{key!r}][{place}]", defs)
+    for key in (key for key in _INNER if key in schema):
+        found: Any = schema[key]
+        kind, words = _INNER[key]
+        if not isinstance(found, kind):
+            raise UnsoundError(f"{where}[{key!r}] is {shown(found)}; {words} wanted")
+        for place, one in found.items() if kind is Mapping else enumerate(found):
+            _schema(one, f"{where}[{key!r}][{place!r}]", defs)
     for key in _ONE:
         if not isinstance(schema.get(key, True), bool):
             _schema(schema[key], f"{where}[{key!r}]", defs)

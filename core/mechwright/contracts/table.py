@@ -10,8 +10,9 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 
 if TYPE_CHECKING:
+    from mechwright.contracts.answers import Around, Parts
     from mechwright.contracts.family import Family
-    from mechwright.contracts.surroundings import Surroundings
+    from mechwright.contracts.schema_check import Lines, Schema
 
 V = TypeVar("V")
 
@@ -31,29 +32,6 @@ class Table(Plugin, Generic[V]):
     lender: ClassVar[bool] = False
     """Whether it lends keys to other tables, see :meth:`lends`; it is read before them then."""
 
-    @classmethod
-    def sound(cls, method: str, answer: Any, arguments: tuple[Any, ...]) -> Any:
-        """Parts can be made, lines are such of TOML, and schemas are some."""
-        from mechwright.contracts import answers, schema_check
-
-        found = super().sound(method, answer, arguments)
-        if method == "parts":
-            answers.parts(found)
-        elif method == "surroundings" and found is not None:
-            answers.parts(found.parts)
-        elif method in {"schema", "file_schema"}:
-            schema_check.hold_schema(found)
-        elif method in {"text", "first", "head"}:
-            schema_check.hold_lines(found)
-        return found
-
-    @classmethod
-    def named(cls) -> Mapping[str, Any]:
-        """What its methods give, which a listing does not load."""
-        from mechwright.contracts.surroundings import Surroundings
-
-        return {"Surroundings": Surroundings}
-
     @abstractmethod
     def read(self, content: object, path: Path) -> V:
         """The value of the table, as it stands in the file ``path``; an empty one where the file has none.
@@ -67,14 +45,14 @@ class Table(Plugin, Generic[V]):
         """
 
     @abstractmethod
-    def text(self, value: V | None = None) -> list[str]:
+    def text(self, value: V | None = None) -> "Lines":
         """The lines of the table with a comment for each key; None stands for the defaults."""
 
-    def first(self) -> list[str]:
+    def first(self) -> "Lines":
         """The lines of the keys that one sets first, for the short form of a new file; none by default."""
         return []
 
-    def head(self, value: V | None = None) -> list[str]:  # noqa: ARG002 - for tables that are one key
+    def head(self, value: V | None = None) -> "Lines":  # noqa: ARG002 - for tables that are one key
         """Lines above all tables, for what a file says in one key of its head; none by default."""
         return []
 
@@ -86,15 +64,15 @@ class Table(Plugin, Generic[V]):
         """What the file says of this table, laid over what another one lends it; key by key by default."""
         return laid_over(own, lent)
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self) -> "Schema":
         """The JSON schema of the table, for editors; by default any table will do."""
         return {"type": "object"}
 
-    def file_schema(self) -> dict[str, Any]:
+    def file_schema(self) -> "Schema":
         """The JSON schema of the file that the table names, for ``mechwright schema``; empty without one."""
         return {}
 
-    def parts(self, value: V, parts: Sequence[Part], path: Path) -> Sequence[Part]:  # noqa: ARG002
+    def parts(self, value: V, parts: Sequence[Part], path: Path) -> "Parts":  # noqa: ARG002
         """The parts of the design with what the table asks of them, such as broken edges.
 
         Solids, drawings, programs and proofs are made of these; by default they are as the family gives them.
@@ -111,7 +89,7 @@ class Table(Plugin, Generic[V]):
         value: V,  # noqa: ARG002 - for tables that put something around a mechanism
         family: "Family[Any]",  # noqa: ARG002
         params: Parameters,  # noqa: ARG002
-    ) -> "Surroundings | None":
+    ) -> "Around":
         """What the table puts around a mechanism, such as a frame; None, the default, for nothing.
 
         It is asked where the family's own check finds no error, and what cannot be had is a finding.

@@ -5,7 +5,7 @@ family take as they take one design.
 """
 
 import warnings
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from typing import Any, ClassVar, Protocol
 
@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.by_arrays import Answer, Designs, by_arrays
-from mechwright.contracts.design_table import DesignTable, column, with_columns
+from mechwright.contracts.design_table import DesignTable, column, rows_of, with_columns
 from mechwright.contracts.evaluation import Batch, Columns, told
-from mechwright.contracts.figure import Figure, PartMass
+from mechwright.contracts.figure import Figure, PartMass, SomeMasses
 from mechwright.contracts.finding import Stage
 from mechwright.contracts.masses import OF_PART, TOTAL, is_mass
 from mechwright.contracts.motion import Channel
+from mechwright.contracts.parameters import value_at
 from mechwright.contracts.rule_list import Rules
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.singly import Asked, singly
@@ -27,11 +28,8 @@ from mechwright.contracts.singly import Asked, singly
 FAULT = "fault"
 """What forbids a design for which a formula of its family fails, before the code of the rule."""
 
-ENDS: Mapping[str, Callable[[Array], Array]] = {
-    "least": lambda values: values.min(axis=-1),
-    "greatest": lambda values: values.max(axis=-1),
-}
-"""Extremes of a channel (n, samples)."""
+ENDS = ("least", "greatest")
+"""Ends of the names of columns that are extremes of a channel."""
 
 
 class Evaluated(Asked, Protocol):
@@ -57,6 +55,12 @@ class Evaluated(Asked, Protocol):
 
     def channels(self, table: DesignTable[Any], samples: int) -> Mapping[str, Channel]:
         """The channels of their motions."""
+        ...
+
+    def extremes(
+        self, table: DesignTable[Any], names: Collection[str]
+    ) -> Mapping[str, tuple[Array, Array, str]]:
+        """Their least and greatest values."""
         ...
 
     def masses(self, table: DesignTable[Any]) -> Mapping[str, PartMass] | None:
@@ -100,7 +104,7 @@ def tables(
     names = [
         name
         for name in designs.varied
-        if name in structure or not (name in counts or isinstance(_of(designs.common, name), float))
+        if name in structure or not (name in counts or isinstance(value_at(designs.common, name), float))
     ]
     kind = np.zeros(len(designs), np.int64)
     for name in names:
@@ -111,19 +115,36 @@ def tables(
         values: dict[str, Any] = {name: _same(designs, name, places[0]) for name in names}
         for name in designs.varied.keys() - values.keys():
             values[name] = designs.varied[name][places, None].astype(float)
-        yield places, with_columns(designs.common, values)
+        yield from _alike(places, with_columns(designs.common, values))
+
+
+def _alike(places: NDArray[np.intp], params: Any) -> Iterator[tuple[NDArray[np.intp], Any]]:
+    """Give designs of a table that are alike in the whole numbers that follow from what they leave out."""
+    names = [
+        name
+        for name, value in params.__dict__.items()
+        if isinstance(value, np.ndarray) and value.dtype.kind == "i"
+    ]
+    if not names:
+        yield places, params
+        return
+    rows = np.concatenate([getattr(params, name) for name in names], axis=1)
+    kinds, kind = np.unique(rows, axis=0, return_inverse=True)
+    for number, row in enumerate(kinds.tolist()):
+        some = np.flatnonzero(kind.reshape(-1) == number)
+        alike = rows_of(params, some, places.size)
+        alike.__dict__.update(zip(names, row, strict=True))
+        yield places[some], alike
 
 
 def _same(designs: Designs, name: str, place: int) -> Any:
     """What designs are alike in; a count may come as a float."""
     value = designs.varied[name][place].item()
-    return round(value) if isinstance(value, float) and isinstance(_of(designs.common, name), int) else value
-
-
-def _of(params: Any, name: str) -> Any:
-    for step in name.split("."):
-        params = getattr(params, step)
-    return params
+    return (
+        round(value)
+        if isinstance(value, float) and isinstance(value_at(designs.common, name), int)
+        else value
+    )
 
 
 class _Judge:
@@ -192,23 +213,34 @@ def columns_of(
         if name in figures
     }
     rest = [name for name in columns if name not in found and not is_mass(name)]
-    if any(name.rpartition(".")[2] in ENDS for name in rest):
-        blocks = [_extremes(family, some, rest) for some in table.blocks(family.sampled)]
-        found |= {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
+    ends = {name: name.rpartition(".")[::2] for name in rest}
+    if sampled := {channel: None for channel, end in ends.values() if end in ENDS}:
+        extremes = family.extremes(table, list(sampled))
+        for name, (channel, end) in ends.items():
+            if end in ENDS and channel in extremes:
+                *values, unit = extremes[channel]
+                found[name] = told(np.broadcast_to(values[ENDS.index(end)], table.size), unit)
     if stage is not Stage.MOTION and any(map(is_mass, columns)):
         found |= _masses(family, table, columns)
     return found
 
 
-def _extremes(family: Evaluated, table: DesignTable[Any], names: Collection[str]) -> dict[str, Array]:
-    channels: Mapping[str, Channel] = family.channels(table, SAMPLES)
-    found = {}
-    for name in names:
-        channel, _, end = name.rpartition(".")
-        if channel in channels and end in ENDS:
-            values = np.broadcast_to(ENDS[end](np.atleast_2d(channels[channel].values)), table.size)
-            found[name] = told(values, channels[channel].unit)
-    return found
+def extremes_of_samples(
+    family: Evaluated, table: DesignTable[Any], names: Collection[str]
+) -> dict[str, tuple[Array, Array, str]]:
+    """Give what :meth:`Family.extremes` says, from the channels of blocks of designs."""
+    found: dict[str, tuple[list[Array], list[Array], str]] = {}
+    for some in table.blocks(family.sampled):
+        channels = family.channels(some, SAMPLES)
+        for name in names:
+            if name in channels:
+                values = np.atleast_2d(channels[name].values)
+                low, high, _ = found.setdefault(name, ([], [], channels[name].unit))
+                low.append(np.broadcast_to(values.min(axis=-1), some.size))
+                high.append(np.broadcast_to(values.max(axis=-1), some.size))
+    return {
+        name: (np.concatenate(low), np.concatenate(high), unit) for name, (low, high, unit) in found.items()
+    }
 
 
 def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]) -> dict[str, Array]:
@@ -220,6 +252,7 @@ def _masses(family: Evaluated, table: DesignTable[Any], columns: Collection[str]
         for name in columns
         if (part := name.removeprefix(OF_PART)) in weights and name != TOTAL
     }
-    if TOTAL in columns:
-        found[TOTAL] = column(sum(one.copies * one() for one in weights.values()), table.size)[:, 0]
+    if TOTAL in columns and not isinstance(weights, SomeMasses):
+        every = sum(one.copies * np.nan_to_num(one()) for one in weights.values())
+        found[TOTAL] = column(every, table.size)[:, 0]
     return found

@@ -1,4 +1,4 @@
-"""Places that a requirement asks for, so that a page can draw them and let one drag them."""
+"""Places that a requirement or a design states, so that a page can draw them and let one drag them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ DECIMALS = 6
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A place that a requirement asks for.
+    """A place that a requirement asks for, or that a design is drawn with.
 
     Parameters
     ----------
@@ -26,7 +26,8 @@ class Target:
         x and y, mm, in the frame of the designs' ground; or x, y and z of a point that stays on its sphere
         about the origin.
     moved
-        What the table ``[requirement]`` says when the target is dragged to a place: key to value. A target
+        What the table ``[requirement]``, or ``[parameters]`` of a design, says when the target is dragged to
+        a place: key to value. A target
         that can go one way only takes what lies on its way.
     line
         Targets of one line are joined in their order; ``""`` stands alone.

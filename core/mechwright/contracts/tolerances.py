@@ -188,8 +188,10 @@ class ToleranceModel(ABC):
 
     input_name: str
     """What drives, as the motion calls it."""
+    input_unit: str = "rad"
+    """Of the input: ``"rad"``, or ``"mm"`` where a slide drives."""
     positions: Array
-    """Input positions (n,), rad, over the period that is looked at, in their order."""
+    """Input positions (n,), rad or mm, over the period that is looked at, in their order."""
     contributors: tuple[Contributor, ...]
     outputs: tuple[Output, ...]
     told: tuple[str, ...] = ()

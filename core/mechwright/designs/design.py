@@ -253,7 +253,7 @@ def _check_kind(content: Mapping[str, Any], path: Path, known: Set[str]) -> None
     if "study" in content:
         raise DesignError(
             f"{path}: study: this file is a study of many designs; sweep it by mechwright sweep {path.name} "
-            "-o FOLDER, which writes the designs of its front"
+            "-o FOLDER, which writes the designs of its front, or in Python by mechwright.sweep"
         )
     if not {"family", STAGE, "parameters"} & content.keys() and content.keys() - known:
         raise DesignError(

@@ -4,6 +4,7 @@ Lengths are in inches there, feeds in inches per minute, cutting speeds in feet 
 and masses stay what they are, and a text carries its own unit in any file: ``"6 mm"``.
 """
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -100,8 +101,21 @@ def _alternatives(schema: Mapping[str, Any], defs: Mapping[str, Any]) -> Iterato
 
 
 def _of_key(key: str, every: Iterable[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    found = [one.get("properties", {}).get(key, one.get("additionalProperties")) for one in every]
+    found = [_value_schema(key, one) for one in every]
     return [one for one in found if isinstance(one, Mapping)]
+
+
+def _value_schema(key: str, schema: Mapping[str, Any]) -> Any:
+    """The schema of a key, of a table by its name, or of a name that matches a pattern.
+
+    >>> _value_schema("A", {"patternProperties": {"^[A-Z]$": {"unit": "mm"}}})
+    {'unit': 'mm'}
+    """
+    if key in schema.get("properties", {}):
+        return schema["properties"][key]
+    patterns = schema.get("patternProperties", {})
+    matching = (value for pattern, value in patterns.items() if re.search(pattern, key))
+    return next(matching, schema.get("additionalProperties"))
 
 
 def _of_place(place: int, every: Iterable[Mapping[str, Any]]) -> list[Mapping[str, Any]]:

@@ -29,11 +29,12 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.chains import STAGE, chain_of, chain_params, stage_schema
-from mechwright.designs.design import Design, read_head, read_name, read_tables, telling_places
+from mechwright.designs.design import read_head, read_name, read_tables, telling_places
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import in_millimetres, told_in
 from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
+from mechwright.designs.text import design_text
 from mechwright.errors import DesignError
 from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
@@ -75,10 +76,14 @@ class Requirement:
     path: Path
     digest: str
 
-    def design(self, name: str, params: Parameters) -> Design:
-        """A design that meets it, as its file will be read."""
-        readers = tuple(reader for reader, _ in self.tables)
-        return Design(name, self.family, params, self.path, self.digest, self.given, readers)
+    def text(self, name: str, params: Parameters) -> str:
+        """The file of a design that meets it; other files that go along lie beside it."""
+        return design_text(self.family, name, params, self.tables)
+
+    def text_here(self, name: str, params: Parameters) -> str:
+        """The same design as a file beside the requirement, whose other files lie where they are."""
+        here = [(reader, self.given[reader.name]) for reader, _ in self.tables]
+        return design_text(self.family, name, params, here)
 
 
 @once()

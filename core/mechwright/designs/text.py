@@ -15,12 +15,20 @@ from mechwright.designs.schema import FORMAT, schema_line
 from mechwright.mechanics.chain import Chain, ChainParams, StageTable
 
 
-def template(family: Family[Any], name: str, tables: Iterable[Table[Any]], *, short: bool = False) -> str:
+def template(
+    family: Family[Any],
+    name: str,
+    tables: Iterable[Table[Any]],
+    *,
+    short: bool = False,
+    draft: Parameters | None = None,
+) -> str:
     """A commented design file of a family that builds as it is, with the defaults of the ``tables``.
 
-    The ``short`` form has the keys that one sets first.
+    The ``short`` form has the keys that one sets first, and what a ``draft`` sets.
     """
-    own = table_lines(family.Params, "parameters", first=short)
+    values = draft if draft is not None and draft.model_fields_set else None
+    own = table_lines(family.Params, "parameters", values, first=short)
     rest = [table.first() if short else table.text() for table in tables]
     return _new(family, name, own, rest, f"new {family.name}", short=short)
 
@@ -106,12 +114,22 @@ def table_lines(
     """
     lines, tables = [f"[{where}]"], []
     schema = model_schema(model)["properties"]
-    chosen = first_fields(model) if first else tuple(model.model_fields)
+    stated = frozenset() if values is None else values.model_fields_set
+    shown = first_fields(model) if first else tuple(model.model_fields)
+    unused = values.unused_fields() if isinstance(values, Parameters) else ()
+    chosen = [
+        key for key in model.model_fields if (key in shown or (first and key in stated)) and key not in unused
+    ]
     for key in chosen:
         field = model.model_fields[key]
         value = getattr(values, key) if values is not None else field.get_default(call_default_factory=True)
         if isinstance(value, BaseModel):
-            tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=first, open_=open_)]
+            short = first and key not in stated
+            tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=short, open_=open_)]
+            continue
+        if isinstance(value, dict) and any(isinstance(one, BaseModel) for one in value.values()):
+            tables += ["", f"[{where}.{key}]  # {field.description}"]
+            tables += [f"{_bare(name)} = {_inline(one)}" for name, one in value.items()]
             continue
         text = f"{field.description or ''}{_limits(schema[key])}"
         if value is None:
@@ -125,6 +143,17 @@ def table_lines(
             )
             lines.append(f"{'# ' if left_out else ''}{key} = {toml(value)}  # {text}")
     return lines + tables
+
+
+def _inline(table: BaseModel) -> str:
+    """A table of a table by name, in one line."""
+    given = table.model_dump(exclude_none=True)
+    return "{ " + ", ".join(f"{_bare(key)} = {toml(value)}" for key, value in given.items()) + " }"
+
+
+def _bare(key: str) -> str:
+    """A key without quotes, where TOML takes it so."""
+    return key if key.isascii() and key.replace("-", "_").isidentifier() else json.dumps(key)
 
 
 def _limits(schema: dict[str, Any]) -> str:

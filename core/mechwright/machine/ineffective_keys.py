@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
-from mechwright.build.build import Build
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.machine.drive import Drive
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.settings import MachineSettings
+from mechwright.pipeline.build import Build
 from mechwright.standards.motors import GearMotor, motor
 
 AMBIENT = frozenset({"frame", "plates"})

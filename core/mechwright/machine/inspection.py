@@ -3,8 +3,6 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from mechwright.build.build import Build
-from mechwright.build.inspection import Inspection
 from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
 from mechwright.contracts.materials import material
 from mechwright.errors import DesignError
@@ -15,6 +13,8 @@ from mechwright.machine.motor_findings import motor_findings
 from mechwright.machine.settings import MachineSettings
 from mechwright.machine.shaft_findings import shaft_findings
 from mechwright.mechanics.strength.drive import disc_inertia
+from mechwright.pipeline.build import Build
+from mechwright.pipeline.inspection import Inspection
 
 KEYS = "machine.key"
 """Code of the finding that a key of ``[machine]`` cannot be obeyed."""
@@ -24,8 +24,7 @@ class MachineDrive(Inspection):
     """Torque of the drive, and whether its motor is enough."""
 
     name = "machine-drive"
-    commands = frozenset({"check", "model", "build"})
-    stage = Stage.PARTS
+    stage = Stage.ASSEMBLY
     order = 40
     doing = "the drive"
 

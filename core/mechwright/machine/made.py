@@ -1,11 +1,11 @@
 """Drive and motor of a build; made once, by ``build.made``."""
 
-from mechwright.build.build import Build
 from mechwright.contracts.motion import Motion
 from mechwright.machine.drive import SAMPLES, Drive, drive_of
 from mechwright.machine.motors import Choice, motor_of
 from mechwright.machine.settings import MachineSettings
 from mechwright.machine.table import MachineTable
+from mechwright.pipeline.build import Build
 
 
 def settings_of(build: Build) -> MachineSettings:

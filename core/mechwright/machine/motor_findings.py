@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Iterator
 
-from mechwright.build.build import Build
 from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.errors import MechwrightError
 from mechwright.machine.drive import Drive
@@ -21,6 +20,7 @@ from mechwright.machine.motors import (
 )
 from mechwright.machine.settings import MachineSettings
 from mechwright.mechanics.strength.motor import INERTIA_RATIO
+from mechwright.pipeline.build import Build
 from mechwright.standards.motors import NOMINAL_VOLTAGE, GearMotor
 
 

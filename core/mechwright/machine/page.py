@@ -6,15 +6,15 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.build.build import Build, Wanted
-from mechwright.build.figures import Figure, Grid, figures_page
-from mechwright.build.page import FileName, Page
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motor_findings import speed_said
 from mechwright.machine.motors import DEVIATION, Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
+from mechwright.pipeline.build import Build, Wanted
+from mechwright.pipeline.figures import Figure, Grid, figures_page
+from mechwright.pipeline.page import FileName, Page
 
 HTML, JSON = "drive.html", "drive.json"
 """The files."""

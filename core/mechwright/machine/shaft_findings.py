@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.build.build import Build
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Motion
@@ -20,6 +19,7 @@ from mechwright.machine.settings import MachineSettings
 from mechwright.mechanics.strength.allowed import REVERSING_KEY, allowed
 from mechwright.mechanics.strength.fastening import key_pressure
 from mechwright.mechanics.strength.shaft import least_diameter, von_mises
+from mechwright.pipeline.build import Build
 from mechwright.standards.couplings import coupling_for
 
 SAFETY = 2.0

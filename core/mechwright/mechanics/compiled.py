@@ -5,7 +5,7 @@ numba takes a second to import, so only modules that need a kernel import this o
 
 import contextlib
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 from numba import njit
@@ -36,8 +36,17 @@ class _Cache(FunctionCache):
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
         files: Any = _Files
-        stamp = self._cache_file._source_stamp
+        stamp = self._cache_file._source_stamp, *_called_stamps(function)
         self._cache_file = files(self._cache_path, self._impl.filename_base, stamp)
+
+
+def _called_stamps(function: Callable[..., Any]) -> Iterator[Any]:
+    """Stamps of the sources of the kernels that a function calls, whose machine code goes into its own."""
+    for name in function.__code__.co_names:
+        cache = getattr(function.__globals__.get(name), "_cache", None)
+        if isinstance(cache, _Cache):
+            own: Any = cache._cache_file
+            yield name, own._source_stamp
 
 
 def compiled(function: F) -> F:

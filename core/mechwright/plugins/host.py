@@ -2,8 +2,8 @@
 
 import os
 import re
-from collections.abc import Iterable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import pluggy
 
-from mechwright.contracts.guard import TimeUpError, loading, methods_of
-from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
+from mechwright.contracts.guard import TimeUpError, loading
+from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of, methods_of
 from mechwright.contracts.result import Result, found_by
 from mechwright.contracts.stops import is_stop
 from mechwright.errors import PluginError, did_you_mean, shortened
@@ -105,10 +105,7 @@ class Host:
 
     def add(self, module: object, distribution: str, plugin: str) -> None:
         """Register one plugin module; whatever is wrong with it ends up in ``broken``."""
-
-        def fail(reason: str) -> None:
-            self.broken.append(Broken(distribution, plugin, reason))
-
+        fail = self._failing(distribution, plugin)
         manager = pluggy.PluginManager(hookspecs.PROJECT)
         manager.add_hookspecs(hookspecs)
         try:
@@ -120,56 +117,51 @@ class Host:
             reason = _hook_fault(module, name)
             if reason:
                 fail(reason)
-        try:
+        classes: list[Any] = []
+        with _instead(fail, f"{HOOK}: "):
             classes = _call(manager.hook.mechwright_register)
-        except BaseException as error:
-            if is_stop(error):
-                raise
-            fail(f"{HOOK}: {_reason(error)}")
-            return
         for cls in classes:
-            reason = _class_fault(cls, distribution) or self._taken(cls)
-            if reason:
+            if reason := _class_fault(cls, distribution):
                 fail(reason)
                 continue
-            try:
-                made = cls()
-            except BaseException as error:
-                if is_stop(error):
-                    raise
-                fail(f"{cls.__name__}(): {_reason(error)}")
-                continue
             contract = contract_of(cls)
-            if contract is not None and (hidden := vars(made).keys() & methods_of(contract)):
-                fail(f"{cls.__name__}(): sets {', '.join(sorted(hidden))}; a method stands in the class")
+            assert contract is not None  # noqa: S101 - a class without one has been refused
+            items = self.registered.setdefault(contract, {})
+            if other := items.get(cls.name):
+                owner = f"{other.plugin} of {other.distribution}"
+                fail(f"{cls.kind} {cls.name!r} is already registered by {owner}")
                 continue
-            self._file(cls)[cls.name] = Registered(made, distribution, plugin)
+            with _instead(fail, f"{cls.__name__}(): "):
+                made = cls()
+                if hidden := vars(made).keys() & methods_of(contract):
+                    fail(f"{cls.__name__}(): sets {', '.join(sorted(hidden))}; a method stands in the class")
+                else:
+                    items[cls.name] = Registered(made, distribution, plugin)
 
-    def _file(self, cls: type[Plugin]) -> "dict[str, Registered[Any]]":
-        """Where a class is filed: under its contract."""
-        contract = contract_of(cls)
-        assert contract is not None  # noqa: S101 - a class without one has been refused
-        return self.registered.setdefault(contract, {})
+    def _failing(self, distribution: str, plugin: str) -> Callable[[str], None]:
+        """What files a reason for which a plugin is not used."""
+        return lambda reason: self.broken.append(Broken(distribution, plugin, reason))
 
-    def _taken(self, cls: type[Plugin]) -> str:
-        items = self._file(cls)
-        if cls.name not in items:
-            return ""
-        other = items[cls.name]
-        return f"{cls.kind} {cls.name!r} is already registered by {other.plugin} of {other.distribution}"
+
+@contextmanager
+def _instead(fail: Callable[[str], object], where: str = "") -> Iterator[None]:
+    """Report whatever is raised meanwhile, and go on; a stop by the keyboard passes."""
+    try:
+        yield
+    except BaseException as error:
+        if is_stop(error):
+            raise
+        fail(where + _reason(error))
 
 
 def _hook_fault(module: object, name: str) -> str:
     """What is wrong with the attribute of a plugin, if it is or looks like a hook; else nothing."""
-    try:
+    marked = looks_like = False
+    with _instead(len):  # a lazy attribute that fails is no hook
         value = getattr(module, name)
         marked = isinstance(getattr(value, f"{hookspecs.PROJECT}_impl", None), dict)
         marks_others = isinstance(getattr(value, f"{hookspecs.PROJECT}_spec", None), dict)
-    except BaseException as error:
-        if is_stop(error):
-            raise
-        return ""  # A lazy attribute that fails is no hook.
-    looks_like = name.startswith(HOOK) and callable(value) and not marks_others
+        looks_like = name.startswith(HOOK) and callable(value) and not marks_others
     if not (marked or looks_like):
         return ""
     if name != HOOK:
@@ -205,23 +197,26 @@ def _class_fault(cls: Any, distribution: str) -> str:
         return f"{cls.__name__} has no name"
     if not _NAME.fullmatch(name):
         return f"{cls.__name__}: name {name!r} is not of lower-case letters, digits and single hyphens"
-    for text in contract.texts:
-        if not isinstance(getattr(cls, text, None), str):
-            return f"{cls.__name__} has no {text}"
     suffix = getattr(cls, "suffix", None)
     if isinstance(suffix, str) and not _SUFFIX.fullmatch(suffix):
         return f"{cls.__name__}: suffix {suffix!r} is not a dot with lower-case letters and digits"
-    try:
-        fault = cls.fault()
-    except BaseException as error:
-        if is_stop(error):
-            raise
-        fault = f"fault(): {_reason(error)}"
-    if not fault and contract.guarded and distribution != BUILT_IN:
+    faults = [""]
+    with _instead(faults.append, "fault(): "):
+        faults.append(cls.fault())
+    if not faults[-1] and contract.guarded and distribution != BUILT_IN:
         from mechwright.contracts.declared import unstated  # it needs numpy, which our own listings do not
 
-        fault = unstated(contract, cls)
-    return f"{cls.__name__}: {fault}" if fault else ""
+        faults.append(unstated(contract, cls))
+    return f"{cls.__name__}: {faults[-1]}".replace(": has ", " has ") if faults[-1] else ""
+
+
+_MOVED = {
+    "mechwright.build": "mechwright.pipeline",
+    "mechwright.sweep": "mechwright.studies",
+    "mechwright.cores": "mechwright.worker_pool.budget",
+    "mechwright.beside": "mechwright.worker_pool",
+}
+"""Modules under the names that they had, and those that they have."""
 
 
 def _reason(error: BaseException) -> str:
@@ -229,6 +224,8 @@ def _reason(error: BaseException) -> str:
         return str(error)
     text = str(error).strip().splitlines()
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
+    if isinstance(error, ModuleNotFoundError) and (new := _MOVED.get(str(error.name))):
+        said += f"; it is called {new} now"
     return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
 
 
@@ -250,22 +247,11 @@ def load(
     for distribution, point in points:
         if point.name in disabled:
             continue
-        with _guarded(distribution, point):
-            try:
-                module = point.load()
-            except BaseException as error:
-                if is_stop(error):
-                    raise
-                found.broken.append(Broken(distribution, point.name, _reason(error)))
-                continue
-            found.add(module, distribution, point.name)
+        own = distribution == BUILT_IN
+        guard = nullcontext() if own else loading(f"plugin {point.name} of {distribution}", point.module)
+        with guard, _instead(found._failing(distribution, point.name)):
+            found.add(point.load(), distribution, point.name)
     return found
-
-
-def _guarded(distribution: str, point: EntryPoint) -> AbstractContextManager[None]:
-    if distribution == BUILT_IN:
-        return nullcontext()
-    return loading(f"plugin {point.name} of {distribution}", point.module)
 
 
 def hook_points(
@@ -273,10 +259,10 @@ def hook_points(
 ) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
     """The entry points of a group, built-in ones first, then by name; and what cannot be read."""
     points: dict[tuple[str, str, str], tuple[str, EntryPoint]] = {}
-    broken = []
+    broken: list[Broken] = []
     for distribution in everything:
         name = "unknown"
-        try:
+        with _instead(lambda reason: broken.append(Broken(name, "entry_points.txt", reason))):  # noqa: B023
             # Other people's broken packages are none of our business.
             if f"[{group}]" not in (distribution.read_text("entry_points.txt") or ""):
                 continue
@@ -286,10 +272,6 @@ def hook_points(
                 if point.group == group:
                     # An editable install can be listed twice; the first on the path counts.
                     points.setdefault((name, point.name, point.value), (name, point))
-        except BaseException as error:
-            if is_stop(error):
-                raise
-            broken.append(Broken(name, "entry_points.txt", _reason(error)))
     ordered = sorted(points.values(), key=lambda item: (item[0] != BUILT_IN, item[0], item[1].name))
     return ordered, broken
 

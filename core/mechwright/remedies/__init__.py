@@ -20,7 +20,7 @@ from the present one outwards; the nearest design that builds. A search ends aft
 
 from mechwright.remedies.bench import Bench, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
-from mechwright.remedies.remedied import proposed_tried, remedied, tried
+from mechwright.remedies.remedied import proposed_tried, remedied, tried, with_remedies
 from mechwright.remedies.repair import Repair, repaired
 
 __all__ = [
@@ -34,4 +34,5 @@ __all__ = [
     "remedied",
     "repaired",
     "tried",
+    "with_remedies",
 ]

@@ -1,7 +1,7 @@
 """Trying changes of one design, and remembering what came of each."""
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -61,6 +61,8 @@ class Bench:
         Told how near that is.
     share
         Of the limits, what may be used up for now: a search of several ways leaves something for the next.
+    fixed
+        Tables whose keys stay as they are, besides what is at hand.
     """
 
     design: Design
@@ -71,13 +73,15 @@ class Bench:
     progress: Progress = unheard
     tries: int = 0
     share: float = 1.0
+    fixed: Collection[str] = ()
     keys: dict[str, Key] = field(init=False)
     """Those that a change may have: what is at hand stays as it is."""
 
     def __post_init__(self) -> None:
-        keys = keys_of(self.design)
-        self.keys = {path: key for path, key in keys.items() if not key.given}
-        self._given = keys.keys() - self.keys.keys()
+        keys, fixed = keys_of(self.design), tuple(f"{table}." for table in self.fixed)
+        self.keys = {path: key for path, key in keys.items() if not (key.given or path.startswith(fixed))}
+        self.given = keys.keys() - self.keys.keys()
+        """Keys that stay as they are."""
         self._found: dict[frozenset[tuple[str, str]], tuple[Finding, ...] | None] = {}
         self._used = 0.0
 
@@ -166,7 +170,7 @@ class Bench:
         return ASKED if key.first else SAID
 
     def _judged(self, change: Change) -> tuple[Finding, ...] | None:
-        if not self._given.isdisjoint(change):
+        if not self.given.isdisjoint(change):
             return None
         start = time.process_time()
         try:

@@ -4,12 +4,13 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cache, reduce
+from functools import cache
 from typing import Any
 
 from pydantic import BaseModel
 
 from mechwright.contracts.model_schema import model_schema
+from mechwright.contracts.parameters import Parameters, value_at
 from mechwright.designs.change import changed, found_at
 from mechwright.designs.design import Design
 from mechwright.units import convert
@@ -93,7 +94,7 @@ def keys_of(design: Design) -> dict[str, Key]:
     found = [
         _as_fitted(design, key, path, table)
         for path, table in design.own_tables.items()
-        for key in _keys(type(table), path)
+        for key in _keys_of_table(table, path)
     ]
     for reader in design.readers:
         if reader.settings is not None:
@@ -107,17 +108,25 @@ def keys_of(design: Design) -> dict[str, Key]:
     return {key.path: _as_lent(design, key, lent) for key in found}
 
 
+def _keys_of_table(table: BaseModel, path: str) -> Iterator[Key]:
+    """The keys of a table and of those that it has by their names, without unused fields."""
+    unused = table.unused_fields() if isinstance(table, Parameters) else ()
+    depth = path.count(".") + 1
+    yield from (key for key in _keys(type(table), path) if key.path.split(".")[depth] not in unused)
+    for field in type(table).model_fields:
+        value = getattr(table, field)
+        if isinstance(value, dict):
+            for name, inner in value.items():
+                if isinstance(inner, BaseModel):
+                    yield from _keys_of_table(inner, f"{path}.{field}.{name}")
+
+
 def _as_fitted(design: Design, key: Key, path: str, table: BaseModel) -> Key:
     """A key with the default that follows from the others; what would follow in its place is not known."""
     if not key.fitted:
         return key
     said = key.stands_in(design.content)
-    return replace(key, default=None if said else _value(table, key.path.removeprefix(f"{path}.")))
-
-
-def _value(table: Any, path: str) -> Any:
-    """What stands in a table, or in a table of it."""
-    return reduce(getattr, path.split("."), table)
+    return replace(key, default=None if said else value_at(table, key.path.removeprefix(f"{path}.")))
 
 
 def _as_lent(design: Design, key: Key, lent: Iterable[tuple[str, str, Mapping[str, Any]]]) -> Key:

@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from mechwright.build import Build, Inspection
-from mechwright.contracts.finding import Change, Finding, Severity, Stage, errors
+from mechwright.contracts.finding import Change, Finding, Findings, Severity, Stage, errors
 from mechwright.designs.design import Design
+from mechwright.pipeline import Build, Inspection, Run, Work
+from mechwright.pipeline.run import REFUSED
 from mechwright.remedies.advice import advised
 from mechwright.remedies.bench import Bench, Limits, identity, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
@@ -24,7 +25,7 @@ from mechwright.remedies.search import (
 )
 from mechwright.remedies.words import said
 
-NOT_ENOUGH = "that was tried, and is not enough by itself"
+NOT_ENOUGH = "what is proposed was tried, and is not enough by itself"
 
 FOLLOWED = 3
 """Proposals of an inspection that are followed one after the other, each of what the one before brings to
@@ -37,7 +38,10 @@ WARNED = Limits(tries=200, seconds=2.0)
 """For a design that has warnings alone: they stop nothing, and are told by every command."""
 
 REMARKED = Limits(tries=6, seconds=4.0)
-"""For the warnings of an inspection."""
+"""For the warnings of an inspection, and for all that the change against a warning may bring."""
+
+CONFIRMED = Limits(tries=30, seconds=60.0)
+"""For all that the change against an error may bring."""
 
 
 def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
@@ -93,8 +97,105 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = N
     return remedied(of_family(design, limits or (CHECKED if errors(findings) else WARNED)), findings)
 
 
-def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
-    """What an inspection finds of a build, with the first of what each finding proposes that removes it.
+def with_remedies(run: Run) -> Findings:
+    """What a run has found, with remedies that were tried.
+
+    Against errors of later stages than the run's, which stop nothing, nothing is sought.
+    """
+    own, last = run.build.findings, run.work.stage
+    sought = [one for one in own if one.severity is not Severity.ERROR or not one.stage.is_after(last)]
+    known = dict(zip(map(id, sought), tried(run.build.design, sought), strict=True))
+    told = [*((one, known.get(id(one), one)) for one in own), *((one, one) for one in run.part_errors)]
+    for each, found in run.found:
+        told += zip(found, proposed_tried(run, each, found), strict=True)
+    whole = _Whole(run)
+    confirmed = [(before, whole.confirmed(before, after)) for before, after in told]
+    return Findings(whole.agreeing(confirmed))
+
+
+class _Whole:
+    """All that a run looks at before it makes anything: a remedy must bring nothing new to light there."""
+
+    def __init__(self, run: Run) -> None:
+        design, last = run.build.design, run.work.stage
+        judge = judge_of(run.build.host, Work(last), every=True)
+        self._benches = {
+            Severity.ERROR: Bench(design, judge, last, CONFIRMED),
+            Severity.WARNING: Bench(design, judge, last, REMARKED),
+        }
+        self._before = {
+            severity: {identity(one) for one in run.findings if one.severity in grave}
+            for severity, grave in _AS_GRAVE.items()
+        }
+
+    def confirmed(self, before: Finding, after: Finding) -> Finding:
+        """A finding with its change, with one that goes further, or with what stands in the way of it."""
+        if after.fix is None or after.severity is Severity.NOTE:
+            return after
+        bench, change = self._benches[after.severity], after.fix
+        first = new = self._new(bench, before, change)
+        for _ in range(FOLLOWED):
+            if not new or new == [before]:
+                break
+            step = proposed_step(bench, new[0], change, bench.errors(change) or [])
+            if step is None or len(step.change) > MOST_CHANGES:
+                break
+            change = step.change
+            new = self._new(bench, before, change)
+        if not new:
+            return after if change is after.fix else replace(after, fix=change, remedy=said(bench, change))
+        way = f"{said(bench, after.fix)} would lead to {_in_the_way(first[0])}"
+        return replace(after, fix=None, remedy="; ".join(filter(None, (before.remedy, way))))
+
+    def agreeing(self, told: Sequence[tuple[Finding, Finding]]) -> list[Finding]:
+        """The findings without changes that undo another's: of two values of one key the graver's stays."""
+        found = [after for _, after in told]
+        order = list(Severity)
+        ranked = sorted(range(len(found)), key=lambda place: order.index(found[place].severity))
+        kept: list[Finding] = []
+        for place in ranked:
+            one = found[place]
+            if one.fix is None:
+                continue
+            other = next((each for each in kept if self._undoes(one, each)), None)
+            if other is None:
+                kept.append(one)
+                continue
+            way = f"{one.remedy} would undo what is done about {_in_the_way(other)}"
+            words = told[place][0].remedy
+            found[place] = replace(one, fix=None, remedy="; ".join(filter(None, (words, way))))
+        return found
+
+    def _undoes(self, one: Finding, other: Finding) -> bool:
+        """Whether two changes are of one key, and the first leaves the other's finding."""
+        mine, its = one.fix or {}, other.fix or {}
+        if all(mine[key] == its[key] for key in mine.keys() & its.keys()):
+            return False
+        left = self._benches[one.severity].found(mine) or ()
+        return identity(other) in {identity(each) for each in left}
+
+    def _new(self, bench: Bench, finding: Finding, change: Change) -> list[Finding]:
+        """What stands with a change against a finding, is as grave, and did not stand before; or itself."""
+        found = bench.found(change)
+        if found is None:
+            return [Finding.error(REFUSED, "", "a design that cannot be judged")]
+        if identity(finding) in {identity(one) for one in found}:
+            return [finding]
+        grave, before = _AS_GRAVE[finding.severity], self._before[finding.severity]
+        return [one for one in found if one.severity in grave and identity(one) not in before]
+
+
+_AS_GRAVE = {Severity.ERROR: {Severity.ERROR}, Severity.WARNING: {Severity.ERROR, Severity.WARNING}}
+"""What the change against a finding must not bring: against an error no error, against a warning neither."""
+
+
+def _in_the_way(finding: Finding) -> str:
+    where = f"{finding.parameter}: " if finding.parameter else ""
+    return f"{finding.code}: {where}{finding.message}"
+
+
+def proposed_tried(run: Run, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
+    """What an inspection finds in a run, with the first of what each finding proposes that removes it.
 
     Values that its words advise count as proposals. Nothing else is tried: a design takes an inspection a
     second or so. A finding whose proposals all fail keeps its words, and says so.
@@ -103,20 +204,25 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
     if all(finding.severity is Severity.NOTE for finding in findings):
         return findings
 
-    def ask(one: Build) -> Sequence[Finding]:
-        return () if errors(one.findings) else inspection.findings(one)
+    def judge(design: Design) -> Sequence[Finding]:
+        with Build(design, run.build.host) as build:
+            found = build.findings
+            return found if errors(found, inspection.stage) else [*found, *run.ask(inspection, build)]
 
-    judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
     limits = INSPECTED if errors(findings) else REMARKED
-    bench = Bench(build.design, judge, inspection.stage, limits)
+    bench = Bench(run.build.design, judge, inspection.stage, limits)
     told = [with_proposed(bench, finding) for finding in findings]
     fixes = [one.fix for one in told if one.fix is not None]
     return [_as_others(bench, finding, one, fixes) for finding, one in zip(findings, told, strict=True)]
 
 
 def _as_others(bench: Bench, finding: Finding, told: Finding, fixes: Iterable[Change]) -> Finding:
-    """A finding without a change with another one's that removes it too: of two parts, the larger's."""
-    if told.fix is not None or finding.severity is Severity.NOTE:
+    """A finding without a change with another one's that removes it too: of two parts, the larger's.
+
+    What is about no key of the file, such as the shop, keeps its own words.
+    """
+    of_file = path_of(bench, finding.parameter) in bench.given or not _about_no_key(bench, finding)
+    if told.fix is not None or finding.severity is Severity.NOTE or not of_file:
         return told
     before = errors([finding])
     change = next((one for one in fixes if worth(bench, finding, before, one) <= Worth.HELPS), None)
@@ -142,6 +248,10 @@ def with_proposed(bench: Bench, finding: Finding) -> Finding:
     if (measured or said_so) and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
+
+
+def _about_no_key(bench: Bench, finding: Finding) -> bool:
+    return bool(finding.parameter) and path_of(bench, finding.parameter) not in bench.keys
 
 
 def _followed(bench: Bench, finding: Finding, change: Change) -> Change | None:
@@ -204,7 +314,7 @@ def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
         return finding
     if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
-    if finding.remedy and finding.parameter and path_of(bench, finding.parameter) not in bench.keys:
+    if finding.remedy and _about_no_key(bench, finding):
         return finding  # about what no change sets, such as the family of a stage
     if (first := _first_step(bench, finding)) is not None:
         return replace(finding, remedy=first)

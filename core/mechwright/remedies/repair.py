@@ -1,13 +1,15 @@
 """Making a design build: the changes of ``mechwright fix``, from cheap judgements to dear ones."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.build import Build, Inspection, Wanted
-from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.finding import Change, Finding, Stage
+from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build, Run, Work, work_to
+from mechwright.pipeline.run import refused
 from mechwright.plugins.host import Host
 from mechwright.remedies.bench import Bench, Judge, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, candidates, nearest
@@ -17,13 +19,9 @@ FAMILY = Limits(tries=1500, seconds=60.0)
 """For what the family itself judges: milliseconds each."""
 INSPECTED = Limits(tries=60, seconds=120.0)
 """For what inspections judge: a second or so each, of cutters and of bodies that meet."""
-REFUSED = "build.refused"
-"""Code of the finding that work ended with an error: no cutter, no parts, a program that is not proven."""
 
 _PROPOSED = 3
 """Proposals that are followed from a change that pleases the family, before the next such change is tried."""
-
-Ask = Callable[[Build], Sequence[Finding]]
 
 
 @dataclass(frozen=True)
@@ -59,14 +57,14 @@ class Repair:
 
 def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unheard) -> Repair:
     """The smallest change found with which a design passes all that ``build`` asks up to a stage."""
-    asked = Asked(host, stage)
     first = of_family(design, FAMILY, stage, progress)
     found = first.errors({}) or []
-    whole = asked.judge(asked.looks)
+    works = (Work(min(stage, Stage.PARTS, key=list(Stage).index)), Work(stage), work_to(stage)[1])
+    judges = [judge_of(host, work) for work in works]
     smallest: Change | None = None
     beyond: list[Change] = []
     for change in candidates(first) if found else [{}]:
-        bench = Bench(design.changed(change), whole, stage, INSPECTED, progress=progress)
+        bench = Bench(design.changed(change), judges[-1], stage, INSPECTED, progress=progress)
         if len(change) > MOST_CHANGES:
             beyond += [] if beyond or not bench.builds({}) else [change]
             continue
@@ -76,7 +74,7 @@ def repaired(design: Design, host: Host, stage: Stage, progress: Progress = unhe
             return Repair(found or stood, merged, [], first)
     if smallest is None:
         return Repair(found, None, found, first, next(iter(beyond), None))
-    return _further(Repair(found, smallest, [], first), design, asked)
+    return _further(Repair(found, smallest, [], first), design, judges, stage)
 
 
 def _as_proposed(bench: Bench) -> Change | None:
@@ -96,17 +94,12 @@ def _as_proposed(bench: Bench) -> Change | None:
     return None
 
 
-def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:
-    """Go on from a change that pleases the family, with one dearer judgement after the other.
-
-    The one that is new is asked first: most changes fail by it, and what it is content with is put to the
-    others then.
-    """
-    found, change, whole = repair.found, repair.change or {}, asked.judge(asked.looks)
-    for number in range(len(asked.looks) + 1):
+def _further(repair: Repair, design: Design, judges: Sequence[Judge], stage: Stage) -> Repair:
+    """Go on from a change that pleases the family, with one dearer judgement after the other."""
+    found, change = repair.found, repair.change or {}
+    for number, judge in enumerate(judges):
         limits = INSPECTED if number else FAMILY
-        judge = asked.judge(asked.looks[:number][::-1])
-        bench = Bench(design.changed(change), judge, asked.stage, limits, progress=repair.bench.progress)
+        bench = Bench(design.changed(change), judge, stage, limits, progress=repair.bench.progress)
         left = bench.errors({}) or []
         if left:
             found = found or left
@@ -115,73 +108,26 @@ def _further(repair: Repair, design: Design, asked: "Asked") -> Repair:
                 return Repair(found, None, left, repair.bench)
             change = {**change, **more}
             if len(change) > MOST_CHANGES:
-                last = Bench(design.changed(change), whole, asked.stage, INSPECTED)
+                last = Bench(design.changed(change), judges[-1], stage, INSPECTED)
                 return Repair(found, None, left, repair.bench, change if last.builds({}) else None)
     return Repair(found, change, [], repair.bench)
 
 
-class Asked:
-    """What ``build`` asks of a design up to a stage; an answer is kept.
+def judge_of(host: Host, work: Work, *, every: bool = False) -> Judge:
+    """What a run finds of a design; without ``every`` up to the first inspection that finds an error."""
 
-    Parameters
-    ----------
-    looks
-        One for every inspection: those of ``check``, then those that take longest.
-    """
-
-    def __init__(self, host: Host, stage: Stage) -> None:
-        self.host, self.stage = host, stage
-        order = list(Stage)
-        wanted = [
-            one
-            for one in sorted(host.all(Inspection), key=lambda one: one.order)
-            if "build" in one.commands and order.index(one.stage) <= order.index(stage)
-        ]
-        self.looks: list[Ask] = [one.findings for one in sorted(wanted, key=_slow)]
-        self._answers: dict[tuple[str, Ask], list[Finding]] = {}
-
-    def judge(self, looks: Sequence[Ask]) -> Judge:
-        """Ask the family, its parts, and then some looks, up to the first that finds an error."""
-        return judge_of(self.host, [_family, _parts, *looks], self.stage, self._answers)
-
-
-def judge_of(
-    host: Host, asks: Sequence[Ask], stage: Stage, answers: dict[tuple[str, Ask], list[Finding]] | None = None
-) -> Judge:
-    """Ask one after the other, up to the first that finds an error; ``answers`` are those that are known."""
-    known = {} if answers is None else answers
-
-    def judge(design: Design) -> list[Finding]:
-        found: list[Finding] = []
-        name = repr(design.content)
-        with Build(design, host, Wanted("build")) as build:
-            for ask in asks:
-                if (name, ask) not in known:
-                    known[name, ask] = _answer(ask, build, stage)
-                found += known[name, ask]
-                if errors(found, stage):
-                    break
-        return found
+    def judge(design: Design) -> Sequence[Finding]:
+        with Build(design, host) as build:
+            run = Run(build, work)
+            run.look(every=every)
+            if not work.makes or run.is_stopped():
+                return run.findings
+            try:
+                run.make()
+            except RefusedError:
+                return run.findings
+            except MechwrightError as error:
+                return [*run.findings, refused(error, build.path, work.stage)]
+            return run.findings
 
     return judge
-
-
-def _answer(ask: Ask, build: Build, stage: Stage) -> list[Finding]:
-    try:
-        return list(ask(build))
-    except MechwrightError as error:
-        return [Finding.error(REFUSED, "", str(error), stage=stage)]
-
-
-def _family(build: Build) -> Sequence[Finding]:
-    return build.findings
-
-
-def _parts(build: Build) -> Sequence[Finding]:
-    """Nothing, or the error of parts that cannot be made."""
-    _ = build.parts
-    return ()
-
-
-def _slow(inspection: Inspection) -> bool:
-    return "check" not in inspection.commands

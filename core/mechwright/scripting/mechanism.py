@@ -5,14 +5,14 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from mechwright.build import Build, Inspection, Page
-from mechwright.contracts.finding import Finding, Findings, Stage, errors
+from mechwright.contracts.finding import Findings, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.output.folder import write_new
+from mechwright.pipeline import Build, Page
 from mechwright.scripting.changes import change_of
+from mechwright.scripting.checking import checked
 from mechwright.scripting.performing import Written, perform
-from mechwright.scripting.steps import CHECKING, Steps, shares
 
 MOTION_PAGE = "motion-page"
 """The page on which a mechanism moves, by the name under which it is registered."""
@@ -58,7 +58,7 @@ class Mechanism(Build):
 
     def asked(self, **wanted: Any) -> "Mechanism":
         """The same design with other wishes, such as ``samples=3601, at="40 deg"``: see :class:`Wanted`."""
-        return Mechanism(self.design, self.host, replace(self.wanted, **wanted))
+        return self.asking(**wanted)
 
     @property
     def toml(self) -> str:
@@ -70,28 +70,35 @@ class Mechanism(Build):
         write_new(Path(path), self.toml, replace=replace)
         return Path(path)
 
-    def check(self, progress: Progress = unheard) -> Findings:
+    def check(
+        self, progress: Progress = unheard, to: Stage | str | None = None, *, remedies: bool = True
+    ) -> Findings:
         """What ``mechwright check`` tells, with remedies that were tried.
 
         That is what the family finds, and if this allows it what every inspection does: bodies that meet,
         cutters that do not reach.
-        """
-        from mechwright.remedies import tried
 
-        with self._as("check") as build:
-            progress(0.0, CHECKING)
-            inspected = inspections(build, progress)
-            return Findings([*tried(build.design, build.findings), *inspected])
+        Parameters
+        ----------
+        progress
+            Told how far it is.
+        to
+            The last stage that is looked at, and all is made for: solids, programs with their proofs, files.
+            By default every stage is looked at, and nothing is made. What is made stays, and ``write`` takes
+            it.
+        remedies
+            Whether changes are tried against what is found, which may take seconds.
+        """
+        return checked(self, None if to is None else Stage(to), progress, remedies=remedies)
 
     def write(
         self,
         folder: "str | Path",
-        stage: Stage = Stage.MACHINING,
         progress: Progress = unheard,
         empty: str = "",
     ) -> Written:
         """Write everything that the command asked for writes, ``build`` by default; see :func:`perform`."""
-        return perform(self, Path(folder), stage, progress, empty)
+        return perform(self, Path(folder), progress, empty)
 
     @property
     def page(self) -> str:
@@ -105,15 +112,12 @@ class Mechanism(Build):
             raise DesignError(f"{self.path}: family {name} stands still: there is no motion to show")
         found = self.host.get(Page, MOTION_PAGE)
         self.require(errors(self.findings, Stage.MOTION))
-        with self._as("solve") as build:
+        with self.asking(command="solve") as build:
             files = found.files(build)
         content = next(iter(files.values()))
         if isinstance(content, str):
             return content
         return (content if isinstance(content, bytes) else b"".join(content)).decode()
-
-    def _as(self, command: str) -> Build:
-        return Build(self.design, self.host, replace(self.wanted, command=command))
 
     def _repr_html_(self) -> str:
         found = self.findings._repr_html_()
@@ -127,21 +131,3 @@ class Mechanism(Build):
             f'<iframe srcdoc="{escape(page)}" sandbox="allow-scripts" title="{title}" '
             f'style="width:100%;height:{HEIGHT}px;border:0"></iframe>{found}'
         )
-
-
-def inspections(build: Build, progress: Progress = unheard) -> Findings:
-    """What the inspections of a build's command find, with remedies that were tried.
-
-    Nothing where the family finds errors: inspections rely on a sound design.
-    """
-    from mechwright.remedies import proposed_tried
-
-    if errors(build.findings):
-        return Findings()
-    asked = [one for one in build.host.all(Inspection) if build.wanted.command in one.commands]
-    step = Steps(build, shares(asked), progress)
-    found: list[Finding] = []
-    for one in sorted(asked, key=lambda one: one.order):
-        step(one.doing)
-        found += proposed_tried(build, one, one.findings(build))
-    return Findings(found)

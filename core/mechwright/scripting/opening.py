@@ -5,6 +5,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.finding import Findings, Stage
+from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.change import changed
 from mechwright.designs.design import design_of
 from mechwright.designs.schema import FORMAT
@@ -60,6 +62,50 @@ def design(family: str, /, *, name: str = "", **parameters: object) -> Mechanism
     stem = name or found.name
     head = {"format": FORMAT, "family": found.name, "name": stem, "parameters": {}}
     return opened(changed(head, change_of(installed, parameters)), Path(f"{stem}.toml"), installed)
+
+
+def check(
+    subject: str | PathLike[str] | Mechanism,
+    /,
+    *,
+    to: Stage | str | None = None,
+    progress: Progress = unheard,
+    **parameters: Any,
+) -> Findings:
+    """What ``mechwright check`` finds of a design, with remedies that were tried.
+
+    Parameters
+    ----------
+    subject
+        A design file, a family as design files name it, or a mechanism. A text without a point is a family.
+    to
+        The last stage that is looked at, with all that is produced for it; see :meth:`Mechanism.check`.
+    progress
+        Called with the part that is done, 0 to 1, and with words.
+    parameters
+        Those of the family; of a file or a mechanism those that are changed.
+
+    Returns
+    -------
+    findings
+        The design can be built if ``findings.errors`` is empty.
+
+    Raises
+    ------
+    DesignError
+        One line for each key of the design that is wrong.
+    OutputError, PluginError
+        The file cannot be read, the family is not installed.
+
+    Examples
+    --------
+    >>> [(one.code, one.remedy) for one in check("elliptic-gears", teeth=13).errors]
+    [('gear.undercut', 'set teeth = 20 (now 13)')]
+    """
+    if isinstance(subject, str) and "." not in subject:
+        return design(subject, **parameters).check(progress, to)
+    given = subject if isinstance(subject, Mechanism) else load(subject)
+    return (given.with_(**parameters) if parameters else given).check(progress, to)
 
 
 def opened(content: Mapping[str, Any], path: Path, installed: Host) -> Mechanism:

@@ -1,9 +1,8 @@
 """Designs that meet a requirement, sought and written."""
 
 import json
-import tomllib
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -19,15 +18,13 @@ from mechwright.designs.change import changed
 from mechwright.designs.files import digest_of, read_bytes
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
 from mechwright.designs.schema import FORMAT
-from mechwright.designs.text import design_text
 from mechwright.output.folder import Output, write_folder
 from mechwright.plugins.host import Host, host
 from mechwright.reading import once
-from mechwright.scripting.buildable import found_buildable
+from mechwright.scripting.buildable import Buildable, found_buildable
 from mechwright.scripting.changes import change_of
 from mechwright.scripting.gallery import gallery, shown
 from mechwright.scripting.mechanism import Mechanism
-from mechwright.scripting.opening import opened
 from mechwright.scripting.provenance import run_facts
 
 
@@ -39,15 +36,20 @@ class Found:
     ----------
     asked
         The requirement.
-    result
-        The candidates with their figures, what there is to say, and why others were not given.
+    buildable
+        The candidates with their designs, what there is to say of each, and why others were not given.
     host
         What is installed.
     """
 
     asked: Requirement
-    result: Synthesis[Any]
+    buildable: Buildable
     host: Host
+
+    @property
+    def result(self) -> Synthesis[Any]:
+        """The candidates with their figures, what there is to say, and why others were not given."""
+        return self.buildable.result
 
     def __len__(self) -> int:
         return len(self.result.candidates)
@@ -76,15 +78,24 @@ class Found:
         found, width = [], len(str(len(self)))
         for number, candidate in enumerate(self.result.candidates, start=1):
             name = check_name(f"{self.asked.name}-{number:0{width}}", "name of a design")
-            found.append((name, design_text(self.asked.family, name, candidate.params, self.asked.tables)))
+            found.append((name, self.asked.text(name, candidate.params)))
         return found
 
     @cached_property
     def mechanisms(self) -> tuple[Mechanism, ...]:
         """The designs, best first; files that their tables name stand where the requirement's do."""
-        folder = self.asked.path.parent
+        named = zip(self.buildable.designs, self.texts, strict=True)
         return tuple(
-            opened(tomllib.loads(text), folder / f"{name}.toml", self.host) for name, text in self.texts
+            Mechanism(
+                replace(
+                    design,
+                    name=name,
+                    path=self.asked.path.with_name(f"{name}.toml"),
+                    content={**design.content, "name": name},
+                ),
+                self.host,
+            )
+            for design, (name, _) in named
         )
 
     @property
@@ -119,9 +130,11 @@ class Found:
             {
                 "design": f"{name}.toml",
                 **candidate.as_dict(),
-                "findings": [finding.as_dict() for finding in family.check(candidate.params)],
+                "findings": [finding.as_dict() for finding in found],
             }
-            for (name, _), candidate in zip(self.texts, self.result.candidates, strict=True)
+            for (name, _), candidate, found in zip(
+                self.texts, self.result.candidates, self.buildable.findings, strict=True
+            )
         ]
         return {
             "family": family.name,

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mechwright.build import Build, Inspection, Wanted
 from mechwright.cli import main
 from mechwright.contracts.finding import errors
 from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError
+from mechwright.pipeline import Build, Inspection, Wanted
 from mechwright.plugins.host import host
 
 _INTERFERENCE = "interference"

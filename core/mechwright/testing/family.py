@@ -49,7 +49,7 @@ from mechwright.testing.stretches import StretchTests
 from mechwright.testing.targets import TargetTests
 from mechwright.testing.tolerances import ToleranceTests
 from mechwright.testing.transmissions import TransmissionTests
-from mechwright.testing.variations import variations
+from mechwright.testing.variations import is_constant, variations
 from mechwright.tolerances import TOLERANCES
 
 _REFINED = 1e-9
@@ -276,9 +276,11 @@ class FamilyContract(
     # All designs
 
     def test_every_parameter_counts(self) -> None:
-        """Every field of the parameters changes some result of some example."""
+        """Every field of the parameters that has more than one value changes some result of some example."""
         starts = [Results(self.family(), self.params(table)) for table in self.examples]
-        idle = [name for name in self.family.Params.model_fields if not self._counts(name, starts)]
+        fields = self.family.Params.model_fields
+        free = [name for name, field in fields.items() if not is_constant(field.annotation)]
+        idle = [name for name in free if not self._counts(name, starts)]
         assert not idle, (
             f"no result depends on {', '.join(idle)}; where a step from the examples is too small to show, "
             "add an example or an entry of the attribute variations"

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from mechwright.build import Build, FileName, Wanted
-from mechwright.build.file_names import FileNames, files_of
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.file_names import name_fault
 from mechwright.contracts.part import Part, check_name
 from mechwright.designs.design import Design, design_of
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop, Outline
+from mechwright.pipeline import Build, FileName, Wanted
+from mechwright.pipeline.file_names import FileNames, files_of
 from mechwright.plugins.host import host
 
 NEUTRAL = "name-that-nothing-has"

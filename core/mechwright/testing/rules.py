@@ -30,7 +30,9 @@ def schema_faults(params: type[Parameters]) -> list[str]:
     for table, where in _tables(schema):
         for name, field in table.get("properties", {}).items():
             path = f"{where}{name}"
-            if not str(field.get("description", "")).strip():
+            # A table that is described elsewhere in the schema has a reference there and nothing beside it.
+            described = schema["$defs"][field["$ref"].rpartition("/")[2]] if "$ref" in field else field
+            if not str(described.get("description", "")).strip():
                 found.append(f"{path} has no description")
             for number in _numbers(field):
                 if not _LEAST & number.keys():

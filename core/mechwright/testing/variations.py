@@ -23,6 +23,15 @@ def variations(start: Parameters, name: str) -> Iterator[Any]:
     yield from _others(field.annotation, getattr(start, name), rules(field.metadata), name)
 
 
+def is_constant(kind: Any) -> bool:
+    """Whether a field of this type has one value only, as the name of the one choice of a family.
+
+    >>> is_constant(Literal["dwell-press"]), is_constant(Literal["one", "two"]), is_constant(str)
+    (True, False, False)
+    """
+    return get_origin(kind) is Literal and len(get_args(kind)) == 1
+
+
 def _others(kind: Any, value: Any, rule: dict[str, Any], where: str) -> Iterator[Any]:
     origin, arguments = get_origin(kind), get_args(kind)
     if origin is Annotated:

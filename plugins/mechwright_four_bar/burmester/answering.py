@@ -13,8 +13,8 @@ from mechwright_four_bar.burmester.freudenstein import Answering
 from mechwright_four_bar.burmester.kept import Option, designs, driven, instead
 from mechwright_four_bar.burmester.rectify import Way, way_through
 from mechwright_four_bar.burmester.requirements import FunctionRequirement
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
 
 
 def through_angles(wanted: FunctionRequirement, progress: Progress) -> Synthesis[FourBarParams]:

@@ -14,7 +14,7 @@ from mechwright_four_bar.burmester import freudenstein
 from mechwright_four_bar.burmester.freudenstein import Answering
 from mechwright_four_bar.burmester.kept import WEIGHTS, penalties
 from mechwright_four_bar.burmester.requirements import FunctionRequirement
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.loop import close
 
 GRID = 48
 """Offsets of each angle among which a fit begins."""

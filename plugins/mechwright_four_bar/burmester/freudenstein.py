@@ -16,7 +16,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright_four_bar.burmester import dyads
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 
 LONGEST = 1e6
 """Links longer than this many grounds are none."""

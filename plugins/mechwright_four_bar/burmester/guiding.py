@@ -14,9 +14,9 @@ from mechwright_four_bar.burmester.dyads import Dyad, Poses
 from mechwright_four_bar.burmester.kept import WEIGHTS, Option, designs, driven, instead, penalties
 from mechwright_four_bar.burmester.rectify import Way, loosely, way_through
 from mechwright_four_bar.burmester.requirements import EXACT, PosesRequirement
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
 
 INFINITE = "hold the body in a bearing at that point, or move a pose"
 """What to do where a body turns about one point."""

@@ -13,8 +13,8 @@ from mechwright.contracts.synthesis import ALIKE
 from mechwright_four_bar.burmester.rectify import Way
 from mechwright_four_bar.burmester.requirements import LinkLimits
 from mechwright_four_bar.candidates import Found, buildable, building
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.parameters import FourBarParams
 
 WEIGHTS = (30.0, 3000.0)
 """Weights of a broken limit, over that of an error as large as the body's way or as a radian: a fit is led to

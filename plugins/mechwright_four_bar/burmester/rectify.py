@@ -7,8 +7,8 @@ import numpy as np
 from mechwright import Array
 from mechwright.mechanics.linkage.passing import passing
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.reach import reach
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.reach import reach
 
 
 @dataclass(frozen=True)

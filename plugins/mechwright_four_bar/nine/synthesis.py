@@ -10,13 +10,13 @@ from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.burmester.kept import Option, designs, driven
 from mechwright_four_bar.burmester.rectify import Way, linkage, way_through
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.nine.solving import Triples, all_triples
 from mechwright_four_bar.nine.special import infinite, special
 from mechwright_four_bar.nine.triples import TRIPLES, members
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 
 SOLVED = 0.8
 """Part of the work that finds the triples."""

@@ -8,7 +8,7 @@ import numpy as np
 from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.search import MARGIN
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.paths.limits import SIZE
 
 Rectangle = tuple[float, float, float, float]

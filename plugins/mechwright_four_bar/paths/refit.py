@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from mechwright import Array
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.paths.asked import PathProblem
 from mechwright_four_bar.paths.search import PathSolution, path, settled, unknowns
 

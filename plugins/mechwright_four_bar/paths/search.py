@@ -20,8 +20,8 @@ from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.descent import WEIGHT
 from mechwright.mechanics.tracing.points import in_plane, random_angles
 from mechwright.mechanics.tracing.search import STAGES
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.paths.asked import PathProblem
 from mechwright_four_bar.paths.descent import STILL, polish, screen, settle
 from mechwright_four_bar.paths.kernels import lengths, linear

@@ -12,7 +12,7 @@ from mechwright.mechanics.tracing.requirement import faults
 from mechwright.mechanics.tracing.search import EXACT, MORE, SEARCH
 from mechwright_four_bar.candidates import GOOD_ANGLE, Found, buildable, building
 from mechwright_four_bar.cognates import Drawing, cognates
-from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.paths.asked import PathProblem
 from mechwright_four_bar.paths.points import problem_of
 from mechwright_four_bar.paths.refit import fitted, rounded

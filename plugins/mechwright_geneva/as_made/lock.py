@@ -34,18 +34,11 @@ class Lock:
     corridor: float
 
     @classmethod
-    def drawn(cls, m: Mechanism) -> "Lock":
-        """As the design has it."""
-        return cls(m, m.arc, m.lock, m.params.lock_clearance, 0.0)
-
-    @classmethod
     def of(cls, m: Mechanism, wheel: MadePart, disc: MadePart) -> "Lock":
         """As wheel and disc are made."""
-        rim, side = _about_bore(wheel, m.params.bore), _about_bore(disc, m.params.driver_bore)
         step = 2 * m.wheel_half * np.arange(m.slots)
-        centres = m.axes * np.column_stack((np.cos(step), np.sin(step)))
-        arcs = np.concatenate([_on(rim, centre, m.arc) for centre in centres])
-        discs = _on(side, np.zeros(2), m.lock)
+        arcs = _radii(wheel, m.params.bore, m.axes * np.exp(1j * step), m.arc)
+        discs = _radii(disc, m.params.driver_bore, np.zeros(1), m.lock)
         return cls(
             m,
             float(arcs.mean()),
@@ -64,18 +57,11 @@ class Lock:
         more
             Added to the clearance, mm.
         """
-        play: float = self.m.lock_play(self.arc + more, self.disc, off_centre)
-        return play
+        return float(self.m.lock_play(self.arc + more, self.disc, off_centre))
 
 
-def _about_bore(part: MadePart, diameter: float) -> Array:
-    """Points (n, 2) of all through walls, mm, about the middle of the bore as made."""
-    points: Array = np.concatenate([ring.points for ring in part.outline.rings])
-    return points - part.bore_middle(diameter)
-
-
-def _on(points: Array, centre: Array, radius: float) -> Array:
-    """Distances (k,) from the centre of those points that lie on a circle about it."""
-    away = np.hypot(*(points - centre).T)
-    on: Array = away[np.abs(away - radius) < NEAR]
-    return on
+def _radii(part: MadePart, bore: float, centres: Array, radius: float) -> Array:
+    """Distances (k,) from centres of those through walls that lie on a circle about one, axis at the bore."""
+    points = np.concatenate([ring.points for ring in part.outline.rings]) - part.bore_middle(bore)
+    away = np.abs(points @ (1, 1j) - centres[:, None])
+    return np.asarray(away[np.abs(away - radius) < NEAR])

@@ -11,7 +11,7 @@ import shapely
 from mechwright import Array, AsMade, Finding, MadeCurve, MadeFigure, MadePart, Severity, Stage
 from mechwright.tolerances import OFF_CENTRE
 from mechwright_geneva.as_made.lock import Lock
-from mechwright_geneva.as_made.play import Play, drawn_room, made_room, play
+from mechwright_geneva.as_made.play import Play, Room, drawn_room, made_room
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.geometry import Points, Stroke
 from mechwright_geneva.kinematics.mechanism import Mechanism
@@ -46,25 +46,20 @@ class Made:
         return self.wheel.corridor
 
     @cached_property
-    def material(self) -> shapely.Geometry:
-        """What stands beside the rollers, about the middle of the wheel's bore as made."""
+    def room(self) -> Room:
+        """The room beside all walls as made, about the middle of the wheel's bore."""
         x, y = self.wheel.bore_middle(self.m.params.bore)
-        return shapely.affinity.translate(self._beside(planned=False), -x, -y)
+        return made_room(shapely.affinity.translate(self._beside(planned=False), -x, -y), self.m.roller)
 
     def _beside(self, *, planned: bool) -> shapely.Geometry:
-        whole = self.wheel.section(self.m.params.groove_depth / 2).shape(planned=planned)
+        """What stands beside the rollers."""
+        pieces = [self.wheel.section(self.m.params.groove_depth / 2).shape(planned=planned)]
         islands = self.parts.get("island", ())
-        turned = [
-            shapely.affinity.rotate(
-                islands[min(k, len(islands) - 1)].outline.shape(planned=planned),
-                2 * k * self.m.wheel_half,
-                origin=(0, 0),
-                use_radians=True,
-            )
-            for k in range(self.m.slots if islands else 0)
-        ]
-        beside: shapely.Geometry = shapely.union_all([whole, *turned])
-        return beside
+        for k in range(self.m.slots if islands else 0):
+            island = islands[min(k, len(islands) - 1)].outline.shape(planned=planned)
+            turn = 2 * k * self.m.wheel_half
+            pieces.append(shapely.affinity.rotate(island, turn, origin=(0, 0), use_radians=True))
+        return shapely.union_all(pieces)
 
     @cached_property
     def roller_off(self) -> Points:
@@ -85,14 +80,12 @@ class Made:
 
     def planned(self) -> Play:
         """The play in slot 0 if every wall stood where its cutters were to make it."""
-        return play(self.stroke, made_room(self._beside(planned=True), self.m.roller))
+        return Play.of(self.stroke, made_room(self._beside(planned=True), self.m.roller))
 
     def play(self, slot: int = 0, off_centre: float = 0.0) -> Play:
         """The play in one slot, with the crank's axis farther away by ``off_centre``, mm."""
-        turned = shapely.affinity.rotate(
-            self.material, -2 * slot * self.m.wheel_half, origin=(0, 0), use_radians=True
-        )
-        return play(self.stroke, made_room(turned, self.m.roller), self.roller_off + off_centre)
+        to_slot = np.exp(2j * slot * self.m.wheel_half)
+        return Play.of(self.stroke, lambda points: self.room(points * to_slot), self.roller_off + off_centre)
 
 
 def as_made(params: GenevaParams, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
@@ -104,67 +97,58 @@ def as_made(params: GenevaParams, made: Mapping[str, Sequence[MadePart]]) -> AsM
     lock = Lock.of(m, made["wheel"][0], made["locking-disc"][0])
     slots = [one.play(slot) for slot in range(m.slots)]
     figures, curve = _motion(one, slots)
-    return AsMade(
-        (*figures, *_locked(m, lock, slots)),
-        (curve,),
-        (*_binding(one, slots), *_seizing(m, lock)),
-    )
+    findings = (*_binding(one, slots), *_seizing(m, lock))
+    return AsMade((*figures, *_locked(m, lock, slots)), (curve,), findings)
+
+
+def _turn(name: str, title: str, rule: str, design: float | None, *values: float) -> MadeFigure:
+    """The figure of an angle, rad: as drawn, as made, and its least and greatest value."""
+    drawn = None if design is None else design * MICRO
+    found, low, high = (value * MICRO for value in values)
+    return MadeFigure(name, title, "µrad", None, drawn, found, low, high, rule)
 
 
 def _motion(one: Made, slots: list[Play]) -> tuple[list[MadeFigure], MadeCurve]:
     """Room and play of the roller, and how far the wheel is off where it drives."""
-    m, corridor = one.m, one.corridor
-    drawn = play(one.stroke, drawn_room(m, m.params.groove_clearance / 2))
+    m, corridor, half = one.m, one.corridor, one.m.params.groove_clearance / 2
+    drawn, planned = [Play.of(one.stroke, drawn_room(m, half)).turns()], one.planned().turns()
     nominal = [found.turns() for found in slots]
     tight, loose = ([slots[0].turns(more)] for more in (-corridor, corridor))
     bounds = [found.turns(more) for found in one.apart for more in (-corridor, corridor)]
-    design = drawn.turns()
 
     def worst(turns: list[tuple[Array, Array]]) -> Array:
-        found: Array = np.max([np.maximum(np.abs(ahead), np.abs(behind)) for ahead, behind in turns], axis=0)
-        return found
+        return np.asarray(np.abs(turns).max(axis=(0, 1)))
 
     def entry(turns: list[tuple[Array, Array]]) -> list[float]:
-        return [float(ahead[0] + behind[0]) * MICRO for ahead, behind in turns]
+        return [float(ahead[0] + behind[0]) for ahead, behind in turns]
 
-    room = [float(found.here.min()) for found in slots]
-    ends = [*entry(tight), *entry(loose)]
-    error = worst(nominal) * MICRO
-    spread = worst([*tight, *loose, *bounds]) * MICRO
+    errors = [worst(turns) for turns in (drawn, nominal, tight, [*tight, *loose, *bounds])]
+    room, ends = np.stack([found.here for found in slots]), entry([*tight, *loose])
+    least, most = float(room.min()), float(room.max())
+    singular = "" if m.straight else "; at mid stroke √(2 h / (ρ² (κ + 1/ρ))): no tolerance cures it"
     figures = [
         MadeFigure(
             "slot.room",
             "least room of a roller in its slot, on either side",
             "mm",
             0.0,
-            m.params.groove_clearance / 2,
-            min(room),
-            min(room) - corridor,
-            max(float(found.here.max()) for found in slots) + corridor,
+            half,
+            least,
+            least - corridor,
+            most + corridor,
             "half the groove clearance less what stays on each wall",
         ),
-        MadeFigure(
+        _turn(
             "slot.play.entry",
             "play of the wheel as a roller enters",
-            "µrad",
-            None,
-            entry([one.planned().turns()])[0],
-            max(entry(nominal)),
-            min(ends),
-            max(ends),
             "as far as the walls reach; between two endless walls 2 h / lever",
+            *(*entry([planned]), max(entry(nominal)), min(ends), max(ends)),
         ),
-        MadeFigure(
+        _turn(
             "wheel.error",
             "greatest error of the wheel in motion",
-            "µrad",
-            None,
-            float(worst([design]).max()) * MICRO,
-            float(error.max()),
-            float((worst(tight) * MICRO).max()),
-            float(spread.max()),
-            f"turned until the roller meets a wall, axes ± {OFF_CENTRE:g} mm"
-            + ("" if m.straight else "; at mid stroke √(2 h / (ρ² (κ + 1/ρ))): no tolerance cures it"),
+            f"turned until the roller meets a wall, axes ± {OFF_CENTRE:g} mm{singular}",
+            *(float(error.max()) for error in errors),
         ),
     ]
     curve = MadeCurve(
@@ -172,18 +156,17 @@ def _motion(one: Made, slots: list[Play]) -> tuple[list[MadeFigure], MadeCurve]:
         "crank from the start of the stroke, degrees",
         "µrad",
         np.degrees(m.crank_half - one.stroke.phi),
-        {"as drawn": worst([design]) * MICRO, "as made": error, "in the worst case": spread},
+        {"as drawn": errors[0] * MICRO, "as made": errors[1] * MICRO, "in the worst case": errors[3] * MICRO},
     )
     return figures, curve
 
 
 def _locked(m: Mechanism, lock: Lock, slots: list[Play]) -> list[MadeFigure]:
     """The lock: clearance and play in dwell, and what it takes from the play as it closes."""
-    exact = Lock.drawn(m)
-    plays = [
-        lock.play(off, more) for off in (-OFF_CENTRE, OFF_CENTRE) for more in (-lock.corridor, lock.corridor)
-    ]
-    entry = max(float(max(turn[0], turn[-1])) for found in slots for turn in found.turns())
+    offs, walls = (-OFF_CENTRE, OFF_CENTRE), (-lock.corridor, lock.corridor)
+    ends = [lock.play(off, more) for off in offs for more in walls]
+    found, low, high = lock.play(), min(ends), max(ends)
+    entry = max(float(max(turn[0], turn[-1])) for slot in slots for turn in slot.turns())
     return [
         MadeFigure(
             "lock.clearance",
@@ -196,27 +179,18 @@ def _locked(m: Mechanism, lock: Lock, slots: list[Play]) -> list[MadeFigure]:
             lock.least + lock.corridor,
             "d_wheel + d_disc + what the axes may be off has to find room in it",
         ),
-        MadeFigure(
+        _turn(
             "lock.play",
             "turn of the locked wheel either way",
-            "µrad",
-            None,
-            exact.play() * MICRO,
-            lock.play() * MICRO,
-            min(plays) * MICRO,
-            max(plays) * MICRO,
             "ψ_L - acos((a² + l² - R_L²) / (2 a l))",
+            *(m.lock_play(m.arc, m.lock), found, low, high),
         ),
-        MadeFigure(
+        _turn(
             "lock.pulls",
             "turn that the lock takes back as it closes",
-            "µrad",
-            None,
-            None,
-            max(0.0, entry - lock.play()) * MICRO,
-            max(0.0, entry - max(plays)) * MICRO,
-            max(0.0, entry - min(plays)) * MICRO,
             "play in the mouth of the slot over that of the lock",
+            None,
+            *(max(0.0, entry - play) for play in (found, high, low)),
         ),
     ]
 
@@ -228,54 +202,46 @@ def _binding(one: Made, slots: list[Play]) -> list[Finding]:
         worst = int(np.argmin(room))
         if room[worst] > 0:
             continue
-        params = one.m.params
+        given = one.m.params.groove_clearance
         at = one.m.crank_half - one.stroke.phi[int(np.argmin(plays[worst].here))]
         lacking = min(room[worst], *(float(found.here.min()) - one.corridor for found in one.apart))
-        better = _better(params.groove_clearance, LEAST_GROOVE, -2 * lacking)
-        left = lacking + (better - params.groove_clearance) / 2
+        better = _better(given, LEAST_GROOVE, -2 * lacking)
         near = ("near", "far apart")[worst % 2]
         where = f"in slot {worst + 1}" if plays is slots else f"with axes {OFF_CENTRE:g} mm too {near}"
-        return [
-            Finding(
-                "geneva.as-made",
-                severity,
-                "groove_clearance",
-                f"as made the roller binds {where}: {-room[worst]:.4f} mm are lacking at "
-                f"{math.degrees(at):.1f} degrees of the stroke",
-                room[worst],
-                0.0,
-                "mm",
-                f"make groove_clearance {better:g}: on these walls that leaves {left:.4f} mm on either side",
-                Stage.MACHINING,
-            )
-        ]
+        message = (
+            f"as made the roller binds {where}: {-room[worst]:.4f} mm are lacking at "
+            f"{math.degrees(at):.1f} degrees of the stroke"
+        )
+        remedy = (
+            f"make groove_clearance {better:g}: on these walls that leaves "
+            f"{lacking + (better - given) / 2:.4f} mm on either side"
+        )
+        return [_finding("geneva.as-made", severity, "groove_clearance", message, room[worst], remedy)]
     return []
 
 
 def _seizing(m: Mechanism, lock: Lock) -> list[Finding]:
+    """Whether the disc seizes with the axes in place, and with them too near."""
+    least, given = lock.least - lock.corridor, m.params.lock_clearance
     for off, severity in ((0.0, Severity.ERROR), (OFF_CENTRE, Severity.WARNING)):
-        left = lock.least - lock.corridor - off
-        if left > 0:
+        if least - off > 0:
             continue
-        given = m.params.lock_clearance
-        better = _better(given, LEAST_LOCK, OFF_CENTRE - (lock.least - lock.corridor))
-        works = lock.least - lock.corridor - OFF_CENTRE + better - given
-        return [
-            Finding(
-                "geneva.as-made-lock",
-                severity,
-                "lock_clearance",
-                "as made the locking disc seizes in the wheel"
-                + (f" with axes {off:g} mm too near" if off else "")
-                + f": {-left:.4f} mm are lacking",
-                left,
-                0.0,
-                "mm",
-                f"make lock_clearance {better:g}: on these walls that leaves {works:.4f} mm",
-                Stage.MACHINING,
-            )
-        ]
+        better = _better(given, LEAST_LOCK, OFF_CENTRE - least)
+        near = f" with axes {off:g} mm too near" if off else ""
+        message = f"as made the locking disc seizes in the wheel{near}: {off - least:.4f} mm are lacking"
+        remedy = (
+            f"make lock_clearance {better:g}: on these walls that leaves "
+            f"{least - OFF_CENTRE + better - given:.4f} mm"
+        )
+        return [_finding("geneva.as-made-lock", severity, "lock_clearance", message, least - off, remedy)]
     return []
+
+
+def _finding(
+    code: str, severity: Severity, parameter: str, message: str, room: float, remedy: str
+) -> Finding:
+    """A clearance that leaves less than no room, mm."""
+    return Finding(code, severity, parameter, message, room, 0.0, "mm", remedy, Stage.MACHINING)
 
 
 def _better(given: float, rule: float, lacking: float) -> float:

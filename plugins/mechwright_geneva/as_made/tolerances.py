@@ -16,9 +16,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mechwright import Array, Contributor, Output, ToleranceModel, Tolerances
-from mechwright_geneva.as_made.tube import Tube, bend, levers, normals, way
+from mechwright_geneva.as_made.play import Play, drawn_room
 from mechwright_geneva.defaults.dimensions import mechanism_of
-from mechwright_geneva.kinematics.geometry import Points, Stroke, corner_angle
+from mechwright_geneva.kinematics.geometry import RIGHT, Points, Stroke, corner_angle
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.parameters import GenevaParams
 
@@ -34,7 +34,7 @@ _POSITIONS = 361
 """Positions over a stroke, both ends included."""
 
 _CURVED = 10.0
-"""How much the square of the lever has to exceed shift times :func:`bend` for the first order to be right
+"""How much the square of the lever has to exceed shift times :func:`_bend` for the first order to be right
 within 5 %: the shift needed for a turn x is lever x + bend x²/2."""
 
 _NEWTON, _STEP = 4, 0.05
@@ -63,35 +63,36 @@ class GenevaTolerances(ToleranceModel):
             tolerances.eccentricity("driver-eccentricity"),
             *tolerances.input("input"),
         )
-        self.locks = _locks(m)
+        # The disc covers both horns of an arc in the middle of a dwell; NaN where a circle misses the rim.
+        self.lock_play = m.lock_play(m.arc, m.lock)
+        self.locks = m.pitch / 2 - m.crank_half >= m.arc_half and self.lock_play >= 0
         self.outputs = (WHEEL, PLAY, *((LOCK, FREE) if self.locks else ()))
         shift = sum(abs(one.mean) + one.reach for one in self.contributors[:5])
-        self.least_lever = 0.0 if m.straight else math.sqrt(_CURVED * shift * bend(m))
+        self.least_lever = 0.0 if m.straight else math.sqrt(_CURVED * shift * _bend(m))
         self.told = (*self._singular(), *(() if self.locks else (_NO_LOCK,)))
 
     def _singular(self) -> tuple[str, ...]:
-        slack = np.abs(levers(self.m, self.positions)) < self.least_lever
+        m, half = self.m, self.m.params.groove_clearance / 2
+        slack = np.abs(m.lever(m.way(self.positions))) < self.least_lever
         if not slack.any():
             return ()
         low, high = np.degrees(self.positions[slack][[0, -1]])
-        half = self.m.params.groove_clearance / 2
         words = (
             f"from {low:.1f} to {high:.1f} deg of the crank the slot has next to no lever on the wheel: its "
             "errors go with the square root of what is off, and there is no first order"
         )
         if half > 0:
-            there, back = (float(x[0]) for x in Tube(self.m, half).play([self.m.crank_half]))
-            words += f"; at mid stroke the wheel can turn {1000 * (there + back):.3g} mrad in its slot"
+            turns = Play.of(m.way(np.array([m.crank_half])), drawn_room(m, half)).turns()
+            words += f"; at mid stroke the wheel can turn {1000 * np.sum(turns):.3g} mrad in its slot"
         return (f"{words}; preload or brake the load",)
 
     def nominal(self, output: str, at: Array) -> Array:
         """The wheel's angle, and its plays; where there is no lever that of the least one that counts."""
-        params = self.m.params
-        if output == LOCK.name:
-            return np.full((1, *at.shape), float(self._lock_play(0.0, 0.0, 0.0)))
-        if output == FREE.name:
-            return np.full((1, *at.shape), params.lock_clearance)
-        run = self._run(at)
+        m, params = self.m, self.m.params
+        if output in {LOCK.name, FREE.name}:
+            value = self.lock_play if output == LOCK.name else params.lock_clearance
+            return np.full((1, *at.shape), value)
+        run = m.way(at)
         return (run.theta if output == WHEEL.name else params.groove_clearance / self._safe(run))[None]
 
     def sensitivities(self, output: str, at: Array) -> list[Array]:
@@ -100,8 +101,8 @@ class GenevaTolerances(ToleranceModel):
             wheel, disc, along = self._lock_rates() if output == LOCK.name else (-1.0, -1.0, 1.0)
             axes = {name: [along, 0.0] for name in ("wheel-eccentricity", "driver-eccentricity")}
             return self._rows({"lock-wheel": [wheel], "lock-disc": [disc], **axes, "centre": [along]}, at)
-        run = self._run(at)
-        normal, lever = normals(self.m, run), self._lever(run)
+        run = self.m.way(at)
+        normal, lever = self.m.slot_normal(run), self.m.lever(run)
         with np.errstate(divide="ignore"):
             inverse = np.where(np.abs(lever) > self.least_lever, 1 / lever, np.nan)
         if output == PLAY.name:
@@ -132,22 +133,23 @@ class GenevaTolerances(ToleranceModel):
             return self._wheel(named, at)[None]
         if output == PLAY.name:
             walls = named["slot-left"][0] + named["slot-right"][0]
-            return np.asarray(-walls / self._safe(self._run(at)))[None]
+            return np.asarray(-walls / self._safe(self.m.way(at)))[None]
         along = named["centre"][0] + named["wheel-eccentricity"][0] + named["driver-eccentricity"][0]
         wheel, disc = named["lock-wheel"][0], named["lock-disc"][0]
         if output == FREE.name:
             return np.asarray(along - wheel - disc + 0 * at)[None]
-        return (self._lock_play(wheel, disc, along) - self._lock_play(0.0, 0.0, 0.0) + 0 * at)[None]
+        play = self.m.lock_play(self.m.arc - wheel, self.m.lock + disc, along)
+        return np.asarray(play - self.lock_play + 0 * at)[None]
 
     def _safe(self, run: Stroke) -> Array:
         """Size (...) of the lever, not less than the least one that counts, mm."""
-        safe: Array = np.maximum(np.abs(self._lever(run)), max(self.least_lever, _TINY))
+        safe: Array = np.maximum(np.abs(self.m.lever(run)), max(self.least_lever, _TINY))
         return safe
 
     def _wheel(self, named: Mapping[str, Array], at: Array) -> Array:
         """Error (...), rad, of the wheel's angle."""
-        m, run = self.m, self._run(at)
-        normal = normals(m, run)
+        m, run = self.m, self.m.way(at)
+        normal = m.slot_normal(run)
         pin, off = named["roller-pin"], named["wheel-eccentricity"]
         arm = np.exp(1j * (run.phi - (named["input"][0] if "input" in named else 0.0)))
         centre = m.axes + named["centre"][0] - (m.crank + named["crank"][0]) * arm
@@ -156,41 +158,34 @@ class GenevaTolerances(ToleranceModel):
         beside, reach = named["roller-in-slot"][0], np.abs(centre)
         if m.straight:
             return np.asarray(np.angle(centre * np.conj(run.centre)) + np.arcsin(beside / reach))
+
+        def line(angle: Array) -> tuple[Stroke, Points]:
+            there = m.way(angle)
+            return there, there.centre - beside * there.normal
+
         angle = at + 0 * reach
         for _ in range(_NEWTON):
-            there = way(m, angle)
-            place = there.place - beside * there.normal
-            rate = 2 * (np.conj(place) * there.first).real
+            there, place = line(angle)
+            rate = 2 * (np.conj(place) * there.velocity).real
             short = np.abs(rate) < _TINY
-            step = (reach**2 - np.abs(place) ** 2) / np.where(short, np.inf, rate)
-            angle = angle + np.clip(step, -_STEP, _STEP)
-        there = way(m, angle)
-        place = there.place - beside * there.normal
+            change = (reach**2 - np.abs(place) ** 2) / np.where(short, np.inf, rate)
+            angle = angle + np.clip(change, -_STEP, _STEP)
+        there, place = line(angle)
         missed = np.abs(np.abs(place) - reach) > _MISSED
         return np.where(missed, np.nan, there.theta - run.theta + np.angle(centre * np.conj(place)))
 
-    def _run(self, at: Array) -> Stroke:
-        return self.m.stroke(np.asarray(at) / (2 * self.m.crank_half))
-
-    def _lever(self, run: Stroke) -> Array:
-        return np.asarray((np.conj(run.centre) * normals(self.m, run)).imag)
-
-    def _lock_play(self, wheel: Array | float, disc: Array | float, along: Array | float) -> Array:
-        """Play (...), rad, of the locked wheel to each side: a horn leaves its arc and meets the disc."""
-        return np.asarray(self.m.lock_play(self.m.arc - wheel, self.m.lock + disc, along))
-
     def _lock_rates(self) -> tuple[float, float, float]:
         """Derivatives of the play of the lock by the wall of the wheel, that of the disc, and the axes."""
-        m = self.m
-        a, rim, lock = m.axes, m.rim, m.lock
+        m, a, rim, lock = self.m, self.m.axes, self.m.rim, self.m.lock
         horn, stop = (a * rim * math.sin(corner_angle(a, rim, radius)) for radius in (m.arc, lock))
         return -m.arc / horn, -lock / stop, (a * a - rim * rim + lock * lock) / (2 * a * stop)
 
 
-def _locks(m: Mechanism) -> bool:
-    """Whether the disc covers both horns of an arc in the middle of a dwell."""
-    middle = m.pitch / 2 - m.crank_half
-    return middle > 0 and m.axes - m.rim < m.lock < m.axes + m.rim and middle >= m.arc_half
+def _bend(m: Mechanism) -> float:
+    """ρ² (κ + 1/ρ), mm, at mid stroke: half of it times x² is how far the way falls off the circle."""
+    run = m.stroke(np.array([0.5]))
+    away = (np.conj(run.normal) * run.centre).real
+    return float(np.abs(away * run.regularity(away, RIGHT))[0])
 
 
 _TINY = 1e-9

@@ -171,7 +171,7 @@ def _straight(run: Stroke, drive: Drive) -> Contact:
 
 def curved(run: Stroke, drive: Drive) -> Contact:
     """In a curved slot; design axis first if there is one."""
-    signed = (np.conj(run.centre) * run.normal).imag
+    signed = run.lever(run.normal)
     lever = np.abs(signed)
     delta = np.arccos(np.clip(lever / np.abs(run.centre), 0, 1))
     blocked = delta > BLOCKED

@@ -174,6 +174,11 @@ class Stroke:
         points: Points = touched(self.centre, self.normal, radius, side) * self.to_wheel
         return points
 
+    def lever(self, normal: Points) -> Array:
+        """Lever of a normal about the wheel's axis, mm; above 0 where a push along it turns the wheel on."""
+        value: Array = (np.conj(self.centre) * normal).imag
+        return value
+
     @cached_property
     def curvature(self) -> Array:
         """κ of the roller's way, 1/mm, positive where it bends to the left."""

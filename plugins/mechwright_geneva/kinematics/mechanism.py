@@ -14,7 +14,7 @@ from mechwright import Array
 from mechwright.contracts.design_table import DesignTable, number, plain
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics.drive import Driver, driver_of
-from mechwright_geneva.kinematics.geometry import Frame, Stroke, corner_angle, regime, stroke
+from mechwright_geneva.kinematics.geometry import Frame, Points, Stroke, corner_angle, regime, stroke
 from mechwright_geneva.kinematics.horn_clearance import greatest_discs
 from mechwright_geneva.kinematics.laws import law_of
 from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, Measures, measure, sharpened
@@ -275,6 +275,22 @@ class Mechanism(DesignTable[GenevaParams]):
     def stroke(self, u: Array) -> Stroke:
         """The stroke at shares u (k,)."""
         return stroke(self.frame, self.law, u)
+
+    def way(self, angle: Array) -> Stroke:
+        """The stroke at crank angles (...), rad, from its start; before and after it the wheel rests."""
+        share = angle / (2 * self.crank_half)
+        run, moves = self.stroke(np.clip(share, 0, 1)), (share >= 0) & (share <= 1)
+        phi = np.where(moves, run.phi, self.crank_half - angle)
+        rates = (np.where(moves, rate, 0.0) for rate in (run.first, run.second, run.third))
+        return Stroke(run.frame, phi, run.theta, *rates)
+
+    def slot_normal(self, run: Stroke) -> Points:
+        """Unit normal (...) of the slot, fixed axes; of a straight one also where the roller turns back."""
+        return np.asarray(1j * run.centre / np.abs(run.centre)) if self.straight else run.normal
+
+    def lever(self, run: Stroke) -> Array:
+        """Lever (...) of that normal about the wheel's axis, mm, signed."""
+        return run.lever(self.slot_normal(run))
 
     def value_of_blocks(self, function: "Callable[[Mechanism], Array]") -> float:
         """What a function gives (b, 1) of blocks of mechanisms, as a number or a column (n, 1)."""

@@ -122,8 +122,7 @@ def _impact(m: Mechanism, u: float, stroke: int) -> float | None:
     pull = torque(m, way, stroke) / m.params.load_inertia
     speed = np.concatenate(([0.0], np.cumsum(steps * (pull[1:] + pull[:-1]) / 2)))
     lead = np.concatenate(([0.0], np.cumsum(steps * (speed[1:] + speed[:-1]) / 2)))
-    lever = np.abs(run.centre) if m.straight else (np.conj(run.centre) * run.normal).imag
-    gap = lever * lead
+    gap = m.lever(run) * lead
     gap *= np.sign(gap[_BEGUN])
     closed, back = np.flatnonzero(gap >= clearance), np.flatnonzero(gap[_BEGUN:] < 0)
     if not closed.size or (back.size and back[0] + _BEGUN < closed[0]):

@@ -32,7 +32,7 @@ _TENTH, _CLOSE = 0.1, 0.01
 
 
 def with_remedy(params: GenevaParams, finding: Finding) -> Finding:
-    """An error about a size that the design gives, and not about what has been made of it.
+    """An error with a remedy about sizes that the design gives, and not about what has been made of them.
 
     Where no change of one size mends it, the remedy is the change of several that does.
     """
@@ -42,18 +42,14 @@ def with_remedy(params: GenevaParams, finding: Finding) -> Finding:
     remedy = finding.remedy
     if not remedy and finding.code in SEARCHED and params.law != "straight":
         remedy = slot_remedy(mechanism_of(params))
-    named = next((key for key in given if key in (finding.parameter, *remedy.split())), "")
-    if not (remedy and named):
-        other, key = without_sizes(params)
-        remedy, named = (other, key) if other else (remedy or _LAST, finding.parameter)
-    return replace(
-        finding, remedy=remedy, parameter=finding.parameter if finding.parameter in given else named
-    )
+    if not (remedy and set(given) & {finding.parameter, *remedy.split()}):
+        remedy = without_sizes(params) or remedy or _LAST
+    return replace(finding, remedy=remedy)
 
 
 @kept
-def without_sizes(params: GenevaParams) -> tuple[str, str]:
-    """The change that makes a design valid, in words, and the first key of it; tried. Empty if none does."""
+def without_sizes(params: GenevaParams) -> str:
+    """The change that makes a design valid, in words; tried. Empty if none does."""
     omitted: set[str] = set()
     for group in GROUPS:
         given = {key for key in group if key in params.model_fields_set}
@@ -69,10 +65,8 @@ def without_sizes(params: GenevaParams) -> tuple[str, str]:
             values = {key: _nearest(table, key, getattr(params, key), value) for key, value in values.items()}
         said = ", ".join(f"{key} = {value:.6g}" for key, value in values.items() if value is not None)
         gone = ", ".join(key for key, value in values.items() if value is None)
-        return ", and ".join([f"use {said}"] * bool(said) + [f"leave out {gone}"] * bool(gone)), next(
-            iter(values)
-        )
-    return "", ""
+        return ", and ".join([f"use {said}"] * bool(said) + [f"leave out {gone}"] * bool(gone))
+    return ""
 
 
 def _valid(table: dict[str, Any]) -> bool:

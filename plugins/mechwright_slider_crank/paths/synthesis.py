@@ -27,8 +27,8 @@ from mechwright.mechanics.tracing.search import (
 )
 from mechwright.mechanics.tracing.stepped import Held, stepped
 from mechwright.mechanics.tracing.symmetry import Image, symmetries
-from mechwright_slider_crank.figures import least_transmission_angle
-from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.kinematics.limits import least_transmission_angle
+from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.paths.room import Limits, SliderRoom
 from mechwright_slider_crank.requirements import PathRequirement
 from mechwright_slider_crank.synthesis import buildable

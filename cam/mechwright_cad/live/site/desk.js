@@ -11,8 +11,13 @@ function draw(scene, more) {
   main.replaceChildren(document.getElementById("stage-of").content.cloneNode(true));
   kept = player({ ...scene, ...more, live: true, ghost: ghost || scene.ghost }, before, end.signal) || (() => ({}));
 }
+// A design with places to drag is drawn with its handles; those that a hand has moved meanwhile stay where it left them.
+function present_(scene, asked) {
+  if (!handles?.held() && (!scene.targets || same(asked.change, change))) handles = null;
+  scene.targets ? drawWhenFree(scene) : draw(scene);
+}
 const parts = newest("parts", (found, asked) => {
-  if (found.scene) draw(found.scene);
+  if (found.scene) present_(found.scene, asked);
   found.unmade ? say(found.unmade, true) : mended();
   findings(found.findings, false, follow);
   remedies(asked);
@@ -23,7 +28,7 @@ const remedies = newest("remedies", (found, asked) => {
 }, () => { document.getElementById("waiting").textContent = ""; });
 const motion = newest("motion", (found, asked) => {
   // While plates are drawn, links go over them; what the plates are comes a moment later.
-  draw(ghost || !picture || !picture.layers || picture.bare ? found.scene : { ...found.scene, ghost: picture });
+  present_(ghost || !picture || !picture.layers || picture.bare ? found.scene : { ...found.scene, ghost: picture }, asked);
   mended();
   parts(asked);
 }, failed);
@@ -45,9 +50,23 @@ function shows() {
   button_("build").title = clean ? "" : "A build is made of the file: save first";
   document.title = `${clean ? "" : "• "}${known ? known.name : "Mechwright"}: live`;
 }
+// A choice may bring other fields, as those of another linkage. Values of the file stay what the fields go back to.
+const choices = () => JSON.stringify([...fields.values()].filter(({ field }) => field.kind === "choice").map(({ field }) => value(field.key)));
+function fieldsOf(found) {
+  const own = new Map(known.fields.map((field) => [field.key, field]));
+  return found.map((field) => own.get(field.key) || (field.key in change ? { ...field, value: field.default } : field));
+}
+const relay = newest("described", (found) => {
+  const now = fieldsOf(found.fields);
+  if (now.length === fields.size && now.every((field) => fields.has(field.key))) return;
+  lay(now, set);
+  shows();
+}, () => {});
 function take(next, done) {
   say("");
+  const before = choices();
   change = next;
+  if (known && choices() !== before) relay({ change });
   if (done && !same(change, settled)) {
     past.push(settled);
     future = [];
@@ -68,7 +87,9 @@ const follow = (fix) => take({ ...change, ...fix }, true);
 function step(from, to) {
   if (!from.length) return;
   to.push(settled);
+  const before = choices();
   change = settled = from.pop();
+  if (choices() !== before) relay({ change });
   shows();
   look();
 }
@@ -82,7 +103,7 @@ document.addEventListener("keydown", (event) => {
 button_("compare").addEventListener("click", () => {
   ghost = ghost || !picture ? null : { ...picture, ghost: null };
   button_("compare").setAttribute("aria-pressed", String(Boolean(ghost)));
-  if (picture) known.seeks ? drawWished(picture) : draw(picture);
+  if (picture) picture.targets ? drawWished(picture) : draw(picture);
 });
 async function open(words) {
   try {
@@ -93,7 +114,7 @@ async function open(words) {
   }
   button_("name").textContent = known.name;
   button_("title").textContent = `${known.title} · ${known.file}`;
-  lay(known.fields, set);
+  lay(Object.keys(change).length ? fieldsOf(await ask("described", { change }).then((found) => found.fields, () => known.fields)) : known.fields, set);
   for (const key of Object.keys(change)) if (!fields.has(key) || same(change[key], fields.get(key).field.value)) delete change[key];
   settled = change;
   for (const one of document.querySelectorAll("[data-of]")) one.hidden = one.dataset.of !== (known.seeks ? "requirement" : "design");

@@ -1,4 +1,4 @@
-// What a requirement asks for as handles in the picture: dragged with the pointer, or moved by the arrow keys.
+// Places of a requirement or a design as handles in the picture: dragged with the pointer, or moved by the arrow keys.
 const GRIP = 1 / 60, REACH = 2.2, NUDGE = 1 / 100, FINE = 1 / 10; // of the picture; of a handle; of the picture; of a nudge
 function drawnIn(name, attributes, parent) {
   const one = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -77,10 +77,10 @@ function grips(scene, targets, drag) {
     const radius = view.across * GRIP;
     drawnIn("circle", { class: "hold", r: radius * REACH }, handle);
     drawnIn("circle", { class: "ring", r: radius }, handle);
-    const number = name.match(/\d+$/);
-    if (number) {
-      const text = drawnIn("text", { "font-size": radius * 1.3, "text-anchor": "middle", y: radius * 0.45 }, handle);
-      text.textContent = number[0];
+    const words = name.length <= 3 ? name : name.match(/\d+$/)?.[0];
+    if (words) {
+      const size = radius * (words.length > 2 ? 0.9 : 1.3);
+      drawnIn("text", { "font-size": size, "text-anchor": "middle", y: size * 0.35 }, handle).textContent = words;
     }
     drawnIn("title", {}, handle).textContent = name;
     made_.set(name, handle);

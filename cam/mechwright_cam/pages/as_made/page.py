@@ -3,10 +3,10 @@
 import json
 from typing import Any
 
-from mechwright.build import Build, FileName, Page, Wanted
 from mechwright.contracts.as_made import AsMade, MadeFigure
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.made_part import MadePart
+from mechwright.pipeline import Build, FileName, Page, Wanted
 
 JSON, HTML, DRAWING = "as-made.json", "as-made.html", "-as-made.dxf"
 

@@ -39,6 +39,10 @@ def inspection(job: Job, to: Lengths) -> list[Measured]:
 
 def _listed(job: Job, to: Lengths) -> Iterator[Measured]:
     x0, y0, x1, y1 = job.target.bounds
+    for measure in job.part.measures:
+        sizes = (measure.nominal, measure.least, measure.greatest)
+        nominal, least, greatest = ("–" if one is None else _text(one, to, 3) for one in sizes)
+        yield Measured(measure.what, nominal, least, greatest, measure.by)
     yield _general("overall, along X", x1 - x0, to)
     yield _general("overall, along Y", y1 - y0, to)
     for feature in job.features:

@@ -13,6 +13,7 @@ driver, driven gear
 from mechwright.mechanics.gearing.bodies import TO_NM, body, driven_torque, turned_back
 from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
 from mechwright.mechanics.gearing.exactness import exact_fit, lever_fit
+from mechwright.mechanics.gearing.gauging import gear_measures
 from mechwright.mechanics.gearing.mesh import Mesh, first_depth, mesh, swing
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
@@ -51,6 +52,7 @@ __all__ = [
     "exact_fit",
     "first_depth",
     "gear_loop",
+    "gear_measures",
     "lever_fit",
     "mesh",
     "prove_mesh",

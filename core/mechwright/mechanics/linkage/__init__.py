@@ -12,9 +12,18 @@ layer
     A slice of the height that plates share, counted from the ground plate, which is layer 0.
 """
 
+from mechwright.mechanics.linkage.bushings import bushing_findings, too_thin
 from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
 from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, moving_figures, plate_mass, together
-from mechwright.mechanics.linkage.outlines import Boss, bent_link, disc, hull_link, rectangle, web_link
+from mechwright.mechanics.linkage.outlines import (
+    Boss,
+    bent_link,
+    disc,
+    hull_link,
+    rectangle,
+    straight_link,
+    web_link,
+)
 from mechwright.mechanics.linkage.stacking import Layer, Stack, stack
 from mechwright.mechanics.linkage.turned import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
 
@@ -29,6 +38,7 @@ __all__ = [
     "Spindle",
     "Stack",
     "bent_link",
+    "bushing_findings",
     "bushing_part",
     "cylinder_mass",
     "disc",
@@ -38,6 +48,8 @@ __all__ = [
     "plate_mass",
     "rectangle",
     "stack",
+    "straight_link",
     "together",
+    "too_thin",
     "web_link",
 ]

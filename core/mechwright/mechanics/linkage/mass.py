@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from mechwright.contracts.materials import material
 from mechwright.contracts.motion import Scalar
 from mechwright.geometry import Outline
@@ -61,14 +63,14 @@ def cylinder_mass(
 
 
 def together(masses: Iterable[Mass]) -> Mass:
-    """Several masses fixed to one body, by the parallel axis theorem.
+    """Several masses fixed to one body, by the parallel axis theorem; numbers, or columns (n, 1) of designs.
 
     >>> together([Mass(1, 0j), Mass(1, 2 + 0j)])
     Mass(mass=2, centre=(1+0j), inertia=2.0)
     """
     parts = list(masses)
     total = sum(part.mass for part in parts)
-    if total == 0:
+    if np.all(total == 0):
         return Mass(0.0)
     centre = sum((part.mass * part.centre for part in parts), 0j) / total
     return Mass(total, centre, sum(part.about(centre) for part in parts))

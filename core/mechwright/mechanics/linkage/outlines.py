@@ -160,6 +160,20 @@ def web_link(one: Boss, two: Boss, width: float, fillet: float) -> Outline:
     return _webbed(one, two, (), width, fillet)
 
 
+def straight_link(one: Boss, two: Boss, width: float) -> Outline:
+    """A web between two bosses, or their hull where there is no room for the fillets of a web.
+
+    >>> [len(straight_link(Boss(0j, 8), Boss(x + 0j, 8), 6).outer.segments) for x in (20, 40)]
+    [4, 8]
+    """
+    half = width / 2
+    if half < min(one.radius, two.radius):
+        taken = sum(_fillet_reach(boss, half, FILLET) for boss in (one, two))
+        if taken < abs(two.centre - one.centre):
+            return web_link(one, two, width, FILLET)
+    return hull_link((one, two))
+
+
 def bent_link(one: Boss, two: Boss, elbow: complex, width: float, fillet: float, radius: float) -> Outline:
     """A link whose web goes by way of an elbow, rounded to ``radius``, mm, on the web's middle.
 

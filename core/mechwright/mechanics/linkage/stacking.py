@@ -2,17 +2,18 @@
 
 Plates of one layer share a height, so no two of them may come closer than a clearance while the mechanism
 turns. A spindle takes up every layer from its lowest plate to its highest, so no other plate there may come
-close to it. All ways to deal plates to layers are tried, the flattest first, and among those the one whose
+close to it. Of all ways to deal plates to layers the flattest is taken, and among those the one whose
 spindles are shortest.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
 from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
+from mechwright.mechanics.linkage.layer_search import Problem, flattest
 
 STACK_SAMPLES = 361
 """Positions of a crank per turn, both ends included, at which plates are kept apart."""
@@ -94,9 +95,10 @@ def stack(
     conflicts = _Conflicts(set(), {}, {})
     for close in measured or [Closeness(plates, spindles, one, clearance) for one in phases]:
         conflicts = conflicts.joined(_conflicts(plates, spindles, choices, close, pairs))
-    layer = _flattest(plates, spindles, choices, conflicts, together)
-    if layer is None:
+    chosen = flattest(_problem(plates, spindles, choices, conflicts, together))
+    if chosen is None:
         raise GeometryError(_reason(plates, spindles, conflicts))
+    layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
     return _heights(plates, spindles, layer, gap)
 
 
@@ -129,12 +131,6 @@ class _Conflicts:
             both(self.blocked, other.blocked),
             both(self.covered, other.covered),
         )
-
-    def allow(self, layer: Mapping[str, int], ends: Mapping[str, tuple[int, int]]) -> bool:
-        """Whether spindles that end in these layers meet none of their plates in between, nor above."""
-        through = (ends[s][0] <= layer[p] <= ends[s][1] for s, found in self.blocked.items() for p in found)
-        above = (layer[p] > ends[s][1] for s, found in self.covered.items() for p in found)
-        return not any(through) and not any(above)
 
 
 def _conflicts(
@@ -169,49 +165,27 @@ def _conflicts(
     return _Conflicts(clashes, blocked, covered)
 
 
-def _flattest(
+def _problem(
     plates: Sequence[Plate],
     spindles: Sequence[Spindle],
     choices: Sequence[tuple[int, ...]],
     conflicts: _Conflicts,
     together: Sequence[tuple[str, ...]],
-) -> dict[str, int] | None:
-    """Plate to its layer in the flattest way that works, of several the one with the shortest spindles."""
-    best: tuple[tuple[float, ...], dict[str, int]] | None = None
+) -> Problem:
+    """The same with plates by their number."""
     place = {plate.name: number for number, plate in enumerate(plates)}
-    clashing = [(place[one], place[two]) for one, two in map(sorted, conflicts.clashes)]
-    for chosen in _dealings(choices, clashing):
-        if (best is not None and max(chosen) > best[0][0]) or set(chosen) != set(range(max(chosen) + 1)):
-            continue  # higher than need be, or with an empty layer, which only makes spindles longer
-        layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
-        ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
-        cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
-        if best is not None and cost >= best[0]:
-            continue
-        if all(len({layer[name] for name in group}) == 1 for group in together) and conflicts.allow(
-            layer, ends
-        ):
-            best = (cost, layer)
-    return None if best is None else best[1]
 
+    def numbers(names: Iterable[str]) -> frozenset[int]:
+        return frozenset(place[name] for name in names)
 
-def _dealings(
-    choices: Sequence[tuple[int, ...]], clashing: Sequence[tuple[int, int]]
-) -> Iterator[tuple[int, ...]]:
-    """All ways to deal plates to layers in which no two plates that clash share one, in order."""
-    foes = [[a + b - place for a, b in clashing if max(a, b) == place] for place in range(len(choices))]
-
-    def deal(dealt: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
-        place = len(dealt)
-        if place == len(choices):
-            yield dealt
-            return
-        taken = {dealt[foe] for foe in foes[place]}
-        for layer in choices[place]:
-            if layer not in taken:
-                yield from deal((*dealt, layer))
-
-    return deal(())
+    return Problem(
+        tuple(frozenset(choice) for choice in choices),
+        tuple(numbers(spindle.plates) for spindle in spindles),
+        tuple(numbers(pair) for pair in conflicts.clashes),
+        tuple(numbers(conflicts.blocked.get(spindle.name, ())) for spindle in spindles),
+        tuple(numbers(conflicts.covered.get(spindle.name, ())) for spindle in spindles),
+        tuple(numbers(group) for group in together),
+    )
 
 
 def _heights(

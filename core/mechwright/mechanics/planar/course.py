@@ -14,6 +14,7 @@ acceleration ratio
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -94,6 +95,24 @@ class Course:
         k = self.acceleration_ratio
         omega = math.copysign(speed, self.travel) * np.exp(k * (angles - self.start))
         return Turning.of(angles, omega, k * omega**2, 2 * k**2 * omega**3)
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Courses of the inputs of a table of designs, each field a number or a column (n, 1)."""
+
+    start: Any
+    travel: Any
+    rocks: Any
+    acceleration_ratio: Any = 0.0
+
+    @property
+    def course(self) -> Course:
+        """That of one design."""
+        start, travel, ratio = (
+            float(np.ravel(one)[0]) for one in (self.start, self.travel, self.acceleration_ratio)
+        )
+        return Course(start, travel, bool(np.ravel(self.rocks)[0]), ratio)
 
 
 def counted_from(start: Array | float, travel: Array | float, angle: Array | float) -> Array:

@@ -9,13 +9,14 @@ With d from the free end of the first link to that of the second, D = |d| and th
 At a toggle, sin(σ - ψ) = 0, the derivatives are infinite.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
-from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning
+from mechwright.mechanics.planar.rigid import Plane, Turning
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,12 +30,12 @@ class Rates:
 
     def turning(self, drive: Turning) -> Turning:
         """The same over time, with the input's own rates; the angle runs on over a turn."""
-        angle = np.unwrap(np.angle(self.direction))
+        angle = continuous(np.angle(self.direction))
         return Turning(angle, *drive.carried(self.first, self.second, self.third))
 
 
 def dyad(
-    d: tuple[Plane, Plane, Plane, Plane], first: ArrayLike, second: ArrayLike, branch: int
+    d: Sequence[Plane], first: ArrayLike, second: ArrayLike, branch: int, rates: int = 3
 ) -> tuple[Rates, Rates]:
     """Both links over the vector d (...) and its three derivatives by the input's angle.
 
@@ -46,49 +47,28 @@ def dyad(
         Lengths c and l, mm.
     branch
         +1 where C is to the left of d, -1 where it is to the right.
+    rates
+        The highest derivative that is needed, 0 to 3; d needs no higher ones. Those above are NaN.
 
     NaN where the two do not reach.
     """
     c, l = np.asarray(first), np.asarray(second)
-    place, d1, d2, d3 = d
     with np.errstate(invalid="ignore", divide="ignore"):
-        s, p = directions(place, c, l, branch)
+        s, p = directions(d[0], c, l, branch)
         sine = (s * np.conj(p)).imag
         one, two = -1 / (c * sine), -1 / (l * sine)
-        r = d1
-        w1, v1 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
-        r = d2 + c * w1**2 * s - l * v1**2 * p
-        w2, v2 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
-        r = d3 + c * (3 * w1 * w2 + 1j * w1**3) * s - l * (3 * v1 * v2 + 1j * v1**3) * p
-        w3, v3 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        none: Array = np.broadcast_to(np.float64(np.nan), sine.shape)
+        w1 = w2 = w3 = v1 = v2 = v3 = none
+        if rates > 0:
+            r = d[1]
+            w1, v1 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        if rates > 1:
+            r = d[2] + c * w1**2 * s - l * v1**2 * p
+            w2, v2 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
+        if rates > 2:
+            r = d[3] + c * (3 * w1 * w2 + 1j * w1**3) * s - l * (3 * v1 * v2 + 1j * v1**3) * p
+            w3, v3 = one * (r * np.conj(p)).real, two * (r * np.conj(s)).real
     return Rates(s, w1, w2, w3), Rates(p, v1, v2, v3)
-
-
-def joined(
-    one: PointMotion, two: PointMotion, first: ArrayLike, second: ArrayLike, branch: int
-) -> tuple[BodyMotion, BodyMotion]:
-    """The motion of both links on two points that move: what a six-bar adds to a four-bar.
-
-    Parameters
-    ----------
-    one, two
-        The free ends of the first and of the second link (...), such as a coupler point and a fixed pivot;
-        each link's origin stands there, its x axis to C.
-    first, second, branch
-        As :func:`dyad` takes them.
-
-    NaN where the two do not reach.
-    """
-    d = (
-        two.position - one.position,
-        two.velocity - one.velocity,
-        two.acceleration - one.acceleration,
-        two.jerk - one.jerk,
-    )
-    # Over time itself as the angle of the input: 1 rad/s.
-    time = Turning.of(np.zeros(d[0].shape), 1.0)
-    s, p = dyad(d, first, second, branch)
-    return BodyMotion(one, s.turning(time)), BodyMotion(two, p.turning(time))
 
 
 def directions(d: Plane, first: ArrayLike, second: ArrayLike, branch: int) -> tuple[Plane, Plane]:
@@ -105,3 +85,22 @@ def directions(d: Plane, first: ArrayLike, second: ArrayLike, branch: int) -> tu
         p = (c * s - d) / l
         p /= np.abs(p)  # what is left of the rounding where l is far smaller than c
     return s, p
+
+
+def continuous(angle: Array) -> Array:
+    """Angles (..., n), rad, without jumps by a turn along the samples; NaN stays NaN and parts nothing.
+
+    A turn between two samples that have a gap between them is not seen.
+
+    >>> continuous(np.array([3.0, np.nan, -3.0])).round(6).tolist()
+    [3.0, nan, 3.283185]
+    """
+    angle = np.asarray(angle)
+    finite = np.isfinite(angle)
+    if angle.ndim == 0:
+        return angle
+    if finite.all():
+        return np.unwrap(angle) if (np.abs(np.diff(angle)) > np.pi).any() else angle
+    last = np.maximum.accumulate(np.where(finite, np.arange(angle.shape[-1]), 0), axis=-1)
+    filled = np.nan_to_num(np.take_along_axis(angle, last, axis=-1))
+    return np.where(finite, np.unwrap(filled), np.nan)

@@ -68,15 +68,20 @@ class BodyMotion:
         """A body that only shifts, its angle ``theta`` in rad for good."""
         return cls(origin, Turning.of(np.broadcast_to(np.asarray(theta, float), origin.position.shape)))
 
-    def point(self, place: ArrayLike) -> PointMotion:
-        """Motion of body points: ``place`` (...) is x + i y in the body's coordinates, mm."""
-        turning, origin = self.turning, self.origin
-        lever = np.asarray(place, dtype=complex) * turning.direction
-        return PointMotion(
-            origin.position + lever,
-            origin.velocity + turning.velocity_factor * lever,
-            origin.acceleration + turning.acceleration_factor * lever,
-            origin.jerk + turning.jerk_factor * lever,
+    def point(self, place: ArrayLike, rates: int = 3) -> PointMotion:
+        """Motion of body points: ``place`` (...) is x + i y in the body's coordinates, mm.
+
+        ``rates`` is the highest rate that is needed, 0 to 3; those above are NaN.
+        """
+        return carried(self.origin, self.turning, np.asarray(place, complex) * self.turning.direction, rates)
+
+    def samples(self, some: slice) -> "BodyMotion":
+        """The motion at some of the samples, which are the last axis."""
+        origin, turning = self.origin, self.turning
+        places = (origin.position, origin.velocity, origin.acceleration, origin.jerk)
+        angles = (turning.theta, turning.omega, turning.alpha, turning.jerk)
+        return BodyMotion(
+            PointMotion(*(one[..., some] for one in places)), Turning(*(one[..., some] for one in angles))
         )
 
     def poses(self, z: float = 0.0, *, rates: bool = False) -> Poses:
@@ -101,6 +106,21 @@ def _frame_rates(turning: Plane, moving: Plane) -> Array:
     found[:, 1, 0], found[:, 0, 1] = turning.imag, -turning.imag
     found[:, 0, 3], found[:, 1, 3] = moving.real, moving.imag
     return found
+
+
+def carried(origin: PointMotion, turning: Turning, lever: Plane, rates: int = 3) -> PointMotion:
+    """Motion of the point at a lever (...) from the origin of a body, x + i y on the ground, mm.
+
+    ``rates`` is the highest rate that is needed, 0 to 3; those above are NaN.
+    """
+    position = origin.position + lever
+    none: Plane = np.broadcast_to(np.complex128(complex(np.nan, np.nan)), position.shape)
+    return PointMotion(
+        position,
+        origin.velocity + turning.velocity_factor * lever if rates > 0 else none,
+        origin.acceleration + turning.acceleration_factor * lever if rates > 1 else none,
+        origin.jerk + turning.jerk_factor * lever if rates > 2 else none,
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -123,7 +123,8 @@ def judged(
     stresses_of
         The stresses of any design; where there are none, or all are 0, there is nothing to say.
     ways
-        What helps, the best first: those whose values have been found to help are named.
+        What helps, the best first: those whose values have been found to help are named. The finding has
+        the first of them as its parameter, with ``advise`` and without.
     load
         What loads the parts, for the message: ``"408 N at 12 degrees"``.
     advise
@@ -149,7 +150,7 @@ def judged(
     yield Finding(
         code,
         one.severity,
-        helps[0][0].key if helps else ways[0].key,
+        ways[0].key,
         said + (f", and it fails from {one.breaks:.4g}" if fails else ""),
         one.value,
         one.limit,
@@ -177,6 +178,9 @@ class StressRule(Generic[D]):
         What loads the parts.
     stage
         Of the finding.
+    bears
+        Which designs of a table certainly bear their loads, a truth value or a column found cheaply: no
+        stresses are asked of them.
     """
 
     code: str
@@ -185,6 +189,7 @@ class StressRule(Generic[D]):
     again: Callable[[Any], D]
     load: Callable[[D], str] | None = None
     stage: Stage = Stage.PARTS
+    bears: Callable[[D], Any] | None = None
 
     @property
     def codes(self) -> Sequence[str]:
@@ -193,8 +198,16 @@ class StressRule(Generic[D]):
 
     def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,) in which a stress breaks a part; None if the stage is an earlier one."""
-        if list(Stage).index(self.stage) > list(Stage).index(stage):
+        if self.stage.is_after(stage):
             return None
+        if self.bears is None or table.single:
+            return self._breaks(table)
+        wrong: NDArray[np.bool_] = column(self.bears(table), table.size)[:, 0] == 0
+        if wrong.any():
+            wrong[wrong] = self._breaks(table.rows(np.flatnonzero(wrong)))
+        return wrong
+
+    def _breaks(self, table: D) -> NDArray[np.bool_]:
         wrong = np.zeros(table.size, bool)
         for one in self.stresses(table):
             if one.breaks is not None:

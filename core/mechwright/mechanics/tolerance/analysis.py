@@ -56,7 +56,7 @@ def analyse(model: ToleranceModel, tolerances: Tolerances) -> Analysis:
     """
     check_keys(model, tolerances)
     settings = tolerances.settings
-    asked = [_position(model, math.radians(at)) for at in settings.at]
+    asked = [_position(model, at) for at in settings.at]
     worst = {one.name: worst_place(model, one) for one in model.outputs}
     places = {
         one.name: tuple(place_at(model, one, at) for at in asked) if one.figure == "at" else ()
@@ -105,8 +105,16 @@ _KIND = {"rad": "angle", "mm": "length"}
 
 
 def _position(model: ToleranceModel, at: float) -> float:
-    """A position as the model counts it; raises DesignError if it does not come there."""
+    """A position, degrees or mm, as the model counts it; raises DesignError if it does not come there."""
     low, high = float(model.positions.min()), float(model.positions.max())
+    if model.input_unit != "rad":
+        if low <= at <= high:
+            return at
+        raise DesignError(
+            f"tolerances.at: {model.input_name} does not come to {at:g} {model.input_unit}; give {low:g} to "
+            f"{high:g}"
+        )
+    at = math.radians(at)
     turned = low + (at - low) % math.tau
     slack = 1e-9  # rounding of degrees
     if turned <= high + slack:

@@ -1,15 +1,11 @@
 """What a designer objects to, and a figure worth knowing. Numbers are columns in a table of designs."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mechwright import DesignRule, DesignTable, Note, Severity, all_of
+from mechwright_scotch_yoke.family import ScotchYokeParams
 from mechwright_scotch_yoke.kinematics import peak_force
 from mechwright_scotch_yoke.plates import FILLET, GAP
-
-if TYPE_CHECKING:
-    pass
 
 MIN_WEB = 2.0
 """Least wall between shaft bore and pin hole, mm: a thinner one spreads when the pin is pressed in."""
@@ -18,7 +14,7 @@ MAX_PRESSURE = 10.0
 MAX_BENDING = 250.0
 """Bending stress of the pin, MPa: a quarter of a hardened dowel pin's strength, since the load alternates."""
 
-Table = DesignTable["ScotchYokeParams"]
+Table = DesignTable[ScotchYokeParams]
 Rule = DesignRule[Table]
 
 

@@ -1,6 +1,0 @@
-"""The page of acceleration poles: their loci on the ground and in the coupler, and the circles."""
-
-from mechwright.build.poles.coupler import Coupler
-from mechwright.build.poles.page import PolesPage
-
-__all__ = ["Coupler", "PolesPage"]

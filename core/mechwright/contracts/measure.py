@@ -1,0 +1,41 @@
+"""Sizes that a finished part is measured by, beside its overall sizes and its bores."""
+
+from dataclasses import dataclass
+
+from mechwright.errors import GeometryError
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A size that tells whether a part is right.
+
+    Parameters
+    ----------
+    what
+        What is measured, and how, in a few words: ``"over pins ⌀3.5 at 4.6° and 184.6°"``.
+    nominal
+        mm.
+    least, greatest
+        Limits, mm; None where nothing is said.
+    by
+        What the limits follow from, in a few words.
+
+    Raises
+    ------
+    GeometryError
+        The nominal size is not within the limits.
+    """
+
+    what: str
+    nominal: float
+    least: float | None = None
+    greatest: float | None = None
+    by: str = ""
+
+    def __post_init__(self) -> None:
+        least = self.nominal if self.least is None else self.least
+        greatest = self.nominal if self.greatest is None else self.greatest
+        if not least <= self.nominal <= greatest:
+            raise GeometryError(
+                f"measure {self.what!r}: {self.nominal:g} mm is not within {least:g} to {greatest:g} mm"
+            )

@@ -1,0 +1,1 @@
+"""Plates, pins and bushings, and the layers they stand in."""

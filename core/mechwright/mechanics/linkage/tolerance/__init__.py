@@ -1,0 +1,1 @@
+"""Errors of a linkage: from tolerances, and from plates as they are made."""

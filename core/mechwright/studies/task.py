@@ -1,0 +1,135 @@
+"""One piece of a study's work, as a worker does it: in this process, in another, or on another machine."""
+
+import hashlib
+import json
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from importlib import import_module
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Self
+
+from numpy.typing import NDArray
+
+from mechwright.contracts.evaluation import Batch
+from mechwright.errors import PluginError
+from mechwright.plugins.host import host
+from mechwright.studies.draw import drawn
+from mechwright.studies.portion import Order, Portion, portion, sliced
+from mechwright.studies.shard import shard_of
+from mechwright.studies.study import Study, study_of
+from mechwright.worker_pool.budget import limit_cores
+from mechwright.worker_pool.recorded_warnings import RecordedWarning, record_warnings, take_warnings
+
+LIBRARIES = ("numpy", "scipy", "pyarrow")
+"""Whose versions change the bytes of a table."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A batch: one that is drawn, by its number, or one whose parameters are given.
+
+    Parameters
+    ----------
+    name
+        Stem of the name of its file.
+    first
+        Number of its first design.
+    drawn
+        Which batch of the study; None for one that is given.
+    given
+        Parameter to values (n,).
+    order
+        Which slice of it is done; None for all of it at once.
+    """
+
+    name: str
+    first: int
+    drawn: int | None
+    given: Mapping[str, NDArray[Any]] = field(default_factory=dict, repr=False)
+    order: Order | None = None
+
+    def size(self, study: Study) -> int:
+        """How many designs it has."""
+        if self.drawn is None:
+            return len(next(iter(self.given.values())))
+        return min(study.batch, study.count - self.first)
+
+
+def batch_of(study: Study, task: Task) -> Batch[Any]:
+    """The designs of a task."""
+    if task.drawn is not None:
+        return drawn(study, task.drawn)
+    return Batch(study.family.Params, study.content, task.given)
+
+
+@dataclass(frozen=True)
+class Source:
+    """A study as it goes to workers: what its file says, as JSON, and the file's name."""
+
+    text: str
+    name: str
+    family: str
+
+    @classmethod
+    def of(cls, study: Study) -> Self:
+        """That of a study, without the tables that go into designs, which workers do not need."""
+        kept = ("format", "family", "name", "parameters", "study")
+        said = {key: study.file[key] for key in kept if key in study.file}
+        return cls(json.dumps(said), study.path.name, study.family.name)
+
+    def done(self, task: Task) -> bytes | Portion:
+        """The table of a task, or what its order asks for, by a worker that has only this."""
+        study = _opened(self)
+        if task.order is None:
+            return shard_of(study, batch_of(study, task), task.first)
+        batch = sliced(batch_of(study, task)) if task.drawn is None else _drawn(self, task.drawn)
+        return portion(study, batch, task.first, task.order)
+
+    def alike(self, own: str, task: Task) -> tuple[bytes | Portion, list[RecordedWarning]]:
+        """The same with its warnings, by a worker that may have come after the others were asked.
+
+        It takes one core: a worker has as many threads for tasks as cores are meant for it.
+
+        Raises
+        ------
+        PluginError
+            It has something else than ``own``, the fingerprint of the process that asks.
+        """
+        if (said := fingerprint(self.family)) != own:
+            raise PluginError(unlike(said, own))
+        limit_cores(1)
+        record_warnings()
+        return self.done(task), take_warnings()
+
+
+@lru_cache(maxsize=4)
+def _opened(source: Source) -> Study:
+    return study_of(json.loads(source.text), Path(source.name), host())
+
+
+@lru_cache(maxsize=2)
+def _drawn(source: Source, number: int) -> Batch[Any]:
+    """A batch that a worker is at: slices of it follow each other."""
+    return sliced(drawn(_opened(source), number))
+
+
+def unlike(said: str, own: str) -> str:
+    """What is told of a worker with another fingerprint."""
+    return f"it has {said}; here it is {own}: install the same on both"
+
+
+@cache
+def fingerprint(family: str) -> str:
+    """What tells installations apart whose tables could differ: versions, and the program's text."""
+    found = hashlib.sha256()
+    for package in ("mechwright", type(host().family(family)).__module__.partition(".")[0]):
+        root = Path(str(import_module(package).__file__)).parent
+        files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.py")}
+        for name, path in sorted(files.items()):
+            found.update(name.encode())
+            found.update(path.read_bytes())
+    said = [f"{library} {version(library)}" for library in LIBRARIES]
+    return ", ".join([f"python {platform.python_version()}", *said, f"program {found.hexdigest()[:12]}"])

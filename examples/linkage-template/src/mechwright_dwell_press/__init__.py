@@ -1,0 +1,1 @@
+"""Presses whose ram dwells: a linkage of its own for Mechwright."""

@@ -1,0 +1,1 @@
+"""What plates as made do, and what tolerances do."""

@@ -1,0 +1,1 @@
+"""Positions, rates, loads and figures of five-bars, over tables of designs."""

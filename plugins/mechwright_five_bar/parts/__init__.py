@@ -1,0 +1,1 @@
+"""Outlines, plates, joints, hardware, mounting."""

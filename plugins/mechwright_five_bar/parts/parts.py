@@ -1,0 +1,193 @@
+"""The parts: plates, gears, shafts, pins, studs, bushings, clamps and posts, each where it stands."""
+
+from collections.abc import Mapping
+
+from mechwright import Colour, Instance, Part, Step, Turned
+from mechwright.contracts.holes import threaded
+from mechwright.contracts.part import Bore
+from mechwright.mechanics.gearing import gear_measures
+from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
+from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
+from mechwright.mechanics.linkage.turned import SHAFT, STEEL
+from mechwright.standards.screws import washer
+from mechwright_five_bar.kinematics.train import gear_teeth
+from mechwright_five_bar.parameters import FiveBarParams
+from mechwright_five_bar.parts.frames import fixed_frames
+from mechwright_five_bar.parts.hardware import clamp_of_design, head_of, running_bore, turning_bore
+from mechwright_five_bar.parts.hub import Hub, hub_of
+from mechwright_five_bar.parts.joints import joints_of, slotted
+from mechwright_five_bar.parts.layout import Layout, post_radius
+from mechwright_five_bar.parts.scales import scales
+from mechwright_five_bar.table import FiveBarTable
+
+BELOW = 2.0
+"""Air between the lowest head and what the posts stand on, mm."""
+
+COLOURS: Mapping[str, Colour] = {
+    "ground": (0.62, 0.64, 0.66),
+    "crank": (0.78, 0.36, 0.30),
+    "arm": (0.80, 0.68, 0.42),
+    "rocker": (0.42, 0.62, 0.45),
+    "coupler": (0.45, 0.58, 0.70),
+    "pinion": (0.72, 0.50, 0.44),
+    "idler": (0.60, 0.58, 0.52),
+    "wheel": (0.76, 0.68, 0.50),
+    "clamp": (0.50, 0.47, 0.62),
+}
+
+BODIES = {"pinion": "crank", "clamp": "arm"}
+"""Plates that belong to another body than their own."""
+
+
+def parts_of(m: FiveBarTable) -> tuple[Part, ...]:
+    """All parts of a design; raises as :attr:`FiveBarTable.layout`."""
+    params, layout, hub = m.params, m.layout, hub_of(m.params)
+    return (
+        *_plates(params, layout, hub),
+        *_pins(params, layout),
+        *_bushings(m),
+        *_clamps(m, hub),
+        *_posts(m, hub),
+    )
+
+
+def thickness_of(params: FiveBarParams, name: str) -> float:
+    """Of a plate, mm."""
+    if name == "ground":
+        return params.ground_thickness
+    return params.gear_thickness if name in {"pinion", "idler", "wheel", "clamp"} else params.thickness
+
+
+def _plates(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part]:
+    marks, gears, found = scales(params), gear_teeth(params), []
+    for name, colour in COLOURS.items():
+        if name not in layout.outlines:
+            continue
+        thickness = thickness_of(params, name)
+        part = Part(
+            name,
+            layout.outlines[name],
+            thickness,
+            params.material,
+            (Instance(BODIES.get(name, name), layout.heights[name]),),
+            colour,
+            details=marks.get(name, ()),
+            measures=gear_measures(gears[name]) if name in gears else (),
+        )
+        if name == "wheel" and hub is not None:
+            for feature in part.features:
+                if isinstance(feature, Bore) and abs(complex(*feature.centre)) > params.pin_diameter:
+                    part = threaded(part, feature.name, f"M{hub.clamp.size.size:g}")
+        found.append(part)
+    return found
+
+
+def spans_of(params: FiveBarParams, layout: Layout) -> dict[str, tuple[float, float]]:
+    """Heights of the lower and the upper end of each pin, heads left out, mm."""
+    found = dict(layout.stack.spans)
+    low, high = found["shaft-a0"]
+    found["shaft-a0"] = low - SHAFT * params.pin_diameter, high
+    if "clamp" in layout.heights:
+        found["shaft-b0"] = layout.heights["clamp"], found["shaft-b0"][1]
+    height = head_of(params)[1]
+    for name in ("pin-a", "pin-c"):
+        if slotted(params, name[-1].upper()):
+            found[name] = found[name][0] + height, layout.heights["coupler"]
+    return found
+
+
+def _pins(params: FiveBarParams, layout: Layout) -> list[Part]:
+    spans, diameter, head = spans_of(params, layout), params.pin_diameter, head_of(params)
+    frames = {"shaft-a0": "crank", "shaft-b0": "arm", "pin-b1": "arm-b1", "pin-idler": "ground-idler"}
+    frames |= {"pin-a": "crank-a", "pin-c": "rocker-c"}
+    parts = []
+    for name, one in joints_of(params).items():
+        low, high = spans[name]
+        if name == "pin-idler":
+            steps = (Step(head[0], head[1]), Step(diameter, high - low))
+            at = Instance(frames[name], low - head[1])
+            parts.append(Part(name, None, 0.0, PIN_MATERIAL, (at,), STEEL, turned=Turned(steps)))
+        elif one.stud:
+            clamp = clamp_of_design(params)
+            assert clamp is not None  # noqa: S101 - a slot without a clamp is an error
+            at = Instance("coupler" if name == "pin-a" else "coupler-c", low - head[1])
+            parts.append(stud_part(name, diameter, high - low, head, clamp, at))
+        else:
+            on_top = head if one.head else (0.0, 0.0)
+            parts.append(pin_part(name, diameter, high - low, (Instance(frames[name], low),), *on_top))
+    return parts
+
+
+def bushings_of(m: FiveBarTable) -> dict[str, tuple[str, ...]]:
+    """Plate to the frames of the bores in which something turns on a bushing."""
+    found: dict[str, tuple[str, ...]] = {"ground": ("ground", "ground-b0"), "rocker": ("rocker",)}
+    coupler: list[str] = []
+    for name, link, end, own in (
+        ("A", "crank", "crank-a", "coupler"),
+        ("C", "rocker", "rocker-c", "coupler-c"),
+    ):
+        if slotted(m.params, name):
+            found[link] = (*found.get(link, ()), end)
+        else:
+            spare = [frame for frame in fixed_frames(m) if frame.startswith(f"coupler-{name.lower()}")]
+            coupler += dict.fromkeys([own, *spare])
+    if coupler:
+        found["coupler"] = tuple(coupler)
+    if m.params.idler_teeth:
+        found["idler"] = ("idler",)
+    return found
+
+
+def _bushings(m: FiveBarTable) -> list[Part]:
+    params, layout = m.params, m.layout
+    if params.bushing_wall == 0:
+        return []
+    by_length: dict[float, list[Instance]] = {}
+    for plate, frames in bushings_of(m).items():
+        instances = [Instance(frame, layout.heights[plate]) for frame in frames]
+        by_length.setdefault(thickness_of(params, plate), []).extend(instances)
+    return [
+        bushing_part(
+            "bushing" if number == 0 else f"bushing-{number + 1}",
+            running_bore(params),
+            turning_bore(params),
+            length,
+            instances,
+            BUSHING_MATERIAL,
+        )
+        for number, (length, instances) in enumerate(by_length.items())
+    ]
+
+
+def _clamps(m: FiveBarTable, hub: Hub | None) -> list[Part]:
+    """Screws and washers on the coupler, and under the disc that clamps the arm's gear."""
+    params, layout = m.params, m.layout
+    found: list[Part] = []
+    top = layout.heights["coupler"] + params.thickness
+    frames = [frame for name, frame in (("A", "coupler"), ("C", "coupler-c")) if slotted(params, name)]
+    clamp = clamp_of_design(params)
+    if frames and clamp is not None:
+        found += screw_parts("clamp", clamp, [Instance(frame, top) for frame in frames])
+    if hub is not None:
+        names = [name for name in fixed_frames(m) if name.startswith("wheel-screw")]
+        seats = [Instance(name, layout.heights["clamp"]) for name in names]
+        found += screw_parts("hub", hub.clamp, seats, upwards=True)
+    return found
+
+
+def _posts(m: FiveBarTable, hub: Hub | None) -> list[Part]:
+    """Feet pressed into the ground plate from below, long enough for what hangs under it; or none."""
+    params, layout = m.params, m.layout
+    if params.screw_hole is not None:
+        return []
+    low = layout.heights["pinion"] - head_of(params)[1]
+    if hub is not None:
+        low = layout.heights["clamp"] - washer(hub.clamp.size.size).height - hub.clamp.size.head_height
+    foot = low - BELOW
+    steps = (
+        Step(2 * post_radius(params), layout.heights["ground"] - foot),
+        Step(params.pin_diameter, params.ground_thickness),
+    )
+    frames = [name for name in fixed_frames(m) if name.startswith("ground-post")]
+    instances = tuple(Instance(frame, foot) for frame in frames)
+    return [Part("post", None, 0.0, params.material, instances, COLOURS["ground"], turned=Turned(steps))]

@@ -1,0 +1,1 @@
+"""Designs for what is required."""

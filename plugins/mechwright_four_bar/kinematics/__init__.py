@@ -1,0 +1,1 @@
+"""Closed forms of the dimensions, motion and forces over one period."""

@@ -1,0 +1,1 @@
+"""Plates, pins, bushings, clamps and the layers they stand in."""

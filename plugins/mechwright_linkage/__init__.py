@@ -1,0 +1,1 @@
+"""The family of planar linkages: any links, pins and slides."""

@@ -1,0 +1,1 @@
+"""Linkages that have names, each with its dimensions."""

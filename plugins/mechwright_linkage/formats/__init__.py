@@ -1,0 +1,1 @@
+"""Linkages that other programs have drawn, read as drawn linkages."""

@@ -1,0 +1,1 @@
+"""Linkages of the catalogue that meet a requirement."""

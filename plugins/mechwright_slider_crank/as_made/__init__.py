@@ -1,0 +1,1 @@
+"""Errors of the slider and of the coupler point, from tolerances and from plates as made."""

@@ -1,0 +1,1 @@
+"""Positions, rates, ends of the stroke, and forces."""

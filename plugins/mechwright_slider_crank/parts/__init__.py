@@ -1,0 +1,1 @@
+"""Sizes, outlines, layers and masses of the parts."""

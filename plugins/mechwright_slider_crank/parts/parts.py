@@ -1,0 +1,72 @@
+"""The parts of a slider-crank."""
+
+from mechwright import Colour, Instance, Part
+from mechwright.mechanics.linkage import PIN_MATERIAL, bushing_part, pin_part
+from mechwright.standards.parts import GREY, dowel_part
+from mechwright_slider_crank.kinematics.mechanism import Mechanism
+from mechwright_slider_crank.parts.base import shaft_end, shaft_form
+from mechwright_slider_crank.parts.plates import layout_of
+
+COLOURS: dict[str, Colour] = {
+    "base": (0.78, 0.80, 0.82),
+    "rail": (0.60, 0.66, 0.72),
+    "crank": (0.80, 0.45, 0.30),
+    "rod": (0.35, 0.52, 0.70),
+    "slider": (0.85, 0.70, 0.35),
+}
+
+
+def parts_of(table: Mechanism) -> tuple[Part, ...]:
+    """All parts, plates first.
+
+    Raises
+    ------
+    GeometryError
+        As :func:`layout_of`.
+    """
+    params, layout = table.given, layout_of(table)
+    sizes, heights, spans = layout.sizes, layout.stack, layout.stack.spans
+    at: dict[str, tuple[Instance, ...]] = {
+        name: (Instance(name, heights.bottom(name)),) for name in ("base", "crank", "rod", "slider")
+    }
+    under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
+    lowest = heights.layer["rail-1"] == 1  # rails of the first layer lie on the base, others on spacers
+    foot = under if lowest else over
+    at["rail"] = tuple(Instance(name, foot) for name in ("rail-1", "rail-2"))
+    parts = [
+        Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
+        for name in ("base", "rail", "crank", "rod", "slider")
+    ]
+    parts += _shaft_parts(table, spans["shaft"])
+    for name, body in (("crank-pin", "crank-pin"), ("wrist-pin", "slider")):
+        low, high = spans[name]
+        head = sizes.head if layout.has_head(name) else (0.0, 0.0)
+        length = high - low + (params.gap if head[0] else 0.0)
+        parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
+    low, high = spans["dowel-1"]
+    dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
+    parts.append(dowel_part("dowel", sizes.dowel, round(high - low - (over - foot), 6), dowels))
+    if not lowest:
+        spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
+        parts.append(
+            bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)
+        )
+    if params.bushing > 0:
+        rod = tuple(Instance(name, heights.bottom("rod")) for name in ("rod", "rod-end"))
+        parts.append(bushing_part("bushing", sizes.pin, sizes.rod_bore, params.thickness, rod))
+        base = (Instance("base", heights.bottom("base")),)
+        parts.append(bushing_part("shaft-bushing", sizes.shaft, sizes.base_bore, params.thickness, base))
+    return tuple(parts)
+
+
+def _shaft_parts(table: Mechanism, span: tuple[float, float]) -> list[Part]:
+    """The crank's shaft, and the circlip on it under the base."""
+    (low, high), end = span, shaft_end(table)
+    at = Instance("crank", low - end.whole)
+    form = shaft_form(table, high - low)
+    parts = [Part("shaft", None, 0.0, PIN_MATERIAL, (at,), GREY, turned=form)]
+    if end.ring is not None:
+        under = (Instance("crank", low - table.given.gap - end.ring.thickness),)
+        name = f"circlip-{end.ring.size:g}"
+        parts.append(Part(name, None, 0.0, PIN_MATERIAL, under, GREY, bought=end.ring.bought))
+    return parts
