@@ -56,8 +56,8 @@ def gear_measures(
 
 
 def _thicker(teeth: Teeth, change: float) -> Teeth:
-    """Teeth that are thicker by so much, mm: the rack's backlash is twice what a tooth lacks."""
-    return replace(teeth, rack=replace(teeth.rack, backlash=teeth.rack.backlash - 2 * change))
+    """Teeth that are thicker by so much, mm."""
+    return replace(teeth, thickness=teeth.rack.pitch - 2 * teeth.half_space + change)
 
 
 def _size(pins: Pins, at: tuple[int, ...]) -> float:

@@ -106,7 +106,7 @@ def pins_in(teeth: Teeth, diameter: float, *, inside: bool = False) -> Pins:
         return place + diameter / 2 * out, rate[..., None] * way, height
 
     # Where the pin touches a rack: both flanks are planes.
-    depth = (diameter / (2 * cos) - rack.half_space) * cos / sin
+    depth = (diameter / (2 * cos) - teeth.half_space) * cos / sin
     arc = start + SIDES * (depth - diameter / 2 * sin) / (sin * cos)
     with np.errstate(all="ignore"):
         for _ in range(STEPS):

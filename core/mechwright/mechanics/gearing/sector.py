@@ -168,7 +168,7 @@ def sector_loop(teeth: SectorTeeth) -> tuple[Loop, float]:
     begin[0], end[-1] = teeth.ends
     roots, at_roots = offsets(teeth, begin, end, -teeth.rack.dedendum)
     fallen, risen = np.array([one[-1][-1] for one in fall]), np.array([one[0][0] for one in rise])
-    if teeth.rack.half_land > TOLERANCES.closure:
+    if teeth.half_land > TOLERANCES.closure:
         share(roots[1:], list(fallen[1:]), None)
         share(roots[:-1], None, list(risen[:-1]))
     else:

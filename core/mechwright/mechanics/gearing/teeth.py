@@ -46,6 +46,9 @@ class Teeth:
         Arc at the middle of tooth 0, in pitches.
     fit
         Deviation of the flanks of an outline from the exact ones, mm.
+    thickness
+        Of a tooth along the pitch curve, mm; None for that of the rack on its pitch line. Profile shift makes
+        it another: the cutter stands farther out by x modules, and teeth are thicker by 2 x m tan α.
 
     Arrays over flanks have shape (z, 2): the space, then its side -1 and +1.
     """
@@ -55,6 +58,7 @@ class Teeth:
     count: int
     offset: float
     fit: float = field(default=FIT, kw_only=True)
+    thickness: float | None = field(default=None, kw_only=True)
 
     @cached_property
     def tooth_arcs(self) -> Array:
@@ -70,8 +74,18 @@ class Teeth:
     @cached_property
     def flank_arcs(self) -> Array:
         """Arc s_f (z, 2), mm, where each flank crosses the pitch curve."""
-        arcs: Array = self.space_arcs[:, None] + SIDES * self.rack.half_space
+        arcs: Array = self.space_arcs[:, None] + SIDES * self.half_space
         return arcs
+
+    @property
+    def half_space(self) -> float:
+        """Half the width of a tooth space on the pitch curve, mm."""
+        return self.rack.half_space if self.thickness is None else (self.rack.pitch - self.thickness) / 2
+
+    @property
+    def half_land(self) -> float:
+        """From the middle of a space to the centres of the rack's tip arcs, mm."""
+        return self.rack.half_land + self.half_space - self.rack.half_space
 
     @property
     def wheel(self) -> int:
@@ -86,7 +100,7 @@ class Teeth:
     @cached_property
     def arc_centres(self) -> Array:
         """Arc x (z, 2), mm, at which the centres of the rack's tip arcs touch the root."""
-        arcs: Array = self.space_arcs[:, None] + SIDES * self.rack.half_land
+        arcs: Array = self.space_arcs[:, None] + SIDES * self.half_land
         return arcs
 
     @cached_property

@@ -2,7 +2,7 @@
 
 At the pitch point a pitch curve of radius of curvature ρ is taken for a circular gear of z_v = 2 ρ/m teeth.
 Form and stress correction factors are those of ISO 6336-3 for the rack that generates the teeth, with the
-load at the tip (method of DIN 3990, part 3, method C), no profile shift. Undercut teeth are outside of it.
+load at the tip (method of DIN 3990, part 3, method C). Undercut teeth are outside of it.
 
 Glossary
 --------
@@ -14,6 +14,7 @@ slant δ
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -49,25 +50,37 @@ def virtual_teeth(radius: "float | Array", module: float) -> Array:
     return np.where(radius > 0, np.minimum(2 * radius / module, STRAIGHT), STRAIGHT)
 
 
-def form_factors(teeth: "float | Array", rack: Rack = Rack()) -> tuple[Array, Array]:
+def form_factors(
+    teeth: "float | Array", rack: Rack = Rack(), shift: "float | Array" = 0.0, addendum: Any = None
+) -> tuple[Array, Array]:
     """Y_F and Y_S of gears with these numbers of teeth.
+
+    Parameters
+    ----------
+    shift
+        Profile shift x, in modules.
+    addendum
+        From the reference circle to the tip, in modules; None for that of the rack and the shift.
 
     >>> [round(float(value), 3) for value in form_factors(20)]
     [2.8, 1.553]
+    >>> [round(float(value), 3) for value in form_factors(20, shift=0.5)]
+    [2.173, 1.795]
     """
     z, alpha = np.asarray(teeth, dtype=float), rack.angle
     tan, cos, root = np.tan(alpha), np.cos(alpha), rack.tip_radius
-    g = root - rack.dedendum
+    g = root - rack.dedendum + np.asarray(shift, dtype=float)
+    height = rack.addendum + shift if addendum is None else addendum
     e = math.pi / 4 - rack.dedendum * tan - (1 - np.sin(alpha)) * root / cos
     h = 2 / z * (math.pi / 2 - e) - math.pi / 3
-    theta = np.full(z.shape, math.pi / 6)
+    theta = np.full(np.broadcast(z, g).shape, math.pi / 6)
     for _ in range(_ROUNDS):
         theta = 2 * g / z * np.tan(theta) - h
     thick = z * np.sin(math.pi / 3 - theta) + math.sqrt(3) * (g / np.cos(theta) - root)
     fillet = root + 2 * g * g / (np.cos(theta) * (z * np.cos(theta) ** 2 - 2 * g))
-    outside = z + 2 * rack.addendum
+    outside = z + 2 * height
     tip = np.arccos(z * cos / outside)
-    gamma = math.pi / 2 / z + (tan - alpha) - (np.tan(tip) - tip)
+    gamma = (math.pi / 2 + 2 * shift * tan) / z + (tan - alpha) - (np.tan(tip) - tip)
     slope = tip - gamma
     arm = (
         (np.cos(gamma) - np.sin(gamma) * np.tan(slope)) * outside
@@ -98,9 +111,11 @@ def root_stress(
     teeth: "float | Array",
     factor: float = FACTOR,
     rack: Rack = Rack(),
+    shift: "float | Array" = 0.0,
+    addendum: Any = None,
 ) -> Array:
-    """σ_F = F_t/(b m) Y_F Y_S K, MPa."""
-    form, stress = form_factors(teeth, rack)
+    """σ_F = F_t/(b m) Y_F Y_S K, MPa; shift and addendum are those of :func:`form_factors`."""
+    form, stress = form_factors(teeth, rack, shift, addendum)
     return np.asarray(force / (face * module) * form * stress * factor)
 
 

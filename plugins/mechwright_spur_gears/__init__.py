@@ -1,0 +1,1 @@
+"""Spur gears: involute pairs with profile shift."""

@@ -1,0 +1,99 @@
+"""The family ``spur-gears``."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar, cast
+
+from mechwright import Family, Finding, Stage, refuse
+from mechwright_spur_gears.parameters import SpurGearParams
+
+if TYPE_CHECKING:
+    import shapely
+
+    from mechwright import AsMade, Channel, MadePart, Motion, Mounting, Part, Transmission
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_spur_gears.gear_table import GearTable
+
+
+class SpurGears(Family[SpurGearParams]):
+    """A pinion and a gear with involute teeth."""
+
+    name = "spur-gears"
+    title = "Spur gears"
+    summary = "A pair of involute gears with profile shift, at the centre distance that you have."
+    Params = SpurGearParams
+    batch: ClassVar[int] = 1 << 16
+    counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth"})
+    structure: ClassVar[frozenset[str]] = frozenset({"keyway_width", "keyway_depth", "keyway_relief"})
+
+    def rules(self) -> "Rules[GearTable]":
+        """Distance, shifts, undercut, tips, contact, interference, bores, the mesh proof, strength."""
+        from mechwright_spur_gears.rules.rule_table import RULES
+
+        return RULES
+
+    def table(self, params: SpurGearParams, size: int | None = None) -> "GearTable":
+        """The pair with its shifts and its backlash."""
+        from mechwright_spur_gears.gear_table import table_of
+
+        return table_of(params, size)
+
+    def solve(self, params: SpurGearParams, samples: int) -> "Motion":
+        """One turn of the driver at constant speed."""
+        from mechwright_spur_gears.kinematics.motion import motion_of
+
+        refuse(self.check(params), Stage.MOTION)
+        return motion_of(self.table(params), samples)
+
+    def stretches(self, params: SpurGearParams, samples: int) -> "Iterator[Motion]":
+        """The same, a stretch after the other."""
+        from mechwright.contracts.stretch import in_stretches
+        from mechwright_spur_gears.kinematics.motion import motion_of
+
+        refuse(self.check(params), Stage.MOTION)
+        return in_stretches(partial(motion_of, self.table(params)), samples)
+
+    def parts(self, params: SpurGearParams) -> "Sequence[Part]":
+        """Both gears."""
+        from mechwright_spur_gears.parts.parts import parts_of
+
+        refuse(self.check(params), Stage.PARTS)
+        return parts_of(self.table(params))
+
+    def mounting(self, params: SpurGearParams) -> "Mounting":
+        """Both shafts."""
+        from mechwright_spur_gears.parts.mounting import mounting_of
+
+        return mounting_of(self.table(params))
+
+    def transmission(self, params: SpurGearParams) -> "Transmission":
+        """Driver in, driven gear out."""
+        from mechwright_spur_gears.kinematics.transmission import PairStage
+
+        return PairStage(self.table(params))
+
+    def check_cut(self, params: SpurGearParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
+        """Whether the pair as cut still meshes, and its keys go in."""
+        from mechwright_spur_gears.parts.made import cut_findings
+
+        return cut_findings(self.table(params), cut)
+
+    def as_made(self, params: SpurGearParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Play, transmission error and backlash, and whether the pair jams."""
+        from mechwright_spur_gears.parts.made import as_made
+
+        return as_made(self.table(params), made)
+
+    def figures(self, table: "DesignTable[SpurGearParams]") -> "Mapping[str, Figure]":
+        """Sizes, contact ratio, sliding."""
+        from mechwright_spur_gears.kinematics.motion import figures_of
+
+        return figures_of(cast("GearTable", table))
+
+    def channels(self, table: "DesignTable[SpurGearParams]", samples: int) -> "Mapping[str, Channel]":
+        """Angles of both gears and their rates."""
+        from mechwright_spur_gears.kinematics.motion import table_channels
+
+        return table_channels(cast("GearTable", table), samples)

@@ -1,0 +1,1 @@
+"""Motion, figures, and the pair as a stage of a chain."""

@@ -1,0 +1,37 @@
+"""The pair as a stage of a chain."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from mechwright import Array, Motion, Port, Transmission, Turning
+from mechwright_spur_gears.gear_table import NAMES, GearTable
+from mechwright_spur_gears.kinematics.motion import driven, motion_over
+
+
+class PairStage(Transmission):
+    """Driver in, driven gear out, the other way round."""
+
+    own_drive = ("speed",)
+    load_field = "load_torque"
+
+    def __init__(self, m: GearTable) -> None:
+        self.m = m
+        self.input = Port(NAMES[0], (0.0, 0.0))
+        self.output = Port(NAMES[1], (float(m.pair.distance), 0.0))
+        ratio = Fraction(int(m.pair.teeth[0]), int(m.pair.teeth[1]))
+        self.period = Fraction(ratio.denominator)
+        self.advance = -self.period * ratio
+        self.speed = float(m.omega)
+
+    def move(self, drive: Turning) -> Turning:
+        """By the ratio."""
+        return driven(self.m, drive)
+
+    def motion(self, drive: Turning, time: Array) -> Motion:
+        """Both gears."""
+        return motion_over(self.m, drive, time)
+
+    def power(self, drive: Turning, motion: Motion) -> Array:  # noqa: ARG002 - the ratio has it
+        """Of the torque against the driven gear."""
+        return np.asarray(self.m.given.load_torque * np.abs(self.move(drive).omega))

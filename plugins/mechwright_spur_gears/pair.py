@@ -1,0 +1,100 @@
+"""The pair of a design table, or of one whose numbers are columns: its module, shifts and backlash.
+
+The table is that of :mod:`mechwright_spur_gears.parameters`, which imports this module.
+"""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mechwright.mechanics.gearing.backlash import LEFT, PLANNED, pair_backlash
+from mechwright.mechanics.gearing.involute import (
+    MOST_SHIFT,
+    InvolutePair,
+    least_shift,
+    share_by_size,
+    share_by_sliding,
+    sum_of_shifts,
+)
+from mechwright.mechanics.gearing.usual import TIP_RADIUS
+from mechwright.tolerances import OFF_CENTRE
+
+INCH = 25.4
+"""mm."""
+
+STEP = 1e-3
+"""Shifts that are chosen are multiples of this, in modules."""
+
+
+def module_of(given: Any) -> Any:
+    """Reference diameter over the number of teeth, mm."""
+    return given.module if given.module is not None else INCH / given.diametral_pitch
+
+
+def pair_of(given: Any) -> InvolutePair:
+    """Both gears, with the shifts and the backlash that the design leaves out."""
+    angle = np.radians(given.pressure_angle)
+    pair = InvolutePair(
+        module_of(given),
+        angle,
+        (given.teeth, given.mate_teeth),
+        (0.0, 0.0),
+        given.addendum,
+        given.dedendum,
+        given.tip_radius,
+        0.0,
+    )
+    shifted = pair.with_shifts(*_shifts(given, pair))
+    backlash = backlash_for(shifted) if given.backlash is None else given.backlash
+    return replace(shifted, backlash=backlash)
+
+
+def _shifts(given: Any, pair: InvolutePair) -> tuple[Any, Any]:
+    """x1 and x2."""
+    one, two = given.shift, given.mate_shift
+    least = [_least(given, pair, gear) for gear in (0, 1)]
+    if given.centre_distance is not None:
+        total = sum_of_shifts(pair.teeth, pair.module, pair.angle, given.centre_distance)
+        if one is not None or two is not None:
+            return (one, total - one) if one is not None else (total - two, two)
+    elif one is not None or two is not None or given.shift_rule == "no-undercut":
+        return (least[0] if one is None else one), (least[1] if two is None else two)
+    else:
+        total = least[0] + least[1]
+    # A sum is shared; neither gear gets less than it needs, where that goes.
+    low, high = np.minimum(least[0], total - least[1]), np.maximum(least[0], total - least[1])
+    low, high = np.maximum(low, -MOST_SHIFT), np.minimum(high, MOST_SHIFT)
+    if given.shift_rule == "equal-sliding":
+        chosen = share_by_sliding(pair, total, low, high)
+    else:
+        chosen = np.clip(share_by_size(pair.teeth, total), low, high)
+    return chosen, total - chosen
+
+
+def _least(given: Any, pair: InvolutePair, gear: int) -> Any:
+    """The least shift without undercut, 0 or more."""
+    exact = least_shift(pair.teeth[gear], pair.angle, given.dedendum, given.tip_radius)
+    return np.maximum(np.ceil(exact / STEP - 1e-9) * STEP, 0.0)
+
+
+def backlash_for(pair: InvolutePair, *, jams: bool = False) -> Any:
+    """The least backlash, mm, with which gears as made turn; or with which they are sure to jam below it."""
+    left, off_centre = (PLANNED, 0.0) if jams else (LEFT, OFF_CENTRE)
+    return pair_backlash(1.0, pair.operating_angle, left, off_centre)
+
+
+def rack_tip_radius(given: Any) -> Any:
+    """The usual radius at the tip of the rack, in modules, or what leaves a land between both arcs."""
+    angle = np.radians(given.pressure_angle)
+    room = (math.pi / 4 - given.dedendum * np.tan(angle)) / (
+        np.cos(angle) - (1 - np.sin(angle)) * np.tan(angle)
+    )
+    return np.maximum(np.minimum(TIP_RADIUS, np.floor(100 * room) / 100), 0.0)
+
+
+def least_root(given: Any) -> Any:
+    """The smaller root radius, mm; NaN of gears that cannot stand at their distance."""
+    pair = pair_of(given)
+    return np.minimum(pair.root(0), pair.root(1))

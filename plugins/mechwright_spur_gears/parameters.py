@@ -1,0 +1,160 @@
+"""The design table of a pair of spur gears."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright import FIRST, FITTED, MaterialName, Parameters
+from mechwright.contracts.design_table import number
+from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_spur_gears.pair import least_root, module_of, rack_tip_radius
+
+LEAST_MODULE = 0.3
+"""mm."""
+
+Shift = Annotated[float, Field(ge=-1, le=1), Unit("")]
+
+
+class SpurGearParams(Parameters):
+    """A pinion and the gear that it drives: involute teeth of one rack, with profile shift.
+
+    Examples
+    --------
+    >>> SpurGearParams(module=1.0).thickness
+    4.0
+    """
+
+    also: ClassVar[Mapping[str, str]] = {
+        "ratio": "it is mate_teeth over teeth",
+        "pinion_teeth": "it is called teeth",
+        "gear_teeth": "it is called mate_teeth",
+        "dp": "it is called diametral_pitch",
+        "x1": "it is called shift",
+        "x2": "it is called mate_shift",
+        "face_width": "it is called thickness",
+    }
+
+    teeth: int = Field(20, ge=6, le=600, description="Teeth z1 of the driver.", json_schema_extra=FIRST)
+    mate_teeth: int = Field(
+        40, ge=6, le=600, description="Teeth z2 of the driven gear.", json_schema_extra=FIRST
+    )
+    module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
+        2.0,
+        description="Reference diameter over the number of teeth; give this or diametral_pitch.",
+        json_schema_extra=FIRST,
+    )
+    diametral_pitch: Annotated[float, Field(ge=1, le=85), Unit("")] | None = Field(
+        None, description="Teeth per inch of reference diameter, in place of module."
+    )
+    pressure_angle: Degrees = Field(
+        20.0, ge=14.5, le=30, description="Pressure angle of the rack.", json_schema_extra=FIRST
+    )
+    centre_distance: Annotated[float, Field(ge=2, le=3000), Unit("mm")] | None = Field(
+        None,
+        description="Distance of the axes, from which the sum of the shifts follows; left out, what the "
+        "shifts make of it.",
+        json_schema_extra=FIRST,
+    )
+    shift: Shift | None = Field(
+        None,
+        description="Profile shift x1 of the driver, in modules; left out, chosen by shift_rule.",
+        json_schema_extra=FIRST,
+    )
+    mate_shift: Shift | None = Field(
+        None,
+        description="Profile shift x2 of the driven gear, in modules; left out, chosen by shift_rule.",
+        json_schema_extra=FIRST,
+    )
+    shift_rule: Literal["no-undercut", "equal-sliding"] = Field(
+        "no-undercut",
+        description="How shifts that are left out are chosen. no-undercut: none, or the least without "
+        "undercut; of a sum that the centre distance asks for, more for the smaller gear. equal-sliding: the "
+        "same sum, shared so that the feet of both flanks slide alike.",
+    )
+    addendum: Ratio = Field(
+        1.0, ge=0.5, le=1.3, description="Tooth height over the rack's pitch line, modules."
+    )
+    dedendum: Ratio = Field(1.25, ge=0.6, le=1.8, description="Depth below it, in modules.")
+    tip_radius: Ratio = Field(
+        TIP_RADIUS,
+        ge=0,
+        le=0.5,
+        description="Radius at the tip of the rack, in modules; left out, 0.38, or what there is room for.",
+        json_schema_extra=FITTED,
+    )
+    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+        None,
+        description="Circumferential play on the operating pitch circles; left out, the least with which "
+        "gears as made turn.",
+    )
+    thickness: Millimetres = Field(
+        10.0,
+        ge=0.1,
+        le=200,
+        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
+        json_schema_extra={**FIRST, **FITTED},
+    )
+    material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
+    bore: Millimetres = Field(
+        10.0,
+        ge=0,
+        le=300,
+        description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
+        "below that leaves the rim of the smaller gear.",
+        json_schema_extra={**FIRST, **FITTED},
+    )
+    keyway_width: Millimetres = Field(
+        0.0, ge=0, le=60, description="Width of both hub keyways, along +x at rest; 0 for none."
+    )
+    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
+    keyway_relief: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=20,
+        description="Diameter of the reliefs in the keyways' corners, for a round cutter; 0 for none.",
+    )
+    speed: RevPerMin = Field(
+        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+    )
+    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+        0.0,
+        description="Constant torque against the turning of the driven gear.",
+        json_schema_extra=FIRST,
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pitch_replaces_module(cls, table: Any) -> Any:
+        if isinstance(table, dict) and table.get("diametral_pitch") is not None and "module" not in table:
+            return {**table, "module": None}
+        return table
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if (self.module is None) == (self.diametral_pitch is None):
+            raise ValueError("give exactly one of module and diametral_pitch")
+        keyed_together(self)
+        if self.centre_distance is not None and self.shift is not None and self.mate_shift is not None:
+            raise ValueError(
+                "centre_distance, shift and mate_shift: the sum of the shifts follows from the centre "
+                "distance; leave one of the three out"
+            )
+        return self
+
+    def fitted(self) -> Mapping[str, Any]:
+        """A face width that mills reach, and a bore that leaves the rim."""
+        if (self.module is None) == (self.diametral_pitch is None):
+            return {}
+        found: dict[str, Any] = {}
+        if "tip_radius" not in self.model_fields_set:
+            found["tip_radius"] = number(rack_tip_radius(self))
+        if "thickness" not in self.model_fields_set:
+            found["thickness"] = number(face_width(module_of(self)))
+        if "bore" not in self.model_fields_set:
+            wall = RIM * module_of(self) * (self.addendum + self.dedendum)
+            sized = self.model_copy(update=found)
+            found["bore"] = number(shaft_bore(least_root(sized), wall))
+        return found

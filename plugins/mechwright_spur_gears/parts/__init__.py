@@ -1,0 +1,1 @@
+"""Teeth, outlines, parts, shafts, and the pair as made."""

@@ -1,0 +1,288 @@
+"""Rules of the teeth: distance, shifts, undercut, tips, roots, contact, rims, backlash, the mesh."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from mechwright import Array, Finding, Severity, Stage
+from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.finding import Change
+from mechwright.contracts.rule_list import all_of, in_turn
+from mechwright.mechanics.gearing.checks import (
+    FULL_RIM,
+    LEAST_CLEARANCE,
+    LEAST_RIM,
+    LEAST_TIP,
+    mesh_findings,
+)
+from mechwright.mechanics.gearing.involute import MOST_SHIFT, least_shift, straight_depth
+from mechwright.mechanics.opening_rules import keyway_rules, size_rules
+from mechwright.tolerances import falls_short
+from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.pair import backlash_for
+from mechwright_spur_gears.parts.teeth import prove
+
+GOOD_CONTACT, LEAST_CONTACT = 1.2, 1.0
+"""Contact ratio below which gears run roughly, and below which contact is lost."""
+
+SHIFTS, TEETH = ("shift", "mate_shift"), ("teeth", "mate_teeth")
+
+Rule = DesignRule[GearTable]
+Fails = Failure[GearTable]
+
+
+def both(m: GearTable, value: Callable[[int], Any]) -> Array:
+    """A number of both gears, (n, 2)."""
+    parts = [np.broadcast_to(np.reshape(value(gear), (-1, 1)), (m.size, 1)) for gear in (0, 1)]
+    return np.concatenate(parts, axis=1)
+
+
+def _stands(m: GearTable) -> Any:
+    """Whether the base circles of both gears leave a line of action."""
+    return ~np.isnan(m.pair.operating_angle)
+
+
+def _least_distance(m: GearTable) -> Any:
+    """The centre distance at which both base circles touch, mm."""
+    return m.pair.reference_distance * np.cos(m.pair.angle)
+
+
+DISTANCE = Rule(
+    "gear.distance",
+    "centre_distance",
+    "the axes are {value:g} mm apart, and the base circles touch at {limit:.6g} mm: no flanks meet",
+    value=lambda m: m.given.centre_distance,
+    limit=_least_distance,
+    unit="mm",
+    remedy=lambda f: (
+        f"make centre_distance at least {math.ceil(1000 * f.m.pair.reference_distance) / 1000:g}, or module "
+        "smaller"
+    ),
+    must_be="above",
+    stage=Stage.MOTION,
+    when=lambda m: m.given.centre_distance is not None,
+    proposed=lambda _: ({"parameters.centre_distance": None},),
+)
+TOO_NEAR = Rule(
+    "gear.shift",
+    "mate_shift",
+    "shifts of {value:.3f} modules together put the flanks of both gears into each other",
+    value=lambda m: m.pair.shifts[0] + m.pair.shifts[1],
+    limit=lambda m: -(np.tan(m.pair.angle) - m.pair.angle) * m.pair.total / (2 * np.tan(m.pair.angle)),
+    remedy=lambda f: f"make both shifts together at least {math.ceil(100 * f.limit) / 100:g}",
+    must_be="above",
+    stage=Stage.MOTION,
+)
+SHIFT = Rule(
+    "gear.shift",
+    lambda f: SHIFTS[f.item] if getattr(f.m.given, SHIFTS[f.item]) is not None else "centre_distance",
+    "the centre distance asks for a profile shift of {value:.3f} modules, and the limit is {limit:g}",
+    value=lambda m: np.abs(both(m, lambda gear: m.pair.shifts[gear])),
+    limit=MOST_SHIFT,
+    must_be="at most",
+    remedy=lambda f: (
+        f"leave centre_distance out, which gives {_plain_distance(f.m):.6g} mm, or change module"
+    ),
+    proposed=lambda _: ({"parameters.centre_distance": None},),
+    each=False,
+)
+
+
+def _plain_distance(m: GearTable) -> float:
+    return float(m.pair.reference_distance)
+
+
+def _least(m: GearTable, gear: int) -> Any:
+    return least_shift(m.pair.teeth[gear], m.pair.angle, m.given.dedendum, m.given.tip_radius)
+
+
+def _up(value: float) -> float:
+    return math.ceil(value * 1000 - 1e-6) / 1000
+
+
+def _shifted(f: Fails) -> Iterator[Change]:
+    if f.limit <= MOST_SHIFT:
+        yield {f"parameters.{SHIFTS[f.item]}": _up(f.limit), "parameters.centre_distance": None}
+    yield {f"parameters.{SHIFTS[f.item]}": None}
+
+
+UNDERCUT = Rule(
+    "gear.undercut",
+    lambda f: SHIFTS[f.item],
+    lambda f: (
+        f"gear {f.item + 1} with {int(np.ravel(f.m.pair.teeth[f.item])[0])} teeth and a profile shift of "
+        f"{f.value:.3f} is undercut: the cutter takes away a part of the flank near the root"
+    ),
+    value=lambda m: both(m, lambda gear: m.pair.shifts[gear]),
+    limit=lambda m: both(m, lambda gear: _least(m, gear)),
+    remedy=lambda f: f"make {SHIFTS[f.item]} at least {_up(f.limit):g}, or {TEETH[f.item]} larger",
+    proposed=_shifted,
+)
+LAND = Rule(
+    "gear.root-land",
+    "tip_radius",
+    "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
+    value=lambda m: (
+        math.pi / 4
+        - straight_depth(m.pair.angle, m.given.dedendum, m.given.tip_radius) * np.tan(m.pair.angle)
+        - m.given.tip_radius * np.cos(m.pair.angle)
+    ),
+    limit=0.0,
+    remedy="make tip_radius, dedendum or pressure_angle smaller",
+)
+CLEARANCE = Rule(
+    "gear.clearance",
+    "dedendum",
+    "tips run {value:.3g} modules from the mating roots, below {limit:g}",
+    value=lambda m: m.given.dedendum - m.given.addendum,
+    limit=LEAST_CLEARANCE,
+    remedy=lambda f: f"make dedendum at least {f.m.given.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
+    severity=Severity.WARNING,
+)
+NO_CLEARANCE = CLEARANCE.but(severity=Severity.ERROR, limit=0.0, must_be="above")
+TIP = Rule(
+    "gear.tip",
+    "addendum",
+    lambda f: (
+        f"a tooth of gear {f.item + 1} is "
+        + ("pointed" if f.value <= 0 else f"{f.value:.3f} modules wide at the tip")
+        + f", below {LEAST_TIP:g} modules"
+    ),
+    value=lambda m: both(m, lambda gear: m.pair.thickness_at(gear, m.pair.tip(gear)) / m.pair.module),
+    limit=LEAST_TIP,
+    remedy=lambda f: f"make {SHIFTS[f.item]} or addendum smaller",
+)
+CONTACT = Rule(
+    "gear.contact-ratio",
+    "addendum",
+    "the contact ratio is {value:.3f}: a pair of teeth lets go before the next one takes over",
+    value=lambda m: m.pair.contact_ratio,
+    limit=LEAST_CONTACT,
+    must_be="above",
+    remedy="use more teeth, a larger addendum or smaller shifts",
+)
+ROUGH = CONTACT.but(
+    message="the contact ratio is {value:.3f}, below {limit:g}: teeth with errors run roughly",
+    limit=GOOD_CONTACT,
+    must_be="at least",
+    severity=Severity.WARNING,
+    when=lambda m: np.asarray(m.pair.contact_ratio) > LEAST_CONTACT,
+)
+INTERFERENCE = Rule(
+    "gear.interference",
+    "addendum",
+    lambda f: (
+        f"the tips of gear {2 - f.item} run into the fillets of gear {f.item + 1}: its flanks begin "
+        f"{f.limit:.3f} mm along the line of action, and the tips reach {f.value:.3f} mm"
+    ),
+    value=lambda m: both(m, m.pair.foot_curvature),
+    limit=lambda m: np.maximum(both(m, m.pair.form_curvature), 0.0),
+    unit="mm",
+    remedy=lambda f: f"make {SHIFTS[f.item]} larger, addendum or tip_radius smaller, or use more teeth",
+    each=False,
+)
+
+
+def _reach(m: GearTable) -> Any:
+    """How far the shaft opening reaches from the axis, mm."""
+    given = m.given
+    width = float(np.ravel(given.keyway_width)[0])
+    if width == 0 or not m.single:
+        return given.bore / 2
+    opening = m.opening
+    return given.bore / 2 if opening is None else float(np.hypot(*opening.loop().flatten().T).max())
+
+
+def _rim(m: GearTable) -> Any:
+    return (both(m, m.pair.root) - np.reshape(_reach(m), (-1, 1))) / np.reshape(m.pair.module, (-1, 1))
+
+
+def _bored(m: GearTable) -> Any:
+    return np.asarray(m.given.bore) > 0
+
+
+def _bore(f: Fails, share: float) -> float:
+    m = f.m
+    most = 2 * (float(m.pair.root(f.item)) - share * float(m.pair.module))
+    return math.floor(100 * (most - 2 * (float(_reach(m)) - m.given.bore / 2))) / 100
+
+
+RIM = Rule(
+    "bore.rim",
+    "bore",
+    "{value:.2f} modules stay between the shaft opening and the nearest root",
+    value=_rim,
+    limit=LEAST_RIM,
+    remedy=lambda f: f"make bore at most {max(_bore(f, LEAST_RIM), 0):g}, or the gear larger",
+    when=_bored,
+    each=False,
+)
+THIN_RIM = RIM.but(
+    severity=Severity.WARNING,
+    limit=lambda m: FULL_RIM * (m.given.addendum + m.given.dedendum),
+    remedy=lambda f: f"make bore at most {max(_bore(f, f.limit), 0):g}, or the gear larger",
+    when=lambda m: _bored(m) & np.asarray(~falls_short(_rim(m), LEAST_RIM)).all(axis=-1, keepdims=True),
+)
+
+
+def _given_backlash(m: GearTable) -> Any:
+    return m.given.backlash is not None
+
+
+BACKLASH = Rule(
+    "gear.backlash",
+    "backlash",
+    "gears as made may jam: walls and axes within tolerance take up to {limit:g} mm of the backlash",
+    value=lambda m: m.given.backlash,
+    limit=lambda m: backlash_for(m.pair),
+    unit="mm",
+    remedy="make backlash at least {limit:g}, or leave it out",
+    severity=Severity.WARNING,
+    stage=Stage.MACHINING,
+    when=_given_backlash,
+    proposed=lambda _: ({"parameters.backlash": None},),
+)
+JAMS = BACKLASH.but(
+    severity=Severity.ERROR,
+    message="gears as made jam: walls as they are planned take up to {limit:g} mm of the backlash",
+    limit=lambda m: backlash_for(m.pair, jams=True),
+)
+BACKLASH = BACKLASH.but(
+    when=lambda m: (
+        _given_backlash(m) and ~np.asarray(falls_short(m.given.backlash, backlash_for(m.pair, jams=True)))
+    )
+)
+
+
+def _mesh(m: GearTable) -> Iterator[Finding]:
+    """The mesh proof of one pair."""
+    yield from mesh_findings(prove(m), float(m.pair.backlash), list)
+
+
+MOTION = in_turn(DISTANCE, TOO_NEAR)
+"""What a motion needs."""
+
+PROFILE = in_turn(
+    all_of(SHIFT, LAND, NO_CLEARANCE, CLEARANCE),
+    all_of(UNDERCUT, TIP),
+    all_of(CONTACT, ROUGH, INTERFERENCE),
+)
+OPENING = all_of(*size_rules("keyway_relief"), keyway_rules("bore", "keyway_width", "keyway_relief"))
+MESH = Procedure[GearTable](
+    ("gear.mesh", "gear.contact"), _mesh, when=lambda m: m.single, slow=True, stage=Stage.PARTS
+)
+
+
+def _size_message(m: GearTable) -> str:
+    pair = m.pair
+    one, two = (float(shift) for shift in pair.shifts)
+    return (
+        f"centre distance {float(pair.distance):.4f} mm, profile shifts {one:.3f} and {two:.3f}, operating "
+        f"pressure angle {math.degrees(float(pair.operating_angle)):.3f} degrees, contact ratio "
+        f"{float(pair.contact_ratio):.3f}"
+    )
+
+
+SIZE = Note[GearTable]("gear.size", _size_message, lambda m: float(m.pair.distance), "mm")
