@@ -109,6 +109,14 @@ def noncircular_gears(share: Array, theta: Array) -> Array:
     return np.asarray(ratio + (beyond - ratio) * x**3 * (10 - 15 * x + 6 * x * x))
 
 
+def spur_gears(share: Array, theta: Array) -> Array:
+    """Sliding speed of the teeth that are in contact, over the angle of the driver."""
+    teeth, angle = 12 + 20 * share, 0.4
+    pitch = 2 * np.pi / teeth
+    along = (theta % pitch - pitch / 2) * teeth / 2 * np.cos(angle)
+    return np.asarray(1.5 * np.abs(along))
+
+
 PLAIN: dict[str, Plain] = {
     "geneva": geneva,
     "four-bar": four_bar,
@@ -118,6 +126,7 @@ PLAIN: dict[str, Plain] = {
     "five-bar": five_bar,
     "cam-follower": cam_follower,
     "noncircular-gears": noncircular_gears,
+    "spur-gears": spur_gears,
 }
 
 

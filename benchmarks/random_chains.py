@@ -16,7 +16,7 @@ from mechwright.designs.change import changed
 from mechwright.designs.design import design_of
 from mechwright.remedies.keys import keys_of
 
-MIDDLE = ("noncircular-gears", "elliptic-gears", "geneva", "four-bar", "cam-follower")
+MIDDLE = ("noncircular-gears", "elliptic-gears", "spur-gears", "geneva", "four-bar", "cam-follower")
 """Families that are driven and drive."""
 
 LAST = (*MIDDLE, "slider-crank", "five-bar")

@@ -72,6 +72,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
         "plate",
         "slider-crank",
         "spherical",
+        "spur-gears",
     ]
     assert [family["name"] for family in listing["families"]] == names
     assert {"step", "dxf", "stl", "3mf", "glb", "mjcf"} <= set(listing["formats"])

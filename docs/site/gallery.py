@@ -19,6 +19,7 @@ EXAMPLES = ROOT / "examples"
 FAMILIES = (
     "elliptic-gears",
     "noncircular-gears",
+    "spur-gears",
     "cam-follower",
     "geneva",
     "slider-crank",

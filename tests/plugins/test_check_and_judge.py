@@ -21,6 +21,8 @@ CASES = (
     # The check named another parameter than the judge.
     ("five-bar", {"module": 2.026, "load_y": -63660.0}, "five-bar.root", "gear_thickness"),
     ("noncircular-gears", {"centre_distance": 252.4, "load_torque": 12910.0}, "gear.root", "thickness"),
+    ("spur-gears", {"teeth": 9, "shift": 0.0}, "gear.undercut", "shift"),
+    ("spur-gears", {"diametral_pitch": 8.0, "load_torque": 3000.0}, "gear.root", "thickness"),
     (
         "four-bar",
         {"coupler_point_x": -7309.0, "coupler_point_y": -8247.0, "swing_from": 400.8, "swing_to": -205.4},

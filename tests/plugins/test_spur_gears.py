@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from mechwright import Severity, Stage
 from mechwright.contracts.evaluation import Batch
+from mechwright.mechanics.gearing.cut import larger_teeth
 from mechwright.mechanics.gearing.involute import (
     InvolutePair,
     angle_of_involute,
@@ -169,6 +170,15 @@ def test_diametral_pitch_is_a_module_in_inches():
         SpurGearParams(centre_distance=60.0, shift=0.1, mate_shift=0.0)
 
 
+def test_what_makes_teeth_larger_is_the_key_that_sizes_them():
+    loaded = {"diametral_pitch": 16.0, "teeth": 15, "mate_teeth": 48, "load_torque": 6.0}
+    found = next(one for one in GEARS.check(SpurGearParams(**loaded)) if one.code == "gear.root")
+    (less,) = [one for one in found.proposed if "parameters.diametral_pitch" in one]
+    better = SpurGearParams(**{**loaded, "diametral_pitch": less["parameters.diametral_pitch"]})
+    assert "gear.root" not in {one.code for one in GEARS.check(better) if one.severity is not Severity.NOTE}
+    assert next(larger_teeth(None, 15, diametral_pitch=16.0)) == {"parameters.diametral_pitch": 12.8}
+
+
 @pytest.mark.parametrize(
     ("code", "given"),
     [
@@ -181,7 +191,14 @@ def test_diametral_pitch_is_a_module_in_inches():
         ("gear.contact-ratio", {"addendum": 0.5}),
         (
             "gear.interference",
-            {"teeth": 17, "mate_teeth": 200, "addendum": 1.1, "dedendum": 1.25, "shift": 0.3, "mate_shift": 0.0},
+            {
+                "teeth": 17,
+                "mate_teeth": 200,
+                "addendum": 1.1,
+                "dedendum": 1.25,
+                "shift": 0.3,
+                "mate_shift": 0.0,
+            },
         ),
         ("bore.rim", {"bore": 34.0}),
         ("gear.backlash", {"backlash": 0.0}),

@@ -46,7 +46,7 @@ def cut_findings(m: GearTable, cut: "Mapping[str, shapely.Polygon]") -> tuple[Fi
     if all(name in cut for name in NAMES):
         allowance = sum(outline.deviation + 2 * TOLERANCES.flatten for outline in outlines_of(m))
         one, two = (ring_of(cut[name]) for name in NAMES)
-        larger = larger_teeth(m.given.module, m.given.teeth, 1)
+        larger = larger_teeth(m.given.module, m.given.teeth, diametral_pitch=m.given.diametral_pitch)
         found.append(cut_mesh(prove_outlines(m, one, two, allowance), m.given.thickness, larger))
     key = 0.0 if m.given.keyway_width > 0 else None
     for name in NAMES:

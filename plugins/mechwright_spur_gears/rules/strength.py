@@ -78,8 +78,10 @@ def _wider(m: GearTable) -> Way:
     return Way("thickness", m.given.thickness)
 
 
-def _larger(m: GearTable) -> list[Way]:
-    return [] if m.given.module is None else [Way("module", m.given.module)]
+def _larger(m: GearTable) -> Way:
+    if m.given.module is None:
+        return Way("diametral_pitch", m.given.diametral_pitch, up=False)
+    return Way("module", m.given.module)
 
 
 def _less(m: GearTable) -> Way:
@@ -87,10 +89,10 @@ def _less(m: GearTable) -> Way:
 
 
 ROOT = StressRule[GearTable](
-    "gear.root", root_stresses, lambda m: [_wider(m), *_larger(m), _less(m)], table_of
+    "gear.root", root_stresses, lambda m: [_wider(m), _larger(m), _less(m)], table_of
 )
 FLANK = StressRule[GearTable](
-    "gear.flank", flank_pressures, lambda m: [_wider(m), *_larger(m), _less(m)], table_of
+    "gear.flank", flank_pressures, lambda m: [_wider(m), _larger(m), _less(m)], table_of
 )
 KEY = StressRule[GearTable](
     "gear.key", key_stresses, lambda m: [_wider(m), Way("bore", m.given.bore), _less(m)], table_of

@@ -41,13 +41,17 @@ _WITH_LARGER = (1.0, 0.9, 0.6, 0.36)
 """Shares of the face width that are proposed together with larger teeth, or with reliefs of a keyway."""
 
 
-def larger_teeth(module: float | None, teeth: int, divisor: int = 1) -> Iterator[Change]:
-    """Changes with which the teeth of a gear are larger: its module, or fewer of them where it has none, mm.
+def larger_teeth(
+    module: float | None, teeth: int, divisor: int = 1, diametral_pitch: float | None = None
+) -> Iterator[Change]:
+    """Changes with which the teeth of a gear are larger: its module, mm, or diametral pitch, or fewer teeth.
 
     Their number stays a multiple of ``divisor``.
     """
     for ratio in _LARGER:
-        if module is not None:
+        if diametral_pitch is not None:
+            yield {"parameters.diametral_pitch": round(diametral_pitch / ratio, 3)}
+        elif module is not None:
             yield {"parameters.module": round(ratio * module, 3)}
         elif (fewer := int(teeth / ratio / divisor) * divisor) > 0:
             yield {"parameters.teeth": fewer}

@@ -1,0 +1,64 @@
+"""The built-in family under the kit that third parties use."""
+
+from typing import ClassVar
+
+from by_night import examples as tried
+from day_contract import DayContract
+from hypothesis import strategies as st
+
+from mechwright_spur_gears.family import SpurGears
+
+SMALL = {"thickness": 4, "bore": 6}
+
+
+class TestSpurGears(DayContract):
+    family = SpurGears
+    ci: ClassVar = (
+        "test_every_parameter_counts",
+        "test_fixes_of_random_designs",
+        "test_fixes_of_refused_designs",
+        "test_tolerances_of_random_designs",
+    )
+    night: ClassVar = {
+        name: {1, 2}
+        for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
+    }
+    max_frames = tried(1, 40)
+    derivatives = (("theta2", "omega2"),)
+    input_rate = "omega1"
+    examples = (
+        {**SMALL, "teeth": 13, "mate_teeth": 24, "keyway_width": 2, "keyway_relief": 1.2},
+        {**SMALL, "diametral_pitch": 12, "pressure_angle": 14.5, "teeth": 32, "mate_teeth": 33},
+        {**SMALL, "teeth": 18, "mate_teeth": 25, "centre_distance": 44.5, "shift_rule": "equal-sliding"},
+    )
+    refused = (
+        ({"teeth": 9, "shift": 0.0}, "shift"),
+        ({"bore": 34.0}, "bore"),
+        ({"centre_distance": 50.0}, "centre_distance"),
+        ({"addendum": 0.5}, "addendum"),
+        ({"backlash": 0.0}, "backlash"),
+        ({"teeth": 9, "mate_teeth": 30, "shift": 0.9}, "addendum"),
+    )
+    variations: ClassVar = {
+        "load_torque": [2.0],
+        "teeth": [21],
+        "mate_teeth": [41],
+        "centre_distance": [60.5],
+        "shift": [0.2],
+        "mate_shift": [0.1],
+        "backlash": [0.2],
+    }
+    max_examples = tried(4, 30)
+
+    def strategy(self):
+        """Random pairs near designs that can be built."""
+        return st.fixed_dictionaries(
+            {
+                "teeth": st.integers(12, 40),
+                "mate_teeth": st.integers(12, 60),
+                "module": st.floats(0.8, 4),
+                "shift": st.floats(-0.2, 0.5),
+                "thickness": st.floats(2, 20),
+                "bore": st.floats(0, 12),
+            }
+        )
