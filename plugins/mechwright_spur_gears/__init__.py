@@ -1,1 +1,1 @@
-"""Spur gears: involute pairs with profile shift."""
+"""Spur gears: involute gears and rings with profile shift."""

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 class SpurGears(Family[SpurGearParams]):
-    """A pinion and a gear with involute teeth."""
+    """A pinion, and a gear or a ring, with involute teeth."""
 
     name = "spur-gears"
     title = "Spur gears"
-    summary = "A pair of involute gears with profile shift, at the centre distance that you have."
+    summary = "Involute gears, or a gear in a ring, with profile shift, at the centre distance that you have."
     Params = SpurGearParams
     batch: ClassVar[int] = 1 << 16
     counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth"})
@@ -35,7 +35,7 @@ class SpurGears(Family[SpurGearParams]):
         return RULES
 
     def table(self, params: SpurGearParams, size: int | None = None) -> "GearTable":
-        """The pair with its shifts and its backlash."""
+        """The gears with their shifts and their backlash."""
         from mechwright_spur_gears.gear_table import table_of
 
         return table_of(params, size)

@@ -27,6 +27,12 @@ INCH = 25.4
 STEP = 1e-3
 """Shifts that are chosen are multiples of this, in modules."""
 
+CUTTER_RADII = (TIP_RADIUS, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.0)
+"""Radii at the tips of a ring's cutter, modules: the first that leaves a land between both arcs is chosen."""
+
+LEAST_RING = 0.3
+"""Modules: height of a ring's teeth that is chosen at least."""
+
 
 def module_of(given: Any) -> Any:
     """Reference diameter over the number of teeth, mm."""
@@ -34,21 +40,40 @@ def module_of(given: Any) -> Any:
 
 
 def pair_of(given: Any) -> InvolutePair:
-    """Both gears, with the shifts and the backlash that the design leaves out."""
-    angle = np.radians(given.pressure_angle)
+    """Both gears, with the shifts and the backlash that the design leaves out; a ring has teeth below 0."""
+    angle, ring = np.radians(given.pressure_angle), given.arrangement == "internal"
+    mate = given.addendum if not ring or given.ring_addendum is None else given.ring_addendum
     pair = InvolutePair(
         module_of(given),
         angle,
-        (given.teeth, given.mate_teeth),
+        (given.teeth, -given.mate_teeth if ring else given.mate_teeth),
         (0.0, 0.0),
-        given.addendum,
+        (given.addendum, mate),
         given.dedendum,
         given.tip_radius,
         0.0,
     )
-    shifted = pair.with_shifts(*_shifts(given, pair))
+    shifted = pair.with_shifts(*(_ring_shifts if ring else _shifts)(given, pair))
     backlash = backlash_for(shifted) if given.backlash is None else given.backlash
-    return replace(shifted, backlash=backlash)
+    whole = replace(shifted, backlash=backlash)
+    return replace(whole, cutter_radius=_cutter_radius(whole)) if ring else whole
+
+
+def _cutter_radius(pair: InvolutePair) -> Any:
+    """At the tips of a ring's cutter: the greatest that leaves a land between both arcs."""
+    return np.select([np.asarray(pair.cutter_land(one) >= 0) for one in CUTTER_RADII], CUTTER_RADII, 0.0)
+
+
+def _ring_shifts(given: Any, pair: InvolutePair) -> tuple[Any, Any]:
+    """x1 and x2: the pinion is free of undercut, and the ring is shifted by as much."""
+    one, two, total = given.shift, given.mate_shift, 0.0
+    if given.centre_distance is not None:
+        total = sum_of_shifts(pair.teeth, pair.module, pair.angle, -given.centre_distance)
+    elif one is not None and two is not None:
+        return one, two
+    if one is None:
+        one = _least(given, pair, 0) if two is None else total - two
+    return one, total - one
 
 
 def _shifts(given: Any, pair: InvolutePair) -> tuple[Any, Any]:
@@ -59,7 +84,7 @@ def _shifts(given: Any, pair: InvolutePair) -> tuple[Any, Any]:
         total = sum_of_shifts(pair.teeth, pair.module, pair.angle, given.centre_distance)
         if one is not None or two is not None:
             return (one, total - one) if one is not None else (total - two, two)
-    elif one is not None or two is not None or given.shift_rule == "no-undercut":
+    elif one is not None or two is not None or given.shift_rule != "equal-sliding":
         return (least[0] if one is None else one), (least[1] if two is None else two)
     else:
         total = least[0] + least[1]
@@ -94,7 +119,16 @@ def rack_tip_radius(given: Any) -> Any:
     return np.maximum(np.minimum(TIP_RADIUS, np.floor(100 * room) / 100), 0.0)
 
 
-def least_root(given: Any) -> Any:
-    """The smaller root radius, mm; NaN of gears that cannot stand at their distance."""
+def ring_height(given: Any) -> Any:
+    """Height of a ring's teeth, modules: that of the pinion's, or what its flanks have room for."""
     pair = pair_of(given)
-    return np.minimum(pair.root(0), pair.root(1))
+    least = np.sqrt(pair.base(1) ** 2 + (np.maximum(pair.form_curvature(0), 0.0) - pair.line) ** 2)
+    height = (-least - pair.reference(1)) / pair.module - pair.shifts[1]
+    low = np.minimum(LEAST_RING, given.addendum)
+    return np.clip(np.nan_to_num(np.floor(100 * height) / 100, nan=LEAST_RING), low, given.addendum)
+
+
+def least_root(given: Any) -> Any:
+    """The smaller root radius of gears with a bore, mm; NaN of gears that cannot stand at their distance."""
+    pair = pair_of(given)
+    return pair.root(0) if given.arrangement == "internal" else np.minimum(pair.root(0), pair.root(1))

@@ -3,23 +3,37 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.design_table import number
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.mechanics.gearing.ring_plate import HOLE, HOLES, outside_for
 from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_spur_gears.pair import least_root, module_of, rack_tip_radius
+from mechwright_spur_gears.pair import least_root, module_of, pair_of, rack_tip_radius, ring_height
 
 LEAST_MODULE = 0.3
 """mm."""
+
+Arrangement = Literal["external", "internal"]
+"""Of the gears."""
+
+ARRANGED: Mapping[str, tuple[Arrangement, ...]] = {
+    "shift_rule": ("external",),
+    "ring_addendum": ("internal",),
+    "ring_outside": ("internal",),
+    "ring_holes": ("internal",),
+    "ring_hole": ("internal",),
+}
+"""Keys to the arrangements that use them; all arrangements use the others."""
 
 Shift = Annotated[float, Field(ge=-1, le=1), Unit("")]
 
 
 class SpurGearParams(Parameters):
-    """A pinion and the gear that it drives: involute teeth of one rack, with profile shift.
+    """A pinion and the gear or the ring that it drives: involute teeth of one rack, with profile shift.
 
     Examples
     --------
@@ -37,6 +51,11 @@ class SpurGearParams(Parameters):
         "face_width": "it is called thickness",
     }
 
+    arrangement: Arrangement = Field(
+        "external",
+        description="external: two gears. internal: a gear in a ring with teeth inside.",
+        json_schema_extra=FIRST,
+    )
     teeth: int = Field(20, ge=6, le=600, description="Teeth z1 of the driver.", json_schema_extra=FIRST)
     mate_teeth: int = Field(
         40, ge=6, le=600, description="Teeth z2 of the driven gear.", json_schema_extra=FIRST
@@ -65,14 +84,15 @@ class SpurGearParams(Parameters):
     )
     mate_shift: Shift | None = Field(
         None,
-        description="Profile shift x2 of the driven gear, in modules; left out, chosen by shift_rule.",
+        description="Profile shift x2 of the driven gear, in modules; left out, chosen by shift_rule. Of a "
+        "ring it is above 0 where teeth get thicker (DIN 3960); left out, that of the driver taken away.",
         json_schema_extra=FIRST,
     )
-    shift_rule: Literal["no-undercut", "equal-sliding"] = Field(
-        "no-undercut",
-        description="How shifts that are left out are chosen. no-undercut: none, or the least without "
-        "undercut; of a sum that the centre distance asks for, more for the smaller gear. equal-sliding: the "
-        "same sum, shared so that the feet of both flanks slide alike.",
+    shift_rule: Literal["no-undercut", "equal-sliding"] | None = Field(
+        None,
+        description="How shifts of two gears that are left out are chosen. no-undercut, if it is left out: "
+        "none, or the least without undercut; of a sum that the centre distance asks for, more for the "
+        "smaller gear. equal-sliding: the same sum, shared so that the feet of both flanks slide alike.",
     )
     addendum: Ratio = Field(
         1.0, ge=0.5, le=1.3, description="Tooth height over the rack's pitch line, modules."
@@ -84,6 +104,23 @@ class SpurGearParams(Parameters):
         le=0.5,
         description="Radius at the tip of the rack, in modules; left out, 0.38, or what there is room for.",
         json_schema_extra=FITTED,
+    )
+    ring_addendum: Annotated[float, Field(ge=0.2, le=1.3), Unit("")] | None = Field(
+        None,
+        description="Height of the ring's teeth, in modules; left out, addendum, or what keeps them off the "
+        "feet of the pinion's flanks.",
+        json_schema_extra=FITTED,
+    )
+    ring_outside: Annotated[float, Field(gt=0, le=4000), Unit("mm")] | None = Field(
+        None,
+        description="Diameter of the ring; left out, what its rim needs.",
+        json_schema_extra=FITTED,
+    )
+    ring_holes: Annotated[int, Field(ge=0, le=60)] | None = Field(
+        None, description="Holes by which the ring is screwed on; left out, 6.", json_schema_extra=FITTED
+    )
+    ring_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
+        None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
     )
     backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
         None,
@@ -102,7 +139,7 @@ class SpurGearParams(Parameters):
         10.0,
         ge=0,
         le=300,
-        description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
+        description="Diameter of the shaft bores, 0 for none; left out, 10, or the largest standard one "
         "below that leaves the rim of the smaller gear.",
         json_schema_extra={**FIRST, **FITTED},
     )
@@ -137,12 +174,21 @@ class SpurGearParams(Parameters):
         if (self.module is None) == (self.diametral_pitch is None):
             raise ValueError("give exactly one of module and diametral_pitch")
         keyed_together(self)
+        for name, arrangements in ARRANGED.items():
+            if getattr(self, name) is not None and self.arrangement not in arrangements:
+                raise ValueError(
+                    f'{name} is for arrangement = "{arrangements[0]}"; leave it out of "{self.arrangement}"'
+                )
         if self.centre_distance is not None and self.shift is not None and self.mate_shift is not None:
             raise ValueError(
                 "centre_distance, shift and mate_shift: the sum of the shifts follows from the centre "
                 "distance; leave one of the three out"
             )
         return self
+
+    def unused_fields(self) -> list[str]:
+        """Keys of other arrangements."""
+        return [name for name, arrangements in ARRANGED.items() if self.arrangement not in arrangements]
 
     def fitted(self) -> Mapping[str, Any]:
         """A face width that mills reach, and a bore that leaves the rim."""
@@ -153,8 +199,29 @@ class SpurGearParams(Parameters):
             found["tip_radius"] = number(rack_tip_radius(self))
         if "thickness" not in self.model_fields_set:
             found["thickness"] = number(face_width(module_of(self)))
+        if self.arrangement == "internal":
+            found |= self._ring(found)
         if "bore" not in self.model_fields_set:
             wall = RIM * module_of(self) * (self.addendum + self.dedendum)
             sized = self.model_copy(update=found)
             found["bore"] = number(shaft_bore(least_root(sized), wall))
         return found
+
+    def _ring(self, found: Mapping[str, Any]) -> dict[str, Any]:
+        """What a design leaves out of its ring."""
+        left: dict[str, Any] = {}
+        given = self.model_fields_set
+        if "ring_addendum" not in given:
+            left["ring_addendum"] = number(
+                ring_height(self.model_copy(update={**found, "ring_addendum": None}))
+            )
+        if "ring_holes" not in given:
+            left["ring_holes"] = HOLES
+        if "ring_hole" not in given:
+            left["ring_hole"] = HOLE
+        if "ring_outside" not in given:
+            sized: Any = self.model_copy(update={**found, **left})
+            pair = pair_of(sized)
+            hole = np.where(np.asarray(sized.ring_holes) > 0, sized.ring_hole, 0.0)
+            left["ring_outside"] = number(outside_for(-pair.root(1), hole, pair.tip(1) - pair.root(1)))
+        return left

@@ -222,7 +222,8 @@ def test_remedies_of_shifts_help():
     assert "gear.undercut" not in codes(teeth=9, shift=value)
 
 
-def test_many_pairs_are_judged_as_each_alone():
+@pytest.mark.parametrize("arrangement", ["external", "internal"])
+def test_many_pairs_are_judged_as_each_alone(arrangement):
     rng, size = np.random.default_rng(7), 400
     varied = {
         "teeth": rng.integers(8, 60, size),
@@ -232,14 +233,17 @@ def test_many_pairs_are_judged_as_each_alone():
         "load_torque": rng.uniform(0, 60, size),
     }
     found = GEARS.evaluate(
-        Batch(SpurGearParams, {}, varied), ("contact_ratio", "centre_distance", "sliding1"), Stage.PARTS
+        Batch(SpurGearParams, {"arrangement": arrangement}, varied),
+        ("contact_ratio", "centre_distance", "sliding1"),
+        Stage.PARTS,
     )
     for place in range(0, size, 8):
         one = SpurGearParams(
+            arrangement=arrangement,
             **{
                 name: int(values[place]) if name.endswith("teeth") else float(values[place])
                 for name, values in varied.items()
-            }
+            },
         )
         wrong = [
             f for f in GEARS.judge(one) if f.severity is Severity.ERROR and not f.stage.is_after(Stage.PARTS)

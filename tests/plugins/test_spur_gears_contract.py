@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mechwright_spur_gears.family import SpurGears
 
 SMALL = {"thickness": 4, "bore": 6}
+RING = {"arrangement": "internal", "teeth": 15, "mate_teeth": 40, "module": 1.5}
 
 
 class TestSpurGears(DayContract):
@@ -20,7 +21,7 @@ class TestSpurGears(DayContract):
         "test_tolerances_of_random_designs",
     )
     night: ClassVar = {
-        name: {1, 2}
+        name: {1, 2, 3}
         for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
     }
     max_frames = tried(1, 40)
@@ -30,12 +31,17 @@ class TestSpurGears(DayContract):
         {**SMALL, "teeth": 13, "mate_teeth": 24, "keyway_width": 2, "keyway_relief": 1.2},
         {**SMALL, "diametral_pitch": 12, "pressure_angle": 14.5, "teeth": 32, "mate_teeth": 33},
         {**SMALL, "teeth": 18, "mate_teeth": 25, "centre_distance": 44.5, "shift_rule": "equal-sliding"},
+        {**SMALL, **RING},
     )
     refused = (
         ({"teeth": 9, "shift": 0.0}, "shift"),
         ({"bore": 34.0}, "bore"),
         ({"centre_distance": 50.0}, "centre_distance"),
         ({"addendum": 0.5}, "addendum"),
+        ({"arrangement": "internal", "teeth": 30, "mate_teeth": 36}, "mate_teeth"),
+        ({**RING, "ring_outside": 66}, "ring_outside"),
+        ({**RING, "ring_addendum": 1.1}, "addendum"),
+        ({"ring_hole": 4}, "ring_hole"),
         ({"backlash": 0.0}, "backlash"),
         ({"teeth": 9, "mate_teeth": 30, "shift": 0.9}, "addendum"),
     )
@@ -47,6 +53,11 @@ class TestSpurGears(DayContract):
         "shift": [0.2],
         "mate_shift": [0.1],
         "backlash": [0.2],
+        "arrangement": ["internal"],
+        "ring_addendum": [0.6],
+        "ring_outside": [190.0],
+        "ring_holes": [5],
+        "ring_hole": [6.6],
     }
     max_examples = tried(4, 30)
 

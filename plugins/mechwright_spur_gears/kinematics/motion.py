@@ -10,7 +10,8 @@ from mechwright.contracts.figure import Figure, scalars
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
-from mechwright_spur_gears.gear_table import NAMES, GearTable
+from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.parts.teeth import rolling_pair
 
 CIRCLE_SAMPLES = 361
 """Points of a pitch circle that is drawn."""
@@ -19,7 +20,8 @@ CIRCLE_SAMPLES = 361
 def motion_of(m: GearTable, samples: Samples) -> Motion:
     """Sample one turn of the driver at constant speed, both ends included.
 
-    The driver turns about the origin, the driven gear about (a, 0), the other way round.
+    The driver turns about the origin. A driven gear turns about (a, 0), the other way round, and a ring about
+    (-a, 0), the same way round.
     """
     phi = travelled(math.tau, samples)
     return motion_over(m, Turning.of(phi, float(m.omega)), phi / float(m.omega))
@@ -27,7 +29,7 @@ def motion_of(m: GearTable, samples: Samples) -> Motion:
 
 def driven(m: GearTable, driver: Turning) -> Turning:
     """The driven gear, for any motion of the driver."""
-    return driver.scaled(-m.ratio)
+    return driver.scaled(m.ratio)
 
 
 def channels_over(m: GearTable, driver: Turning, time: Array) -> dict[str, Channel]:
@@ -41,17 +43,17 @@ def channels_over(m: GearTable, driver: Turning, time: Array) -> dict[str, Chann
 
 def motion_over(m: GearTable, driver: Turning, time: Array) -> Motion:
     """The motion for any motion of the driver, at times (n,), s."""
-    a = float(m.pair.distance)
+    (one, two), pair = m.names, rolling_pair(m)
     poses = {
-        "gear-1": Poses.planar(0.0, 0.0, driver.theta),
-        "gear-2": Poses.planar(a, 0.0, driven(m, driver).theta + math.pi - math.pi / float(m.pair.teeth[1])),
+        one: Poses.planar(0.0, 0.0, driver.theta),
+        two: Poses.planar(pair.axis, 0.0, driven(m, driver).theta + pair.start),
     }
     held = {
-        "o1": Joint("revolute", GROUND, "gear-1", drives=True),
-        "o2": Joint("revolute", GROUND, "gear-2", (a, 0.0, 0.0)),
-        "mesh": Joint("gear", "gear-1", "gear-2"),
+        "o1": Joint("revolute", GROUND, one, drives=True),
+        "o2": Joint("revolute", GROUND, two, (pair.axis, 0.0, 0.0)),
+        "mesh": Joint("gear", one, two),
     }
-    loads = {"load_torque": Load("gear-2", resisting=m.given.load_torque)}
+    loads = {"load_torque": Load(two, resisting=m.given.load_torque)}
     channels = channels_over(m, driver, time)
     return Motion("theta1", channels, poses, scalars(figures_of(m)), {}, held, _circles(m), loads)
 
@@ -59,8 +61,8 @@ def motion_over(m: GearTable, driver: Turning, time: Array) -> Motion:
 def _circles(m: GearTable) -> dict[str, Curve]:
     around = np.exp(1j * np.linspace(0.0, math.tau, CIRCLE_SAMPLES))
     return {
-        f"pitch-{name}": Curve.planar(name, float(m.pair.operating(gear)) * around)
-        for gear, name in enumerate(NAMES)
+        f"pitch-{name}": Curve.planar(name, abs(float(m.pair.operating(gear))) * around)
+        for gear, name in enumerate(m.names)
     }
 
 
@@ -68,8 +70,8 @@ def figures_of(m: GearTable) -> Mapping[str, Figure]:
     """The figures of a pair, or of a table of pairs."""
     pair = m.pair
     found = {
-        "ratio": Figure(lambda: m.ratio),
-        "centre_distance": Figure(lambda: pair.distance, "mm"),
+        "ratio": Figure(lambda: abs(m.ratio)),
+        "centre_distance": Figure(lambda: m.distance, "mm"),
         "operating_pressure_angle": Figure(lambda: pair.operating_angle, "rad"),
         "contact_ratio": Figure(lambda: pair.contact_ratio),
         "tip_shortening": Figure(lambda: pair.shortening * pair.module, "mm"),
@@ -78,9 +80,9 @@ def figures_of(m: GearTable) -> Mapping[str, Figure]:
     for gear in (0, 1):
         found |= {
             f"shift{gear + 1}": Figure(lambda gear=gear: pair.shifts[gear]),
-            f"tip_diameter{gear + 1}": Figure(lambda gear=gear: 2 * pair.tip(gear), "mm"),
-            f"root_diameter{gear + 1}": Figure(lambda gear=gear: 2 * pair.root(gear), "mm"),
-            f"pitch_diameter{gear + 1}": Figure(lambda gear=gear: 2 * pair.operating(gear), "mm"),
+            f"tip_diameter{gear + 1}": Figure(lambda gear=gear: 2 * abs(pair.tip(gear)), "mm"),
+            f"root_diameter{gear + 1}": Figure(lambda gear=gear: 2 * abs(pair.root(gear)), "mm"),
+            f"pitch_diameter{gear + 1}": Figure(lambda gear=gear: 2 * abs(pair.operating(gear)), "mm"),
             f"sliding{gear + 1}": Figure(lambda gear=gear: pair.sliding(gear)),
         }
     return found

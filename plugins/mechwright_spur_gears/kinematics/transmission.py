@@ -4,8 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from mechwright import Array, Motion, Port, Transmission, Turning
-from mechwright_spur_gears.gear_table import NAMES, GearTable
+from mechwright import Array, DesignError, Motion, Port, Transmission, Turning
+from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.kinematics.motion import driven, motion_over
 
 
@@ -16,9 +16,14 @@ class PairStage(Transmission):
     load_field = "load_torque"
 
     def __init__(self, m: GearTable) -> None:
+        if m.ring:
+            raise DesignError(
+                "arrangement: a ring is screwed to what turns with it and has no shaft for the next stage; "
+                'set arrangement = "external"'
+            )
         self.m = m
-        self.input = Port(NAMES[0], (0.0, 0.0))
-        self.output = Port(NAMES[1], (float(m.pair.distance), 0.0))
+        self.input = Port(m.names[0], (0.0, 0.0))
+        self.output = Port(m.names[1], (float(m.distance), 0.0))
         ratio = Fraction(int(m.pair.teeth[0]), int(m.pair.teeth[1]))
         self.period = Fraction(ratio.denominator)
         self.advance = -self.period * ratio

@@ -2,27 +2,21 @@
 
 import math
 
-from mechwright import Hub, Mounting, MountingError, Spindle
+from mechwright import Mounting, MountingError
+from mechwright.mechanics.gearing.pair_parts import pair_mounting
 from mechwright_spur_gears.gear_table import GearTable
 
 
 def mounting_of(m: GearTable) -> Mounting:
     """Both shafts: a torque T on gear 1 presses the teeth together with T/(r_w1 cos α_w).
 
-    Raises MountingError for gears without a bore.
+    Raises MountingError for gears without a bore, and for a ring, which has no shaft.
     """
-    params, pair = m.given, m.pair
-    if params.bore == 0:
+    if m.ring:
         raise MountingError(
-            "parameters.bore: gears without a bore have no shafts; set bore = 10",
-            ({"parameters.bore": 10.0},),
+            "parameters.arrangement: a ring is screwed to what turns with it, and has no shaft for a frame; "
+            "leave the frame out",
         )
+    pair = m.pair
     force = 1000 / (float(pair.operating(0)) * math.cos(float(pair.operating_angle)))
-    hub = Hub(0.0, params.thickness, params.bore, params.keyway_width, material=params.material)
-    axis, torque = (float(pair.distance), 0.0), 1 / float(m.ratio)
-    return Mounting(
-        (
-            Spindle("1", "gear-1", (0.0, 0.0), hub, "parameters.bore", drives=True, force=force),
-            Spindle("2", "gear-2", axis, hub, "parameters.bore", torque=torque, force=force),
-        )
-    )
+    return pair_mounting(m.given, float(m.distance), force, 1 / abs(float(m.ratio)))

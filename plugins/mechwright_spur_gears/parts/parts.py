@@ -1,16 +1,22 @@
-"""Both gears as parts."""
+"""Gears as parts."""
 
-from mechwright import Bore, Colour, Feature, Instance, Outline, Part, Profile
+from mechwright import Colour, Instance, Outline, Part
+from mechwright.contracts.part import Feature
 from mechwright.mechanics.gearing import gear_measures, tip_sites
-from mechwright_spur_gears.gear_table import NAMES, GearTable
+from mechwright.mechanics.gearing.pair_parts import gear_features
+from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.parts.teeth import outlines_of, teeth_of
 
-COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.68, 0.42)}
+COLOURS: dict[str, Colour] = {
+    "gear-1": (0.45, 0.58, 0.70),
+    "gear-2": (0.80, 0.68, 0.42),
+    "ring": (0.80, 0.68, 0.42),
+}
 """Part to its colour."""
 
 
 def parts_of(m: GearTable) -> tuple[Part, ...]:
-    """Driver and driven gear, with their sizes over pins."""
+    """Driver and driven gear, with their sizes over pins, or between them in a ring."""
     params = m.given
     return tuple(
         Part(
@@ -19,19 +25,15 @@ def parts_of(m: GearTable) -> tuple[Part, ...]:
             params.thickness,
             params.material,
             instances=(Instance(name, 0.0, COLOURS[name]),),
-            machined=tuple(_features(m, outline)),
-            measures=gear_measures(teeth, backlash=float(m.pair.backlash)),
+            machined=tuple(_features(m, name, outline)),
+            measures=gear_measures(teeth, backlash=float(m.pair.backlash), inside=name == "ring"),
         )
-        for name, outline, teeth in zip(NAMES, outlines_of(m), teeth_of(m), strict=True)
+        for name, outline, teeth in zip(m.names, outlines_of(m), teeth_of(m), strict=True)
     )
 
 
-def _features(m: GearTable, outline: Outline) -> list[Feature]:
-    """Bore, keyway, then the outside, which tabs may hold at the tips."""
-    depth, opening = m.given.thickness, m.opening
-    features: list[Feature] = []
-    if opening is not None:
-        features.append(Bore("bore", (0.0, 0.0), m.given.bore, 0, depth))
-        if opening.has_keyway:
-            features.append(Profile("keyway", opening.loop(), "inside", 0, depth))
-    return [*features, Profile("outside", outline.outer, "outside", 0, depth, tip_sites(outline.outer))]
+def _features(m: GearTable, name: str, outline: Outline) -> list[Feature]:
+    """Of a gear its bore, keyway and outside, which tabs may hold at the tips."""
+    if name == "ring":
+        return m.ring_plate.features(outline, m.given.thickness)
+    return gear_features(m.given, outline, tip_sites(outline.outer))

@@ -11,6 +11,7 @@ from mechwright.mechanics.gearing import (
     Rack,
     Round,
     RoundPair,
+    Shaper,
     Teeth,
     exact_fit,
     gear_loop,
@@ -43,29 +44,37 @@ class OnePitch(RoundPair):
 def rolling_pair(m: GearTable) -> RoundPair:
     """Both operating pitch circles: tooth 0 of the driver stands on +x and runs into a space of the mate."""
     pair = m.pair
-    start = math.pi - math.pi / float(pair.teeth[1])
+    start = (0.0 if m.ring else math.pi) - math.pi / float(pair.teeth[1])
     return RoundPair.of(float(pair.operating(0)), float(pair.operating(1)), start)
 
 
 def operating_rack(m: GearTable, gear: int) -> Rack:
-    """The rack that touches the flanks of a gear on its operating pitch circle."""
+    """The rack that touches the flanks of a gear on its operating pitch circle; of a ring a round cutter."""
     pair = m.pair
     angle, rolled = float(pair.operating_angle), float(pair.operating(gear))
     module = 2 * rolled / float(pair.teeth[gear])
     heights = float(pair.tip(gear)) - rolled, rolled - float(pair.root(gear))
-    return Rack(module, angle, *heights, pair.tip_radius * pair.module, float(pair.backlash))
+    arc = pair.tip_radius if rolled > 0 else pair.cutter_radius
+    sizes = module, angle, *heights, float(arc * pair.module), float(pair.backlash)
+    return Rack(*sizes) if rolled > 0 else Shaper(*sizes, float(pair.operating(0)))
 
 
 def operating_teeth(m: GearTable, gear: int) -> Teeth:
-    """The flanks of a gear on its operating pitch circle; fillets are not those of the cutter."""
+    """The flanks of a gear on its operating pitch circle; fillets are not those of the rack."""
     pair, rolled = m.pair, float(m.pair.operating(gear))
-    thick = float(pair.thickness_at(gear, rolled))
-    return Teeth(Round(rolled), operating_rack(m, gear), int(pair.teeth[gear]), 0.0, thickness=thick)
+    thick, count = float(pair.thickness_at(gear, rolled)), abs(int(pair.teeth[gear]))
+    return Teeth(Round(rolled), operating_rack(m, gear), count, 0.0, fit=_fit(m), thickness=thick)
+
+
+def _fit(m: GearTable) -> float:
+    """Deviation of outlines, mm."""
+    return FINER * exact_fit(rolling_pair(m), int(m.pair.teeth[0]), float(m.pair.operating_angle))
 
 
 def teeth_of(m: GearTable) -> tuple[Teeth, Teeth]:
-    """The teeth of both gears as their cutter makes them, on the reference circles."""
-    return m.once("teeth", lambda: (_teeth(m, 0), _teeth(m, 1)))
+    """The teeth of both gears as their cutters make them: a rack on the reference circles."""
+    mate = operating_teeth if m.ring else _teeth
+    return m.once("teeth", lambda: (_teeth(m, 0), mate(m, 1)))
 
 
 def _teeth(m: GearTable, gear: int) -> Teeth:
@@ -74,14 +83,13 @@ def _teeth(m: GearTable, gear: int) -> Teeth:
     rack = Rack(
         size,
         float(pair.angle),
-        size * float(pair.addendum + shift - pair.shortening),
+        size * float(pair.addendum[gear] + shift - pair.shortening),
         size * float(pair.dedendum - shift),
         size * float(pair.tip_radius),
         float(pair.backlash),
     )
-    fit = FINER * exact_fit(rolling_pair(m), int(pair.teeth[0]), float(pair.operating_angle))
     circle, thick = Round(float(pair.reference(gear))), float(pair.thickness(gear))
-    return Teeth(circle, rack, int(pair.teeth[gear]), 0.0, fit=fit, thickness=thick)
+    return Teeth(circle, rack, int(pair.teeth[gear]), 0.0, fit=_fit(m), thickness=thick)
 
 
 def loops_of(m: GearTable) -> tuple[tuple[Loop, float], tuple[Loop, float]]:
@@ -94,15 +102,16 @@ def outlines_of(m: GearTable) -> tuple[Outline, Outline]:
     """Outlines of both gears, each about its axis; keyways point along +x."""
     holes = () if m.opening is None else (m.opening.loop(),)
     (one, off), (two, more) = loops_of(m)
-    return Outline(one, holes, off), Outline(two, holes, more)
+    return Outline(one, holes, off), m.ring_plate.outline(two, more) if m.ring else Outline(two, holes, more)
 
 
 def prove(m: GearTable) -> MeshProof:
     """Run both outlines against each other over a pitch."""
 
     def found() -> MeshProof:
-        tolerance = min(FLATTEN * float(m.pair.distance) / 2, TOLERANCES.flatten)
+        tolerance = min(FLATTEN * float(m.distance) / 2, TOLERANCES.flatten)
         (one, off), (two, more) = loops_of(m)
+        two = two.reversed() if m.ring else two
         polygons = one.flatten(tolerance), two.flatten(tolerance)
         whole = rolling_pair(m)
         pair = OnePitch(whole.driver, whole.driven, whole.distance, whole.start)

@@ -1,19 +1,52 @@
-"""The rules of a pair of spur gears, in the order in which they are asked."""
+"""The rules of spur gears, in the order in which they are asked."""
 
-from mechwright.contracts.rule_list import all_of, in_turn
+from mechwright.contracts.rule_list import Rules, all_of, in_turn
+from mechwright.mechanics.gearing.ring_plate import RING_RULES
+from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.rules.ring_rules import AXIAL, CUTTER_LAND, FOULING, RING_TEETH, RING_TIP
 from mechwright_spur_gears.rules.strength import STRENGTH
 from mechwright_spur_gears.rules.teeth_rules import (
     BACKLASH,
+    CLEARANCE,
+    CONTACT,
+    DISTANCE,
+    INTERFERENCE,
     JAMS,
+    LAND,
     MESH,
-    MOTION,
+    NO_CLEARANCE,
     OPENING,
-    PROFILE,
     RIM,
+    ROUGH,
+    SHIFT,
     SIZE,
     THIN_RIM,
+    TIP,
+    TOO_NEAR,
+    UNDERCUT,
 )
 
+
+def of_rings(*rules: object) -> Rules[GearTable]:
+    """Rules in turn that are asked of gears with a ring."""
+    return in_turn(*rules, when=lambda m: m.ring)  # type: ignore[arg-type]
+
+
+MOTION = in_turn(of_rings(RING_TEETH), DISTANCE, TOO_NEAR)
+"""What a motion needs."""
+
+PROFILE = in_turn(
+    all_of(SHIFT, LAND, NO_CLEARANCE, CLEARANCE, of_rings(RING_TIP)),
+    all_of(of_rings(CUTTER_LAND), UNDERCUT, TIP),
+    all_of(CONTACT, ROUGH, INTERFERENCE),
+    of_rings(FOULING),
+)
 RULES = in_turn(
-    MOTION, PROFILE, OPENING, all_of(RIM, THIN_RIM), MESH, all_of(STRENGTH, SIZE), all_of(JAMS, BACKLASH)
+    MOTION,
+    PROFILE,
+    OPENING,
+    all_of(RIM, THIN_RIM, of_rings(RING_RULES)),
+    MESH,
+    all_of(STRENGTH, SIZE, AXIAL),
+    all_of(JAMS, BACKLASH),
 )

@@ -8,8 +8,9 @@ from mechwright.mechanics.strength.allowed import PIN_SHEAR, ROOT_SAFETY, allowe
 from mechwright.mechanics.strength.fastening import LONGEST_KEY, key_pressure, key_shear
 from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
 from mechwright.mechanics.strength.judging import Stress, StressRule, Way
-from mechwright.mechanics.strength.tooth_bending import Rack, root_stress
+from mechwright.mechanics.strength.tooth_bending import STRAIGHT, Rack, root_stress
 from mechwright_spur_gears.gear_table import GearTable, table_of
+from mechwright_spur_gears.pair import module_of
 
 KEY_STEEL = "steel"
 """Of keys."""
@@ -17,27 +18,27 @@ KEY_STEEL = "steel"
 
 def tangential_force(m: GearTable) -> np.ndarray:
     """On the operating pitch circles, N."""
-    return np.asarray(1000 * m.given.load_torque / m.pair.operating(1))
+    return np.asarray(1000 * m.given.load_torque / abs(m.pair.operating(1)))
 
 
 def root_stresses(m: GearTable) -> list[Stress]:
-    """Bending at the roots; a tooth that is loaded at its tip carries alone."""
+    """Bending at the roots; a tooth that is loaded at its tip carries alone. A ring's is one of a rack."""
     pair, given = m.pair, m.given
     own = Rack(pair.angle, given.addendum, given.dedendum, given.tip_radius)
     bears = allowed(given.material).root
     found = []
-    for gear in (0, 1):
-        height = given.addendum + pair.shifts[gear] - pair.shortening
+    for gear, flank in enumerate(m.flanks):
+        height = pair.addendum[gear] + pair.shifts[gear] - pair.shortening
         value = root_stress(
             tangential_force(m) * np.cos(pair.operating_angle) / np.cos(pair.angle),
             given.thickness,
             pair.module,
-            pair.teeth[gear],
+            np.where(np.asarray(pair.teeth[gear]) < 0, STRAIGHT, pair.teeth[gear]),
             rack=own,
             shift=pair.shifts[gear],
             addendum=height,
         )
-        what = f"teeth of gear {gear + 1} are bent at their roots with"
+        what = f"teeth of {flank.words} are bent at their roots with"
         found.append(Stress(what, _number(value), bears, ROOT_SAFETY * bears))
     return found
 
@@ -63,7 +64,7 @@ def key_stresses(m: GearTable) -> list[Stress]:
     if not m.single or m.opening is None or not m.opening.has_keyway:
         return []
     given, opening = m.given, m.opening
-    torque = max(given.load_torque, given.load_torque * float(m.ratio))
+    torque = given.load_torque * max(0.0 if m.ring else 1.0, abs(float(m.ratio)))
     bears = min(given.thickness, LONGEST_KEY * opening.bore)
     pressure = key_pressure(torque, opening.bore, opening.key_top - opening.bore / 2, bears)
     sheared = key_shear(torque, opening.bore, opening.width, bears)
@@ -79,9 +80,10 @@ def _wider(m: GearTable) -> Way:
 
 
 def _larger(m: GearTable) -> Way:
-    if m.given.module is None:
-        return Way("diametral_pitch", m.given.diametral_pitch, up=False)
-    return Way("module", m.given.module)
+    given = m.given
+    if given.diametral_pitch is not None:
+        return Way("diametral_pitch", given.diametral_pitch, up=False)
+    return Way("module", module_of(given))
 
 
 def _less(m: GearTable) -> Way:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from mechwright import Array, Finding, Severity, Stage
 from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
 from mechwright.contracts.finding import Change
-from mechwright.contracts.rule_list import all_of, in_turn
+from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.checks import (
     FULL_RIM,
     LEAST_CLEARANCE,
@@ -17,26 +18,40 @@ from mechwright.mechanics.gearing.checks import (
     LEAST_TIP,
     mesh_findings,
 )
-from mechwright.mechanics.gearing.involute import MOST_SHIFT, least_shift, straight_depth
+from mechwright.mechanics.gearing.involute import (
+    MOST_SHIFT,
+    InvolutePair,
+    involute,
+    least_shift,
+    straight_depth,
+)
 from mechwright.mechanics.opening_rules import keyway_rules, size_rules
 from mechwright.tolerances import falls_short
-from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.gear_table import Flank, GearTable
 from mechwright_spur_gears.pair import backlash_for
 from mechwright_spur_gears.parts.teeth import prove
 
 GOOD_CONTACT, LEAST_CONTACT = 1.2, 1.0
 """Contact ratio below which gears run roughly, and below which contact is lost."""
 
-SHIFTS, TEETH = ("shift", "mate_shift"), ("teeth", "mate_teeth")
-
 Rule = DesignRule[GearTable]
 Fails = Failure[GearTable]
 
 
-def both(m: GearTable, value: Callable[[int], Any]) -> Array:
-    """A number of both gears, (n, 2)."""
-    parts = [np.broadcast_to(np.reshape(value(gear), (-1, 1)), (m.size, 1)) for gear in (0, 1)]
-    return np.concatenate(parts, axis=1)
+def each(m: GearTable, value: Callable[[InvolutePair, int], Any]) -> Array:
+    """A number of every gear in its meshes, (n, k)."""
+    found = [value(m.meshes[one.mesh], one.gear) for one in m.flanks]
+    return np.concatenate([np.broadcast_to(np.reshape(one, (-1, 1)), (m.size, 1)) for one in found], axis=1)
+
+
+def flank_of(f: Fails) -> Flank:
+    """The gear that breaks a rule."""
+    return f.m.flanks[f.item]
+
+
+def _mate(f: Fails) -> Flank:
+    """What meshes with it there."""
+    return f.m.flanks[f.item ^ 1]
 
 
 def _stands(m: GearTable) -> Any:
@@ -46,7 +61,7 @@ def _stands(m: GearTable) -> Any:
 
 def _least_distance(m: GearTable) -> Any:
     """The centre distance at which both base circles touch, mm."""
-    return m.pair.reference_distance * np.cos(m.pair.angle)
+    return abs(m.pair.reference_distance) * np.cos(m.pair.angle)
 
 
 DISTANCE = Rule(
@@ -57,29 +72,46 @@ DISTANCE = Rule(
     limit=_least_distance,
     unit="mm",
     remedy=lambda f: (
-        f"make centre_distance at least {math.ceil(1000 * f.m.pair.reference_distance) / 1000:g}, or module "
-        "smaller"
+        f"make centre_distance at least {math.ceil(1000 * _plain_distance(f.m)) / 1000:g}, or module smaller"
     ),
     must_be="above",
     stage=Stage.MOTION,
     when=lambda m: m.given.centre_distance is not None,
     proposed=lambda _: ({"parameters.centre_distance": None},),
 )
+
+
+def _sum(m: GearTable) -> float:
+    return float(m.pair.shifts[0] + m.pair.shifts[1])
+
+
+def _sum_limit(m: GearTable) -> float:
+    """Sum of the shifts with which the base circles touch."""
+    return float(-involute(m.pair.angle) * m.pair.total / (2 * np.tan(m.pair.angle)))
+
+
 TOO_NEAR = Rule(
     "gear.shift",
     "mate_shift",
-    "shifts of {value:.3f} modules together put the flanks of both gears into each other",
-    value=lambda m: m.pair.shifts[0] + m.pair.shifts[1],
-    limit=lambda m: -(np.tan(m.pair.angle) - m.pair.angle) * m.pair.total / (2 * np.tan(m.pair.angle)),
-    remedy=lambda f: f"make both shifts together at least {math.ceil(100 * f.limit) / 100:g}",
+    lambda f: f"shifts of {_sum(f.m):.3f} modules together put the flanks of both gears into each other",
+    value=lambda m: (
+        involute(m.pair.angle)
+        + 2 * np.tan(m.pair.angle) * (m.pair.shifts[0] + m.pair.shifts[1]) / m.pair.total
+    ),
+    limit=0.0,
+    reported=lambda f: (_sum(f.m), _sum_limit(f.m)),
+    remedy=lambda f: (
+        f"make both shifts together at {'most' if f.m.ring else 'least'} "
+        f"{(math.floor if f.m.ring else math.ceil)(100 * _sum_limit(f.m)) / 100:g}"
+    ),
     must_be="above",
     stage=Stage.MOTION,
 )
 SHIFT = Rule(
     "gear.shift",
-    lambda f: SHIFTS[f.item] if getattr(f.m.given, SHIFTS[f.item]) is not None else "centre_distance",
+    lambda f: flank_of(f).shift if getattr(f.m.given, flank_of(f).shift) is not None else "centre_distance",
     "the centre distance asks for a profile shift of {value:.3f} modules, and the limit is {limit:g}",
-    value=lambda m: np.abs(both(m, lambda gear: m.pair.shifts[gear])),
+    value=lambda m: np.abs(each(m, lambda pair, gear: pair.shifts[gear])),
     limit=MOST_SHIFT,
     must_be="at most",
     remedy=lambda f: (
@@ -91,11 +123,7 @@ SHIFT = Rule(
 
 
 def _plain_distance(m: GearTable) -> float:
-    return float(m.pair.reference_distance)
-
-
-def _least(m: GearTable, gear: int) -> Any:
-    return least_shift(m.pair.teeth[gear], m.pair.angle, m.given.dedendum, m.given.tip_radius)
+    return float(abs(m.pair.reference_distance))
 
 
 def _up(value: float) -> float:
@@ -104,20 +132,22 @@ def _up(value: float) -> float:
 
 def _shifted(f: Fails) -> Iterator[Change]:
     if f.limit <= MOST_SHIFT:
-        yield {f"parameters.{SHIFTS[f.item]}": _up(f.limit), "parameters.centre_distance": None}
-    yield {f"parameters.{SHIFTS[f.item]}": None}
+        yield {f"parameters.{flank_of(f).shift}": _up(f.limit), "parameters.centre_distance": None}
+    yield {f"parameters.{flank_of(f).shift}": None}
 
 
 UNDERCUT = Rule(
     "gear.undercut",
-    lambda f: SHIFTS[f.item],
+    lambda f: flank_of(f).shift,
     lambda f: (
-        f"gear {f.item + 1} with {int(np.ravel(f.m.pair.teeth[f.item])[0])} teeth and a profile shift of "
-        f"{f.value:.3f} is undercut: the cutter takes away a part of the flank near the root"
+        f"{flank_of(f).words} with {f.m.number_of(flank_of(f))} teeth and a profile shift of {f.value:.3f} "
+        "is undercut: the cutter takes away a part of the flank near the root"
     ),
-    value=lambda m: both(m, lambda gear: m.pair.shifts[gear]),
-    limit=lambda m: both(m, lambda gear: _least(m, gear)),
-    remedy=lambda f: f"make {SHIFTS[f.item]} at least {_up(f.limit):g}, or {TEETH[f.item]} larger",
+    value=lambda m: each(m, lambda pair, gear: pair.shifts[gear]),
+    limit=lambda m: each(
+        m, lambda pair, gear: least_shift(pair.teeth[gear], pair.angle, pair.dedendum, pair.tip_radius)
+    ),
+    remedy=lambda f: f"make {flank_of(f).shift} at least {_up(f.limit):g}, or {flank_of(f).teeth} larger",
     proposed=_shifted,
 )
 LAND = Rule(
@@ -146,19 +176,26 @@ TIP = Rule(
     "gear.tip",
     "addendum",
     lambda f: (
-        f"a tooth of gear {f.item + 1} is "
+        f"a tooth of {flank_of(f).words} is "
         + ("pointed" if f.value <= 0 else f"{f.value:.3f} modules wide at the tip")
         + f", below {LEAST_TIP:g} modules"
     ),
-    value=lambda m: both(m, lambda gear: m.pair.thickness_at(gear, m.pair.tip(gear)) / m.pair.module),
+    value=lambda m: each(m, lambda pair, gear: pair.thickness_at(gear, pair.tip(gear)) / pair.module),
     limit=LEAST_TIP,
-    remedy=lambda f: f"make {SHIFTS[f.item]} or addendum smaller",
+    remedy=lambda f: f"make {flank_of(f).shift} or {height_key(f)} smaller",
 )
+
+
+def height_key(f: Fails) -> str:
+    """The key of the height of a gear's teeth."""
+    return "ring_addendum" if f.m.ring and f.item == len(f.m.flanks) - 1 else "addendum"
+
+
 CONTACT = Rule(
     "gear.contact-ratio",
     "addendum",
     "the contact ratio is {value:.3f}: a pair of teeth lets go before the next one takes over",
-    value=lambda m: m.pair.contact_ratio,
+    value=lambda m: np.concatenate([np.reshape(one.contact_ratio, (-1, 1)) for one in m.meshes], axis=1),
     limit=LEAST_CONTACT,
     must_be="above",
     remedy="use more teeth, a larger addendum or smaller shifts",
@@ -168,21 +205,31 @@ ROUGH = CONTACT.but(
     limit=GOOD_CONTACT,
     must_be="at least",
     severity=Severity.WARNING,
-    when=lambda m: np.asarray(m.pair.contact_ratio) > LEAST_CONTACT,
+    when=lambda m: np.all([np.reshape(one.contact_ratio, -1) > LEAST_CONTACT for one in m.meshes], axis=0),
 )
 INTERFERENCE = Rule(
     "gear.interference",
     "addendum",
     lambda f: (
-        f"the tips of gear {2 - f.item} run into the fillets of gear {f.item + 1}: its flanks begin "
-        f"{f.limit:.3f} mm along the line of action, and the tips reach {f.value:.3f} mm"
+        f"the tips of {_mate(f).words} run into the fillets of {flank_of(f).words}: its flanks begin "
+        f"{abs(f.limit):.3f} mm along the line of action, and the tips reach {abs(f.value):.3f} mm"
     ),
-    value=lambda m: both(m, m.pair.foot_curvature),
-    limit=lambda m: np.maximum(both(m, m.pair.form_curvature), 0.0),
+    value=lambda m: each(m, lambda pair, gear: pair.foot_curvature(gear)),
+    limit=lambda m: each(m, _form),
     unit="mm",
-    remedy=lambda f: f"make {SHIFTS[f.item]} larger, addendum or tip_radius smaller, or use more teeth",
+    remedy=lambda f: (
+        f"make {flank_of(f).shift} larger, {height_key(replace(f, item=f.item ^ 1))} or tip_radius smaller, "
+        "or use more teeth"
+    ),
     each=False,
+    proposed=lambda f: ({"parameters.ring_addendum": None},) if f.m.ring else (),
 )
+
+
+def _form(pair: InvolutePair, gear: int) -> Any:
+    """Where the flank of a gear begins; that of a ring is below 0."""
+    form = pair.form_curvature(gear)
+    return np.where(np.asarray(pair.teeth[gear]) < 0, form, np.maximum(form, 0.0))
 
 
 def _reach(m: GearTable) -> Any:
@@ -196,7 +243,9 @@ def _reach(m: GearTable) -> Any:
 
 
 def _rim(m: GearTable) -> Any:
-    return (both(m, m.pair.root) - np.reshape(_reach(m), (-1, 1))) / np.reshape(m.pair.module, (-1, 1))
+    # A ring has no shaft.
+    roots = each(m, lambda pair, gear: np.where(np.asarray(pair.teeth[gear]) < 0, np.inf, pair.root(gear)))
+    return (roots - np.reshape(_reach(m), (-1, 1))) / np.reshape(m.pair.module, (-1, 1))
 
 
 def _bored(m: GearTable) -> Any:
@@ -205,7 +254,7 @@ def _bored(m: GearTable) -> Any:
 
 def _bore(f: Fails, share: float) -> float:
     m = f.m
-    most = 2 * (float(m.pair.root(f.item)) - share * float(m.pair.module))
+    most = 2 * (float(m.meshes[flank_of(f).mesh].root(flank_of(f).gear)) - share * float(m.pair.module))
     return math.floor(100 * (most - 2 * (float(_reach(m)) - m.given.bore / 2))) / 100
 
 
@@ -261,14 +310,6 @@ def _mesh(m: GearTable) -> Iterator[Finding]:
     yield from mesh_findings(prove(m), float(m.pair.backlash), list)
 
 
-MOTION = in_turn(DISTANCE, TOO_NEAR)
-"""What a motion needs."""
-
-PROFILE = in_turn(
-    all_of(SHIFT, LAND, NO_CLEARANCE, CLEARANCE),
-    all_of(UNDERCUT, TIP),
-    all_of(CONTACT, ROUGH, INTERFERENCE),
-)
 OPENING = all_of(*size_rules("keyway_relief"), keyway_rules("bore", "keyway_width", "keyway_relief"))
 MESH = Procedure[GearTable](
     ("gear.mesh", "gear.contact"), _mesh, when=lambda m: m.single, slow=True, stage=Stage.PARTS
@@ -279,10 +320,10 @@ def _size_message(m: GearTable) -> str:
     pair = m.pair
     one, two = (float(shift) for shift in pair.shifts)
     return (
-        f"centre distance {float(pair.distance):.4f} mm, profile shifts {one:.3f} and {two:.3f}, operating "
+        f"centre distance {float(m.distance):.4f} mm, profile shifts {one:.3f} and {two:.3f}, operating "
         f"pressure angle {math.degrees(float(pair.operating_angle)):.3f} degrees, contact ratio "
         f"{float(pair.contact_ratio):.3f}"
     )
 
 
-SIZE = Note[GearTable]("gear.size", _size_message, lambda m: float(m.pair.distance), "mm")
+SIZE = Note[GearTable]("gear.size", _size_message, lambda m: float(m.distance), "mm")

@@ -1,11 +1,14 @@
 """Closed forms of a pair of involute gears with profile shift; numbers, or columns (n, 1) over n designs.
 
+A ring, which has teeth inside, has a number of teeth below 0. Its radii, the centre distance and radii of
+curvature are then below 0 as well, all formulas stay, and a shift above 0 makes its teeth thicker (DIN 3960).
+
 With module m, pressure angle α of the rack, teeth z1 and z2, shifts x1 and x2 in modules:
 
 * operating pressure angle: inv α_w = inv α + 2 tan α (x1 + x2)/(z1 + z2), inv α = tan α - α;
 * centre distance: a = m (z1 + z2)/2 · cos α/cos α_w; operating pitch circles r_w = a z/(z1 + z2);
-* tip shortening: k = x1 + x2 - (a - a_0)/m keeps the clearance of the rack; tip r_a = m (z/2 + h_a + x - k),
-  root r_f = m (z/2 - h_f + x), base r_b = m z cos α/2;
+* tip shortening: k = x1 + x2 - (a - a_0)/m keeps the clearance of the rack, and is none in a ring;
+* tip r_a = m (z/2 + h_a + x - k), root r_f = m (z/2 - h_f + x), base r_b = m z cos α/2;
 * tooth thickness on the reference circle: s = m (π/2 + 2 x tan α), less what the backlash takes;
 * contact ratio: ε = (√(r_a1² - r_b1²) + √(r_a2² - r_b2²) - a sin α_w)/(π m cos α);
 * undercut: none where x ≥ h_s - z sin²α/2, h_s being the depth to which the rack's flank is straight;
@@ -19,6 +22,7 @@ Source: DIN 3960, ISO 21771.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -69,20 +73,25 @@ class InvolutePair(Rowwise):
         Pressure angle of the rack, rad.
     teeth, shifts
         z1, z2 and x1, x2.
-    addendum, dedendum, tip_radius
+    addendum
+        Of both gears, in modules.
+    dedendum, tip_radius
         Of the rack, in modules.
     backlash
         Circumferential play on the operating pitch circles, mm; each tooth is thinner by half of it.
+    cutter_radius
+        At the tips of a ring's cutter, which has as many teeth as its pinion, in modules.
     """
 
     module: Any
     angle: Any
     teeth: tuple[Any, Any]
     shifts: tuple[Any, Any]
-    addendum: Any = 1.0
+    addendum: tuple[Any, Any] = (1.0, 1.0)
     dedendum: Any = 1.25
     tip_radius: Any = 0.38
     backlash: Any = 0.0
+    cutter_radius: Any = 0.0
 
     @property
     def total(self) -> Any:
@@ -94,7 +103,7 @@ class InvolutePair(Rowwise):
         """a_0, mm: the centre distance without shifts."""
         return self.module * self.total / 2
 
-    @property
+    @cached_property
     def operating_angle(self) -> Array:
         """α_w, rad; NaN where the shifts put the gears too near to each other."""
         more = 2 * np.tan(self.angle) * (self.shifts[0] + self.shifts[1]) / self.total
@@ -107,9 +116,9 @@ class InvolutePair(Rowwise):
 
     @property
     def shortening(self) -> Any:
-        """k, in modules."""
+        """k, in modules, 0 or more."""
         sum_of_shifts = self.shifts[0] + self.shifts[1]
-        return sum_of_shifts - (self.distance - self.reference_distance) / self.module
+        return np.maximum(sum_of_shifts - (self.distance - self.reference_distance) / self.module, 0.0)
 
     def reference(self, gear: int) -> Any:
         """Radius of the reference circle of gear 0 or 1, mm."""
@@ -125,7 +134,7 @@ class InvolutePair(Rowwise):
 
     def tip(self, gear: int) -> Any:
         """Radius of its tip circle, mm."""
-        height = self.addendum + self.shifts[gear] - self.shortening
+        height = self.addendum[gear] + self.shifts[gear] - self.shortening
         return self.reference(gear) + self.module * height
 
     def root(self, gear: int) -> Any:
@@ -146,33 +155,89 @@ class InvolutePair(Rowwise):
     @property
     def contact_ratio(self) -> Any:
         """ε."""
-        way = self._tip_curvature(0) + self._tip_curvature(1) - self._line
+        way = self._tip_curvature(0) + self._tip_curvature(1) - self.line
         return way / (math.pi * self.module * np.cos(self.angle))
 
     @property
-    def _line(self) -> Any:
+    def line(self) -> Any:
         """Between both points where the line of action touches the base circles, mm."""
         return self.distance * np.sin(self.operating_angle)
 
     def _tip_curvature(self, gear: int) -> Any:
         """Radius of curvature of a flank at its tip, mm."""
         with np.errstate(invalid="ignore"):
-            return np.sqrt(self.tip(gear) ** 2 - self.base(gear) ** 2)
+            return np.sqrt(self.tip(gear) ** 2 - self.base(gear) ** 2) * np.sign(self.teeth[gear])
 
     def foot_curvature(self, gear: int) -> Any:
         """Radius of curvature of a flank where the tip of the mate touches it, mm."""
-        return self._line - self._tip_curvature(1 - gear)
+        return self.line - self._tip_curvature(1 - gear)
 
     def form_curvature(self, gear: int) -> Any:
-        """Radius of curvature of a flank where its fillet begins, mm; below 0 the flank is undercut."""
+        """Radius of curvature of a flank where its fillet begins, mm; of a gear below 0 it is undercut."""
+        if np.all(np.asarray(self.teeth[gear]) < 0):
+            return self.line - self._cutter_curvature
         deep = straight_depth(self.angle, self.dedendum, self.tip_radius) - self.shifts[gear]
         return self.reference(gear) * np.sin(self.angle) - self.module * deep / np.sin(self.angle)
+
+    @property
+    def _cutter_curvature(self) -> Any:
+        """Radius of curvature, mm, of the flanks of a ring's cutter where its tip arcs begin."""
+        arc = self.module * self.cutter_radius
+        centre = self.distance - self.root(1) - arc
+        with np.errstate(invalid="ignore"):
+            return np.sqrt(np.maximum(centre**2 - self.base(0) ** 2, 0.0)) + arc
+
+    def cutter_land(self, radius: Any) -> Any:
+        """Half the flat end of a tooth of a ring's cutter, rad about its axis; below 0 its tip arcs overlap.
+
+        ``radius`` is that of these arcs, in modules.
+        """
+        arc, rolled = self.module * radius, self.operating(0)
+        centre = self.distance - self.root(1) - arc
+        space = (math.tau * rolled / self.teeth[0] - self.thickness_at(1, self.operating(1))) / 2
+        angle = space / rolled + involute(self.operating_angle) - arc / self.base(0)
+        return angle - involute(np.arccos(np.minimum(self.base(0) / centre, 1.0)))
+
+    @property
+    def tip_passing(self) -> Any:
+        """How far, mm, tips of a pinion pass those of its ring where both tip circles cross; inf elsewhere.
+
+        z1 (θ1 + inv α_a1 - inv α_w) - |z2| (θ2 + inv α_a2 - inv α_w) over z1, times r_a1; θ are the angles
+        of the crossing about both axes (Dudley, Niemann).
+        """
+        one, two, apart = self.tip(0), -self.tip(1), -self.distance
+        with np.errstate(invalid="ignore"):
+            first = np.arccos((two**2 - one**2 - apart**2) / (2 * apart * one))
+            second = np.arccos((apart**2 + two**2 - one**2) / (2 * apart * two))
+        ahead = first + self._tip_involute(0)
+        behind = second + self._tip_involute(1)
+        passing = one * (ahead + self.teeth[1] / self.teeth[0] * behind)
+        return np.where(np.isnan(first), np.inf, passing)
+
+    @property
+    def goes_in(self) -> Any:
+        """Whether a pinion goes into its ring along the line of centres: angle, rad, 0 or more if it does.
+
+        θ1 + inv α_a1 - inv α_w - |z2|/z1 (θ2 + inv α_a2 - inv α_w), sin²θ1 = (1 - (cos α_a1/cos α_a2)²)/
+        (1 - (z1/z2)²), sin²θ2 = ((cos α_a2/cos α_a1)² - 1)/((z2/z1)² - 1) (Henriot).
+        """
+        cosines = self.base(0) / self.tip(0) / (self.base(1) / self.tip(1))
+        teeth = self.teeth[0] / self.teeth[1]
+        with np.errstate(invalid="ignore"):
+            first = np.arcsin(np.sqrt((1 - cosines**2) / (1 - teeth**2)))
+            second = np.arcsin(np.sqrt((cosines**-2 - 1) / (teeth**-2 - 1)))
+        return first + self._tip_involute(0) + (second + self._tip_involute(1)) / teeth
+
+    def _tip_involute(self, gear: int) -> Any:
+        """Inv α_a - inv α_w at its tip."""
+        angle = np.arccos(np.minimum(self.base(gear) / self.tip(gear), 1.0))
+        return involute(angle) - involute(self.operating_angle)
 
     def sliding(self, gear: int) -> Any:
         """Specific sliding at the foot of a flank: sliding over rolling speed, below 0."""
         own = self.foot_curvature(gear)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return 1 - self.teeth[gear] / self.teeth[1 - gear] * (self._line - own) / own
+            return 1 - self.teeth[gear] / self.teeth[1 - gear] * (self.line - own) / own
 
     def with_shifts(self, one: Any, two: Any) -> "InvolutePair":
         """The same rack and numbers of teeth with other shifts."""
@@ -185,12 +250,13 @@ def straight_depth(angle: Any, dedendum: Any, tip_radius: Any) -> Any:
 
 
 def least_shift(teeth: Any, angle: Any, dedendum: Any, tip_radius: Any) -> Any:
-    """The least shift, in modules, without undercut.
+    """The least shift, in modules, without undercut; a ring, whose teeth are below 0, has none.
 
     >>> round(float(least_shift(17.1, math.radians(20), 1.0, 0.0)), 3)
     -0.0
     """
-    return straight_depth(angle, dedendum, tip_radius) - teeth * np.sin(angle) ** 2 / 2
+    least = straight_depth(angle, dedendum, tip_radius) - teeth * np.sin(angle) ** 2 / 2
+    return np.where(np.asarray(teeth) < 0, -np.inf, least)
 
 
 def sum_of_shifts(teeth: tuple[Any, Any], module: Any, angle: Any, distance: Any) -> Any:

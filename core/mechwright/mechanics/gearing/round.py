@@ -12,7 +12,7 @@ from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
 
 @dataclass(frozen=True)
 class Round(PitchCurve):
-    """A circle about the axis; its parameter is the direction.
+    """A circle about the axis; its parameter is the direction. The radius of a ring is below 0.
 
     Examples
     --------
@@ -23,41 +23,47 @@ class Round(PitchCurve):
     radius: float
 
     @property
+    def _size(self) -> float:
+        return abs(self.radius)
+
+    @property
     def perimeter(self) -> float:
         """2 π r, mm."""
-        return math.tau * self.radius
+        return math.tau * self._size
 
     def arc(self, t: Array) -> Array:
         """Arc length r t (...), mm."""
-        result: Array = self.radius * np.asarray(t, dtype=float)
+        result: Array = self._size * np.asarray(t, dtype=float)
         return result
 
     def arc_rate(self, t: Array) -> Array:
         """Derivative r (...), mm/rad."""
-        return np.full(np.shape(t), self.radius)
+        return np.full(np.shape(t), self._size)
 
     def parameter(self, arc: Array) -> Array:
         """Direction (...), rad, at arc lengths (...), mm: exact, where the table would only be near."""
-        result: Array = np.asarray(arc, dtype=float) / self.radius
+        result: Array = np.asarray(arc, dtype=float) / self._size
         return result
 
     def frame(self, t: Array, arc: Array | None = None) -> Frame:
         """The moving frame at directions (...)."""
         cos, sin = np.cos(t), np.sin(t)
-        normal = np.stack((cos, sin), axis=-1)
+        outward = np.stack((cos, sin), axis=-1)
         tangent = np.stack((-sin, cos), axis=-1)
         found = self.arc(t) if arc is None else arc
-        return Frame(found, self.radius * normal, tangent, normal, np.full(np.shape(t), self.radius))
+        normal = math.copysign(1.0, self.radius) * outward
+        return Frame(found, self._size * outward, tangent, normal, np.full(np.shape(t), self.radius))
 
 
 @dataclass(frozen=True)
 class RoundPair(Pair):
-    """Two circles that roll on each other from outside.
+    """Two circles that roll on each other, or one in a ring.
 
     Parameters
     ----------
     start
-        θ2 at θ1 = 0, rad: gears whose first teeth stand on their x axes mesh with π - π/z2.
+        θ2 at θ1 = 0, rad: gears whose first teeth stand on their x axes mesh with π - π/z2, and a gear in a
+        ring with π/z2.
     """
 
     driver: Round
@@ -66,8 +72,13 @@ class RoundPair(Pair):
 
     @classmethod
     def of(cls, driver: float, driven: float, start: float = 0.0) -> "RoundPair":
-        """Of pitch radii, mm."""
-        return cls(Round(driver), Round(driven), driver + driven, start)
+        """Of pitch radii, mm; that of a ring is below 0."""
+        return cls(Round(driver), Round(driven), abs(driver + driven), start)
+
+    @property
+    def side(self) -> int:
+        """-1 in a ring."""
+        return 1 if self.driven.radius > 0 else -1
 
     def law(self, theta: Array) -> tuple[Array, Array]:
         """θ2 = start - θ1 r1/r2, and its derivative."""
