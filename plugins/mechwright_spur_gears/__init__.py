@@ -1,1 +1,1 @@
-"""Spur gears: involute gears and rings with profile shift."""
+"""Spur gears: involute gears, rings and planetary sets with profile shift."""

@@ -18,18 +18,20 @@ if TYPE_CHECKING:
 
 
 class SpurGears(Family[SpurGearParams]):
-    """A pinion, and a gear or a ring, with involute teeth."""
+    """Involute gears: two of them, one in a ring, or a planetary set."""
 
     name = "spur-gears"
     title = "Spur gears"
-    summary = "Involute gears, or a gear in a ring, with profile shift, at the centre distance that you have."
+    summary = (
+        "Involute gears with profile shift, at the centre distance that you have; rings, planetary sets."
+    )
     Params = SpurGearParams
     batch: ClassVar[int] = 1 << 16
-    counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth"})
+    counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth", "ring_teeth"})
     structure: ClassVar[frozenset[str]] = frozenset({"keyway_width", "keyway_depth", "keyway_relief"})
 
     def rules(self) -> "Rules[GearTable]":
-        """Distance, shifts, undercut, tips, contact, interference, bores, the mesh proof, strength."""
+        """Distance, assembly, shifts, undercut, tips, contact, interference, bores, mesh proofs, strength."""
         from mechwright_spur_gears.rules.rule_table import RULES
 
         return RULES
@@ -56,7 +58,7 @@ class SpurGears(Family[SpurGearParams]):
         return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: SpurGearParams) -> "Sequence[Part]":
-        """Both gears."""
+        """The gears, and of a planetary set its carrier and pins."""
         from mechwright_spur_gears.parts.parts import parts_of
 
         refuse(self.check(params), Stage.PARTS)
@@ -75,13 +77,13 @@ class SpurGears(Family[SpurGearParams]):
         return PairStage(self.table(params))
 
     def check_cut(self, params: SpurGearParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
-        """Whether the pair as cut still meshes, and its keys go in."""
+        """Whether the gears as cut still mesh, and their keys go in."""
         from mechwright_spur_gears.parts.made import cut_findings
 
         return cut_findings(self.table(params), cut)
 
     def as_made(self, params: SpurGearParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
-        """Play, transmission error and backlash, and whether the pair jams."""
+        """Play, transmission error and backlash of every pair, and whether it jams."""
         from mechwright_spur_gears.parts.made import as_made
 
         return as_made(self.table(params), made)
@@ -93,7 +95,7 @@ class SpurGears(Family[SpurGearParams]):
         return figures_of(cast("GearTable", table))
 
     def channels(self, table: "DesignTable[SpurGearParams]", samples: int) -> "Mapping[str, Channel]":
-        """Angles of both gears and their rates."""
+        """Angles of driver and driven gear, and of planets, with their rates."""
         from mechwright_spur_gears.kinematics.motion import table_channels
 
         return table_channels(cast("GearTable", table), samples)

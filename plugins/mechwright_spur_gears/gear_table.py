@@ -14,11 +14,25 @@ from mechwright.geometry.keyway import Opening
 from mechwright.mechanics.gearing.involute import InvolutePair
 from mechwright.mechanics.gearing.ring_plate import RingPlate
 from mechwright.mechanics.openings import opening_of
-from mechwright_spur_gears.pair import pair_of
+from mechwright_spur_gears.pair import pair_of, ring_pair_of
 from mechwright_spur_gears.parameters import SpurGearParams
 
-NAMES: Mapping[str, tuple[str, ...]] = {"external": ("gear-1", "gear-2"), "internal": ("gear-1", "ring")}
-"""Arrangement to its toothed parts and bodies: driver and driven gear."""
+NAMES: Mapping[str, tuple[str, ...]] = {
+    "external": ("gear-1", "gear-2"),
+    "internal": ("gear-1", "ring"),
+    "planetary": ("sun", "planet", "ring"),
+}
+"""Arrangement to its toothed parts."""
+
+
+MEMBERS = ("sun", "ring", "carrier")
+"""Of a planetary set: one is fixed, one drives, and one is driven."""
+
+AXIAL_GAP, CARRIER_WALL = 0.5, 3.0
+"""mm: between carrier, planets and the heads of their pins; and what stays about holes of a carrier."""
+
+UNEVEN = 1.2
+"""Load of the planet that carries most, over the mean."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +45,10 @@ class Flank:
         Places in :attr:`GearTable.meshes` and in that pair.
     words
         The gear in a sentence.
-    teeth, shift
+    teeth, shift, bore
         Its keys.
+    again
+        Whether it is in a mesh before.
     """
 
     mesh: int
@@ -40,12 +56,20 @@ class Flank:
     words: str
     teeth: str
     shift: str
+    bore: str = "bore"
+    again: bool = False
 
 
 DRIVER = Flank(0, 0, "gear 1", "teeth", "shift")
 FLANKS: Mapping[str, tuple[Flank, ...]] = {
     "external": (DRIVER, Flank(0, 1, "gear 2", "mate_teeth", "mate_shift")),
     "internal": (DRIVER, Flank(0, 1, "the ring", "mate_teeth", "mate_shift")),
+    "planetary": (
+        Flank(0, 0, "the sun", "teeth", "shift"),
+        Flank(0, 1, "a planet", "mate_teeth", "mate_shift", "pin_diameter"),
+        Flank(1, 0, "a planet", "mate_teeth", "mate_shift", "pin_diameter", again=True),
+        Flank(1, 1, "the ring", "ring_teeth", "centre_distance"),
+    ),
 }
 """Arrangement to its gears in their meshes."""
 
@@ -58,10 +82,20 @@ class GearTable(DesignTable[SpurGearParams]):
         """Driver and driven gear."""
         return pair_of(self.given)
 
-    @property
+    @cached_property
     def meshes(self) -> tuple[InvolutePair, ...]:
         """All pairs of gears that mesh."""
-        return (self.pair,)
+        return (self.pair, ring_pair_of(self.given, self.pair)) if self.planetary else (self.pair,)
+
+    @property
+    def dimensions(self) -> Any:
+        """The parameters; those of the arrangement are set, and have no None in their types."""
+        return self.given
+
+    @property
+    def planetary(self) -> bool:
+        """Whether planets run between a sun and a ring."""
+        return self.given.arrangement == "planetary"
 
     @property
     def flanks(self) -> tuple[Flank, ...]:
@@ -95,7 +129,61 @@ class GearTable(DesignTable[SpurGearParams]):
     @property
     def ratio(self) -> Any:
         """Speed of the driven gear over that of the driver; below 0 if they turn against each other."""
-        return -self.pair.teeth[0] / self.pair.teeth[1]
+        return self.rate(self.driven) if self.planetary else -self.pair.teeth[0] / self.pair.teeth[1]
+
+    @property
+    def driven(self) -> str:
+        """The driven body."""
+        if not self.planetary:
+            return self.names[1]
+        (found,) = {*MEMBERS} - {self.given.fixed_member, self.given.driving_member}
+        return found
+
+    def rate(self, member: str) -> Any:
+        """Speed of sun, ring, carrier or planets over that of the driver.
+
+        z_s ω_s + z_r ω_r = (z_s + z_r) ω_c, with one of them at rest (Willis).
+        """
+        sun, ring, given = self.given.teeth, self.dimensions.ring_teeth, self.dimensions
+        weights = {"sun": sun, "ring": ring, "carrier": -(sun + ring)}
+        if member == "planet":
+            carrier = self.rate("carrier")
+            return carrier - (self.rate("sun") - carrier) * sun / given.mate_teeth
+        if member == given.fixed_member:
+            return 0.0 * sun
+        return (
+            1.0 + 0.0 * sun
+            if member == given.driving_member
+            else -weights[given.driving_member] / weights[member]
+        )
+
+    def lever(self, member: str) -> Any:
+        """Of the forces between teeth about a member's axis, mm: its torque over what one mesh carries."""
+        sun, ring = self.pair.base(0), abs(self.meshes[-1].base(1))
+        return {"sun": sun, "ring": ring, "carrier": sun + ring}[member]
+
+    @property
+    def normal_force(self) -> Any:
+        """Between flanks by the load, N; planets share it."""
+        given, driven = self.dimensions, self.driven
+        if self.planetary:
+            return 1000 * UNEVEN * given.load_torque / (given.planets * self.lever(driven))
+        return 1000 * given.load_torque / abs(self.pair.base(1))
+
+    @property
+    def places(self) -> Any:
+        """Angles (n, planets), rad, of the planets: those where they mesh nearest to equal spaces."""
+        whole = np.reshape(self.given.teeth + self.dimensions.ring_teeth, (-1, 1))
+        steps = np.arange(self.dimensions.planets) / self.dimensions.planets
+        return math.tau * np.floor(whole * steps + 0.5) / whole
+
+    @property
+    def gap(self) -> Any:
+        """Between the tips of the two planets that are nearest to each other, modules."""
+        places = self.places
+        between = np.diff(places, axis=1, append=places[:, :1] + math.tau).min(axis=1, keepdims=True)
+        chord = 2 * np.reshape(self.distance, (-1, 1)) * np.sin(np.minimum(between, math.pi) / 2)
+        return (chord - 2 * np.reshape(self.pair.tip(1), (-1, 1))) / np.reshape(self.pair.module, (-1, 1))
 
     @property
     def omega(self) -> Any:

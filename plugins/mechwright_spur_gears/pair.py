@@ -54,9 +54,35 @@ def pair_of(given: Any) -> InvolutePair:
         0.0,
     )
     shifted = pair.with_shifts(*(_ring_shifts if ring else _shifts)(given, pair))
-    backlash = backlash_for(shifted) if given.backlash is None else given.backlash
-    whole = replace(shifted, backlash=backlash)
+    whole = replace(
+        shifted, backlash=least_backlash(given, shifted) if given.backlash is None else given.backlash
+    )
     return replace(whole, cutter_radius=_cutter_radius(whole)) if ring else whole
+
+
+def ring_pair_of(given: Any, pair: InvolutePair) -> InvolutePair:
+    """Planets and ring of a planetary set, at the centre distance of sun and planets.
+
+    Planets have one thickness of teeth for both meshes: backlashes stand to each other as 1/cos α_w.
+    """
+    teeth, shift = (given.mate_teeth, -given.ring_teeth), pair.shifts[1]
+    total = sum_of_shifts(teeth, pair.module, pair.angle, -pair.distance)
+    height = given.addendum if given.ring_addendum is None else given.ring_addendum
+    heights = given.addendum - pair.shortening, height
+    bare = replace(pair, teeth=teeth, shifts=(shift, total - shift), addendum=heights)
+    backlash = pair.backlash * np.cos(pair.operating_angle) / np.cos(bare.operating_angle)
+    whole = replace(bare, backlash=backlash)
+    return replace(whole, cutter_radius=_cutter_radius(whole))
+
+
+def least_backlash(given: Any, pair: InvolutePair, *, jams: bool = False) -> Any:
+    """As :func:`backlash_for`, mm; of sun and planets what lets planets turn in their ring too."""
+    least = backlash_for(pair, jams=jams)
+    if given.arrangement != "planetary" or given.ring_teeth is None:
+        return least
+    ring = ring_pair_of(given, pair)
+    other = backlash_for(ring, jams=jams) * np.cos(ring.operating_angle) / np.cos(pair.operating_angle)
+    return np.fmax(least, other)
 
 
 def _cutter_radius(pair: InvolutePair) -> Any:
@@ -122,6 +148,8 @@ def rack_tip_radius(given: Any) -> Any:
 def ring_height(given: Any) -> Any:
     """Height of a ring's teeth, modules: that of the pinion's, or what its flanks have room for."""
     pair = pair_of(given)
+    if given.arrangement == "planetary":
+        pair = ring_pair_of(given, pair)
     least = np.sqrt(pair.base(1) ** 2 + (np.maximum(pair.form_curvature(0), 0.0) - pair.line) ** 2)
     height = (-least - pair.reference(1)) / pair.module - pair.shifts[1]
     low = np.minimum(LEAST_RING, given.addendum)
@@ -131,4 +159,4 @@ def ring_height(given: Any) -> Any:
 def least_root(given: Any) -> Any:
     """The smaller root radius of gears with a bore, mm; NaN of gears that cannot stand at their distance."""
     pair = pair_of(given)
-    return pair.root(0) if given.arrangement == "internal" else np.minimum(pair.root(0), pair.root(1))
+    return np.minimum(pair.root(0), pair.root(1)) if given.arrangement == "external" else pair.root(0)

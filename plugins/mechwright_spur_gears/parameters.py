@@ -1,4 +1,4 @@
-"""The design table of a pair of spur gears."""
+"""The design table of spur gears."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -12,28 +12,48 @@ from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
 from mechwright.mechanics.gearing.ring_plate import HOLE, HOLES, outside_for
 from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_spur_gears.pair import least_root, module_of, pair_of, rack_tip_radius, ring_height
+from mechwright_spur_gears.pair import (
+    least_root,
+    module_of,
+    pair_of,
+    rack_tip_radius,
+    ring_height,
+    ring_pair_of,
+)
 
 LEAST_MODULE = 0.3
 """mm."""
 
-Arrangement = Literal["external", "internal"]
+Arrangement = Literal["external", "internal", "planetary"]
 """Of the gears."""
 
 ARRANGED: Mapping[str, tuple[Arrangement, ...]] = {
-    "shift_rule": ("external",),
-    "ring_addendum": ("internal",),
-    "ring_outside": ("internal",),
-    "ring_holes": ("internal",),
-    "ring_hole": ("internal",),
+    "shift_rule": ("external", "planetary"),
+    "ring_addendum": ("internal", "planetary"),
+    "ring_outside": ("internal", "planetary"),
+    "ring_holes": ("internal", "planetary"),
+    "ring_hole": ("internal", "planetary"),
+    "ring_teeth": ("planetary",),
+    "planets": ("planetary",),
+    "planet_spacing": ("planetary",),
+    "fixed_member": ("planetary",),
+    "driving_member": ("planetary",),
+    "pin_diameter": ("planetary",),
+    "carrier_thickness": ("planetary",),
 }
 """Keys to the arrangements that use them; all arrangements use the others."""
+
+Member = Literal["sun", "ring", "carrier"]
+"""Of a planetary set."""
+
+PLANETS, CARRIER = 3, 8.0
+"""Planets of a set that names no number, and the thickness of its carrier, mm."""
 
 Shift = Annotated[float, Field(ge=-1, le=1), Unit("")]
 
 
 class SpurGearParams(Parameters):
-    """A pinion and the gear or the ring that it drives: involute teeth of one rack, with profile shift.
+    """Gears with involute teeth of one rack and profile shift: two, one in a ring, or a planetary set.
 
     Examples
     --------
@@ -53,12 +73,15 @@ class SpurGearParams(Parameters):
 
     arrangement: Arrangement = Field(
         "external",
-        description="external: two gears. internal: a gear in a ring with teeth inside.",
+        description="external: two gears. internal: a gear in a ring with teeth inside. planetary: a sun, "
+        "planets about it on a carrier, and a ring.",
         json_schema_extra=FIRST,
     )
-    teeth: int = Field(20, ge=6, le=600, description="Teeth z1 of the driver.", json_schema_extra=FIRST)
+    teeth: int = Field(
+        20, ge=6, le=600, description="Teeth z1 of the driver, or of the sun.", json_schema_extra=FIRST
+    )
     mate_teeth: int = Field(
-        40, ge=6, le=600, description="Teeth z2 of the driven gear.", json_schema_extra=FIRST
+        40, ge=6, le=600, description="Teeth z2 of the driven gear, or of a planet.", json_schema_extra=FIRST
     )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
         2.0,
@@ -122,6 +145,36 @@ class SpurGearParams(Parameters):
     ring_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
         None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
     )
+    ring_teeth: Annotated[int, Field(ge=18, le=1800)] | None = Field(
+        None,
+        description="Teeth of the ring about the planets; left out, teeth + 2 mate_teeth.",
+        json_schema_extra=FITTED,
+    )
+    planets: Annotated[int, Field(ge=1, le=12)] | None = Field(
+        None, description="Number of planets; left out, 3.", json_schema_extra=FITTED
+    )
+    planet_spacing: Literal["equal", "nearest"] | None = Field(
+        None,
+        description="equal, if it is left out: planets stand at equal angles. nearest: at the angles next to "
+        "them at which they mesh.",
+    )
+    fixed_member: Member | None = Field(
+        None, description="What stands still; left out, the ring.", json_schema_extra=FITTED
+    )
+    driving_member: Member | None = Field(
+        None, description="What is driven from outside; left out, the sun.", json_schema_extra=FITTED
+    )
+    pin_diameter: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None,
+        description="Of the pins on which planets run; left out, 10, or the largest standard one below that "
+        "leaves the rim of a planet.",
+        json_schema_extra=FITTED,
+    )
+    carrier_thickness: Annotated[float, Field(ge=0.5, le=200), Unit("mm")] | None = Field(
+        None,
+        description="Of the carrier's plate; left out, 8, or less with thinner gears.",
+        json_schema_extra=FITTED,
+    )
     backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
         None,
         description="Circumferential play on the operating pitch circles; left out, the least with which "
@@ -184,6 +237,11 @@ class SpurGearParams(Parameters):
                 "centre_distance, shift and mate_shift: the sum of the shifts follows from the centre "
                 "distance; leave one of the three out"
             )
+        if self.fixed_member is not None and self.fixed_member == self.driving_member:
+            raise ValueError(
+                f'fixed_member and driving_member are both "{self.fixed_member}"; set one of them to another '
+                "of sun, ring and carrier"
+            )
         return self
 
     def unused_fields(self) -> list[str]:
@@ -199,7 +257,7 @@ class SpurGearParams(Parameters):
             found["tip_radius"] = number(rack_tip_radius(self))
         if "thickness" not in self.model_fields_set:
             found["thickness"] = number(face_width(module_of(self)))
-        if self.arrangement == "internal":
+        if self.arrangement != "external":
             found |= self._ring(found)
         if "bore" not in self.model_fields_set:
             wall = RIM * module_of(self) * (self.addendum + self.dedendum)
@@ -208,12 +266,14 @@ class SpurGearParams(Parameters):
         return found
 
     def _ring(self, found: Mapping[str, Any]) -> dict[str, Any]:
-        """What a design leaves out of its ring."""
+        """What a design leaves out of its ring and its planets."""
         left: dict[str, Any] = {}
         given = self.model_fields_set
+        if self.arrangement == "planetary":
+            left = self._planets(found)
         if "ring_addendum" not in given:
             left["ring_addendum"] = number(
-                ring_height(self.model_copy(update={**found, "ring_addendum": None}))
+                ring_height(self.model_copy(update={**found, **left, "ring_addendum": None}))
             )
         if "ring_holes" not in given:
             left["ring_holes"] = HOLES
@@ -222,6 +282,26 @@ class SpurGearParams(Parameters):
         if "ring_outside" not in given:
             sized: Any = self.model_copy(update={**found, **left})
             pair = pair_of(sized)
+            if self.arrangement == "planetary":
+                pair = ring_pair_of(sized, pair)
             hole = np.where(np.asarray(sized.ring_holes) > 0, sized.ring_hole, 0.0)
             left["ring_outside"] = number(outside_for(-pair.root(1), hole, pair.tip(1) - pair.root(1)))
+        return left
+
+    def _planets(self, found: Mapping[str, Any]) -> dict[str, Any]:
+        """What a design leaves out of its planets and their carrier."""
+        left: dict[str, Any] = {
+            "ring_teeth": self.teeth + 2 * self.mate_teeth,
+            "planets": PLANETS,
+            "fixed_member": "carrier" if self.driving_member == "ring" else "ring",
+            "driving_member": "carrier" if self.fixed_member == "sun" else "sun",
+            "carrier_thickness": np.minimum(CARRIER, found.get("thickness", self.thickness)),
+        }
+        left = {name: value for name, value in left.items() if name not in self.model_fields_set}
+        if "carrier_thickness" in left:
+            left["carrier_thickness"] = number(left["carrier_thickness"])
+        if "pin_diameter" not in self.model_fields_set:
+            sized = self.model_copy(update={**found, **left})
+            wall = RIM * module_of(self) * (self.addendum + self.dedendum)
+            left["pin_diameter"] = number(shaft_bore(pair_of(sized).root(1), wall))
         return left

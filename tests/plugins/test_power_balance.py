@@ -56,7 +56,15 @@ DESIGNS = st.one_of(
     table("geneva", speed=speeds, slots=st.sampled_from([4, 6]), load_torque=st.floats(0.0, 0.005)),
     table("elliptic-gears", speed=speeds, load_torque=st.floats(0.0, 2.0)),
     table("noncircular-gears", speed=speeds, load_torque=st.floats(0.0, 2.0)),
-    table("spur-gears", speed=speeds, load_torque=st.floats(0.0, 2.0)),
+    table("spur-gears", speed=speeds, load_torque=st.floats(0.1, 2.0)),
+    table(
+        "spur-gears",
+        arrangement=st.just("planetary"),
+        teeth=st.just(24),
+        mate_teeth=st.just(18),
+        speed=speeds,
+        load_torque=st.floats(0.1, 2.0),
+    ),
     table("spherical", speed=st.floats(10.0, 100.0)),
 )
 
@@ -167,6 +175,12 @@ LOADED = [
     ("elliptic-gears", {"load_torque": 1.5, "stages": 2, "phase": 90}, "omega5", 1.5),
     ("noncircular-gears", {"load_torque": 0.7}, "omega2", 0.7),
     ("spur-gears", {"load_torque": 0.7}, "omega2", 0.7),
+    (
+        "spur-gears",
+        {"load_torque": 0.7, "arrangement": "planetary", "teeth": 24, "mate_teeth": 18},
+        "omega2",
+        0.7,
+    ),
     ("geneva", {"load_torque": 0.01, "driver_direction": "backwards"}, "omega_w", 0.01),
 ]
 

@@ -130,7 +130,7 @@ def test_outlines_are_involutes_that_mesh(given):
 def test_the_operating_teeth_have_the_same_flanks():
     m = table_of(SpurGearParams(teeth=13, mate_teeth=50, shift=0.4, mate_shift=0.1))
     for gear in (0, 1):
-        cut, runs = teeth_of(m)[gear], operating_teeth(m, gear)
+        cut, runs = teeth_of(m)[gear], operating_teeth(m.pair, gear)
         radius = float(m.pair.operating(gear))
         half = runs.flank_arcs[0, 1] / radius
         start = cut.flank_arcs[0, 1]
@@ -253,6 +253,13 @@ def test_many_pairs_are_judged_as_each_alone(arrangement):
             assert found.values["contact_ratio"][place] == pytest.approx(
                 float(table_of(one).pair.contact_ratio), rel=1e-12
             )
+
+
+def test_forces_are_those_of_the_torque_on_the_reference_circle():
+    m = table_of(SpurGearParams(teeth=13, mate_teeth=36, centre_distance=50.0, load_torque=3.0))
+    force = m.normal_force * np.cos(m.pair.angle)
+    assert float(force * m.pair.reference(1)) == pytest.approx(3000.0)
+    assert float(force * m.pair.reference(0)) == pytest.approx(3000.0 * 13 / 36)
 
 
 def test_a_shifted_tooth_has_the_form_factor_of_the_charts():

@@ -10,6 +10,14 @@ from mechwright_spur_gears.family import SpurGears
 
 SMALL = {"thickness": 4, "bore": 6}
 RING = {"arrangement": "internal", "teeth": 15, "mate_teeth": 40, "module": 1.5}
+SET = {
+    "arrangement": "planetary",
+    "teeth": 20,
+    "mate_teeth": 16,
+    "module": 1.5,
+    "keyway_width": 2,
+    "pin_diameter": 6,
+}
 
 
 class TestSpurGears(DayContract):
@@ -21,7 +29,7 @@ class TestSpurGears(DayContract):
         "test_tolerances_of_random_designs",
     )
     night: ClassVar = {
-        name: {1, 2, 3}
+        name: {1, 2, 3, 4}
         for name in ("test_programs_are_proven", "test_no_interference", "test_solids", "test_drawings")
     }
     max_frames = tried(1, 40)
@@ -32,6 +40,7 @@ class TestSpurGears(DayContract):
         {**SMALL, "diametral_pitch": 12, "pressure_angle": 14.5, "teeth": 32, "mate_teeth": 33},
         {**SMALL, "teeth": 18, "mate_teeth": 25, "centre_distance": 44.5, "shift_rule": "equal-sliding"},
         {**SMALL, **RING},
+        {**SMALL, **SET},
     )
     refused = (
         ({"teeth": 9, "shift": 0.0}, "shift"),
@@ -42,6 +51,8 @@ class TestSpurGears(DayContract):
         ({**RING, "ring_outside": 66}, "ring_outside"),
         ({**RING, "ring_addendum": 1.1}, "addendum"),
         ({"ring_hole": 4}, "ring_hole"),
+        ({**SET, "planets": 5}, "planets"),
+        ({**SET, "ring_teeth": 58}, "ring_teeth"),
         ({"backlash": 0.0}, "backlash"),
         ({"teeth": 9, "mate_teeth": 30, "shift": 0.9}, "addendum"),
     )
@@ -58,6 +69,13 @@ class TestSpurGears(DayContract):
         "ring_outside": [190.0],
         "ring_holes": [5],
         "ring_hole": [6.6],
+        "ring_teeth": [53],
+        "planets": [4],
+        "planet_spacing": ["nearest"],
+        "fixed_member": ["sun", "carrier"],
+        "driving_member": ["carrier"],
+        "pin_diameter": [8.0],
+        "carrier_thickness": [5.0],
     }
     max_examples = tried(4, 30)
 

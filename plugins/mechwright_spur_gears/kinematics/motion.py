@@ -11,6 +11,7 @@ from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.kinematics.planetary import joints_of, poses_over
 from mechwright_spur_gears.parts.teeth import rolling_pair
 
 CIRCLE_SAMPLES = 361
@@ -33,17 +34,28 @@ def driven(m: GearTable, driver: Turning) -> Turning:
 
 
 def channels_over(m: GearTable, driver: Turning, time: Array) -> dict[str, Channel]:
-    """Angles of both gears and their rates."""
-    return {
+    """Angles of driver and driven gear, and of planets, with their rates."""
+    one, two = (m.given.driving_member, m.driven) if m.planetary else ("gear 1", "gear 2")
+    found = {
         "time": Channel(time, "s", "time"),
-        **turning_channels(driver, "theta1", "1", "gear 1"),
-        **turning_channels(driven(m, driver), "theta2", "2", "gear 2"),
+        **turning_channels(driver, "theta1", "1", str(one)),
+        **turning_channels(driven(m, driver), "theta2", "2", two),
     }
+    if m.planetary:
+        found |= turning_channels(driver.scaled(m.rate("planet")), "theta3", "3", "a planet")
+    return found
 
 
 def motion_over(m: GearTable, driver: Turning, time: Array) -> Motion:
     """The motion for any motion of the driver, at times (n,), s."""
-    (one, two), pair = m.names, rolling_pair(m)
+    channels = channels_over(m, driver, time)
+    loads = {"load_torque": Load(m.driven, resisting=m.given.load_torque)}
+    figures = scalars(figures_of(m))
+    if m.planetary:
+        return Motion(
+            "theta1", channels, poses_over(m, driver), figures, {}, joints_of(m), _circles(m), loads
+        )
+    (one, two), pair = m.names, rolling_pair(m.pair)
     poses = {
         one: Poses.planar(0.0, 0.0, driver.theta),
         two: Poses.planar(pair.axis, 0.0, driven(m, driver).theta + pair.start),
@@ -53,16 +65,16 @@ def motion_over(m: GearTable, driver: Turning, time: Array) -> Motion:
         "o2": Joint("revolute", GROUND, two, (pair.axis, 0.0, 0.0)),
         "mesh": Joint("gear", one, two),
     }
-    loads = {"load_torque": Load(two, resisting=m.given.load_torque)}
-    channels = channels_over(m, driver, time)
-    return Motion("theta1", channels, poses, scalars(figures_of(m)), {}, held, _circles(m), loads)
+    return Motion("theta1", channels, poses, figures, {}, held, _circles(m), loads)
 
 
 def _circles(m: GearTable) -> dict[str, Curve]:
     around = np.exp(1j * np.linspace(0.0, math.tau, CIRCLE_SAMPLES))
+    own = [one for one in m.flanks if not one.again]
+    bodies = [f"{name}-1" if name == "planet" else name for name in m.names]
     return {
-        f"pitch-{name}": Curve.planar(name, abs(float(m.pair.operating(gear))) * around)
-        for gear, name in enumerate(m.names)
+        f"pitch-{body}": Curve.planar(body, abs(float(m.meshes[one.mesh].operating(one.gear))) * around)
+        for one, body in zip(own, bodies, strict=True)
     }
 
 
@@ -84,6 +96,15 @@ def figures_of(m: GearTable) -> Mapping[str, Figure]:
             f"root_diameter{gear + 1}": Figure(lambda gear=gear: 2 * abs(pair.root(gear)), "mm"),
             f"pitch_diameter{gear + 1}": Figure(lambda gear=gear: 2 * abs(pair.operating(gear)), "mm"),
             f"sliding{gear + 1}": Figure(lambda gear=gear: pair.sliding(gear)),
+        }
+    if m.planetary:
+        ring = m.meshes[1]
+        found |= {
+            "contact_ratio_ring": Figure(lambda: ring.contact_ratio),
+            "shift3": Figure(lambda: ring.shifts[1]),
+            "tip_diameter3": Figure(lambda: 2 * abs(ring.tip(1)), "mm"),
+            "root_diameter3": Figure(lambda: 2 * abs(ring.root(1)), "mm"),
+            "planet_gap": Figure(lambda: m.gap * np.reshape(ring.module, (-1, 1)), "mm"),
         }
     return found
 

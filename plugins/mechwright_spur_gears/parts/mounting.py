@@ -15,7 +15,7 @@ def mounting_of(m: GearTable) -> Mounting:
     if m.ring:
         raise MountingError(
             "parameters.arrangement: a ring is screwed to what turns with it, and has no shaft for a frame; "
-            "leave the frame out",
+            "leave the frame out"
         )
     pair = m.pair
     force = 1000 / (float(pair.operating(0)) * math.cos(float(pair.operating_angle)))

@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from mechwright import Array, Outline
-from mechwright.geometry import Loop
+from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.geometry import Loop, circle
 from mechwright.mechanics.gearing import (
     MeshProof,
     Rack,
@@ -41,16 +42,15 @@ class OnePitch(RoundPair):
         return np.asarray(self.pitch(teeth) * np.arange(count) / count)
 
 
-def rolling_pair(m: GearTable) -> RoundPair:
+def rolling_pair(pair: InvolutePair) -> RoundPair:
     """Both operating pitch circles: tooth 0 of the driver stands on +x and runs into a space of the mate."""
-    pair = m.pair
-    start = (0.0 if m.ring else math.pi) - math.pi / float(pair.teeth[1])
+    count = float(pair.teeth[1])
+    start = (0.0 if count < 0 else math.pi) - math.pi / count
     return RoundPair.of(float(pair.operating(0)), float(pair.operating(1)), start)
 
 
-def operating_rack(m: GearTable, gear: int) -> Rack:
+def operating_rack(pair: InvolutePair, gear: int) -> Rack:
     """The rack that touches the flanks of a gear on its operating pitch circle; of a ring a round cutter."""
-    pair = m.pair
     angle, rolled = float(pair.operating_angle), float(pair.operating(gear))
     module = 2 * rolled / float(pair.teeth[gear])
     heights = float(pair.tip(gear)) - rolled, rolled - float(pair.root(gear))
@@ -59,26 +59,31 @@ def operating_rack(m: GearTable, gear: int) -> Rack:
     return Rack(*sizes) if rolled > 0 else Shaper(*sizes, float(pair.operating(0)))
 
 
-def operating_teeth(m: GearTable, gear: int) -> Teeth:
+def operating_teeth(pair: InvolutePair, gear: int) -> Teeth:
     """The flanks of a gear on its operating pitch circle; fillets are not those of the rack."""
-    pair, rolled = m.pair, float(m.pair.operating(gear))
+    rolled = float(pair.operating(gear))
     thick, count = float(pair.thickness_at(gear, rolled)), abs(int(pair.teeth[gear]))
-    return Teeth(Round(rolled), operating_rack(m, gear), count, 0.0, fit=_fit(m), thickness=thick)
+    return Teeth(Round(rolled), operating_rack(pair, gear), count, 0.0, fit=_fit(pair), thickness=thick)
 
 
-def _fit(m: GearTable) -> float:
+def _fit(pair: InvolutePair) -> float:
     """Deviation of outlines, mm."""
-    return FINER * exact_fit(rolling_pair(m), int(m.pair.teeth[0]), float(m.pair.operating_angle))
+    return FINER * exact_fit(rolling_pair(pair), int(pair.teeth[0]), float(pair.operating_angle))
 
 
-def teeth_of(m: GearTable) -> tuple[Teeth, Teeth]:
-    """The teeth of both gears as their cutters make them: a rack on the reference circles."""
-    mate = operating_teeth if m.ring else _teeth
-    return m.once("teeth", lambda: (_teeth(m, 0), mate(m, 1)))
+def teeth_of(m: GearTable) -> tuple[Teeth, ...]:
+    """The teeth of all gears as their cutters make them: a rack on the reference circles."""
+
+    def found() -> tuple[Teeth, ...]:
+        own = [one for one in m.flanks if not one.again]
+        return tuple(_teeth(m.meshes[one.mesh], one.gear) for one in own)
+
+    return m.once("teeth", found)
 
 
-def _teeth(m: GearTable, gear: int) -> Teeth:
-    pair: InvolutePair = m.pair
+def _teeth(pair: InvolutePair, gear: int) -> Teeth:
+    if pair.teeth[gear] < 0:
+        return operating_teeth(pair, gear)
     size, shift = float(pair.module), float(pair.shifts[gear])
     rack = Rack(
         size,
@@ -89,41 +94,51 @@ def _teeth(m: GearTable, gear: int) -> Teeth:
         float(pair.backlash),
     )
     circle, thick = Round(float(pair.reference(gear))), float(pair.thickness(gear))
-    return Teeth(circle, rack, int(pair.teeth[gear]), 0.0, fit=_fit(m), thickness=thick)
+    return Teeth(circle, rack, int(pair.teeth[gear]), 0.0, fit=_fit(pair), thickness=thick)
 
 
-def loops_of(m: GearTable) -> tuple[tuple[Loop, float], tuple[Loop, float]]:
-    """The toothed loops of both gears, each with its deviation, mm."""
-    one, two = teeth_of(m)
-    return m.once("loops", lambda: (gear_loop(one), gear_loop(two)))
+def loops_of(m: GearTable) -> tuple[tuple[Loop, float], ...]:
+    """The toothed loops of all gears, each with its deviation, mm."""
+    return m.once("loops", lambda: tuple(map(gear_loop, teeth_of(m))))
 
 
-def outlines_of(m: GearTable) -> tuple[Outline, Outline]:
-    """Outlines of both gears, each about its axis; keyways point along +x."""
-    holes = () if m.opening is None else (m.opening.loop(),)
-    (one, off), (two, more) = loops_of(m)
-    return Outline(one, holes, off), m.ring_plate.outline(two, more) if m.ring else Outline(two, holes, more)
+def outlines_of(m: GearTable) -> tuple[Outline, ...]:
+    """Outlines of all gears, each about its axis; keyways point along +x."""
+    shaft = () if m.opening is None else (m.opening.loop(),)
+    holes = (
+        {"planet": (Loop((circle((0.0, 0.0), pin_hole(m).middle / 2),)).reversed(),)} if m.planetary else {}
+    )
+    return tuple(
+        m.ring_plate.outline(*loop) if name == "ring" else Outline(loop[0], holes.get(name, shaft), loop[1])
+        for name, loop in zip(m.names, loops_of(m), strict=True)
+    )
 
 
-def prove(m: GearTable) -> MeshProof:
-    """Run both outlines against each other over a pitch."""
+def pin_hole(m: GearTable) -> Fit:
+    """Of planets, which run on pins."""
+    return hole_fit(m.dimensions.pin_diameter, "F7")
+
+
+def prove(m: GearTable, mesh: int = 0) -> MeshProof:
+    """Run the outlines of a pair against each other over a pitch."""
 
     def found() -> MeshProof:
         tolerance = min(FLATTEN * float(m.distance) / 2, TOLERANCES.flatten)
-        (one, off), (two, more) = loops_of(m)
-        two = two.reversed() if m.ring else two
+        (one, off), (two, more) = loops_of(m)[mesh : mesh + 2]
+        pair = m.meshes[mesh]
+        two = two.reversed() if pair.teeth[1] < 0 else two
         polygons = one.flatten(tolerance), two.flatten(tolerance)
-        whole = rolling_pair(m)
-        pair = OnePitch(whole.driver, whole.driven, whole.distance, whole.start)
-        return _proof(m, pair, polygons, off + more + 2 * tolerance)
+        whole = rolling_pair(pair)
+        over = OnePitch(whole.driver, whole.driven, whole.distance, whole.start)
+        return _proof(pair, over, polygons, off + more + 2 * tolerance)
 
-    return m.once("mesh proof", found)
+    return m.once(("mesh proof", mesh), found)
 
 
-def prove_outlines(m: GearTable, one: Array, two: Array, allowance: float) -> MeshProof:
+def prove_outlines(pair: InvolutePair, one: Array, two: Array, allowance: float) -> MeshProof:
     """Run outlines (n, 2) and (m, 2), mm, material on the left, each about its axis, against each other."""
-    return _proof(m, rolling_pair(m), (one, two), allowance)
+    return _proof(pair, rolling_pair(pair), (one, two), allowance)
 
 
-def _proof(m: GearTable, pair: RoundPair, outlines: tuple[Array, Array], allowance: float) -> MeshProof:
-    return prove_mesh(pair, operating_rack(m, 0), int(m.pair.teeth[0]), outlines, allowance)
+def _proof(pair: InvolutePair, over: RoundPair, outlines: tuple[Array, Array], allowance: float) -> MeshProof:
+    return prove_mesh(over, operating_rack(pair, 0), int(pair.teeth[0]), outlines, allowance)

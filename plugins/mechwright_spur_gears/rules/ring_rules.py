@@ -11,6 +11,7 @@ from mechwright.contracts.design_rule import DesignRule, Failure, Note
 from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.finding import Change
 from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.parameters import SpurGearParams
 from mechwright_spur_gears.rules.teeth_rules import LAND
 
 LEAST_DIFFERENCE = 4
@@ -47,6 +48,13 @@ CUTTER_LAND = LAND.but(
 )
 
 
+def freed(given: SpurGearParams, *names: str) -> SpurGearParams:
+    """The same design without some keys; what they leave out follows anew."""
+    free = given.model_copy(update=dict.fromkeys(names))
+    free.__pydantic_fields_set__.difference_update(names)
+    return free
+
+
 def _passing(m: GearTable) -> Any:
     return m.meshes[-1].tip_passing
 
@@ -55,10 +63,9 @@ def _more_teeth(m: GearTable) -> int | None:
     """The least number of teeth of a ring past which tips pass; None up to a limit."""
     now = m.number_of(m.flanks[-1])
     numbers = np.arange(now + 1, now + 1 + TRIED_RINGS)[:, None]
-    left = {name: None for name in ("ring_addendum", "ring_outside") if name not in m.given.model_fields_set}
-    fresh = m.given.model_copy(update={**left, "centre_distance": None})
-    fresh.__pydantic_fields_set__.difference_update({"ring_addendum", "ring_outside"} & set(left))
-    tried = GearTable(with_columns(fresh, {m.flanks[-1].teeth: numbers}), TRIED_RINGS)
+    tried = GearTable(
+        with_columns(freed(m.given, "centre_distance"), {m.flanks[-1].teeth: numbers}), TRIED_RINGS
+    )
     works = np.flatnonzero(np.ravel(_passing(tried)) >= 0)
     return int(numbers[works[0], 0]) if works.size else None
 

@@ -3,6 +3,7 @@
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.mechanics.gearing.ring_plate import RING_RULES
 from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.rules.planet_rules import APART, CARRIER, COAXIAL, EQUAL, PLACES
 from mechwright_spur_gears.rules.ring_rules import AXIAL, CUTTER_LAND, FOULING, RING_TEETH, RING_TIP
 from mechwright_spur_gears.rules.strength import STRENGTH
 from mechwright_spur_gears.rules.teeth_rules import (
@@ -32,7 +33,12 @@ def of_rings(*rules: object) -> Rules[GearTable]:
     return in_turn(*rules, when=lambda m: m.ring)  # type: ignore[arg-type]
 
 
-MOTION = in_turn(of_rings(RING_TEETH), DISTANCE, TOO_NEAR)
+def of_planets(*rules: object) -> Rules[GearTable]:
+    """Rules in turn that are asked of planetary sets."""
+    return in_turn(*rules, when=lambda m: m.planetary)  # type: ignore[arg-type]
+
+
+MOTION = in_turn(of_rings(RING_TEETH), DISTANCE, TOO_NEAR, of_planets(COAXIAL))
 """What a motion needs."""
 
 PROFILE = in_turn(
@@ -43,10 +49,11 @@ PROFILE = in_turn(
 )
 RULES = in_turn(
     MOTION,
+    of_planets(EQUAL, APART),
     PROFILE,
     OPENING,
-    all_of(RIM, THIN_RIM, of_rings(RING_RULES)),
+    all_of(RIM, THIN_RIM, of_rings(RING_RULES), of_planets(CARRIER)),
     MESH,
-    all_of(STRENGTH, SIZE, AXIAL),
+    all_of(STRENGTH, SIZE, AXIAL, of_planets(PLACES)),
     all_of(JAMS, BACKLASH),
 )

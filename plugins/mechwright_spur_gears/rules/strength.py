@@ -4,42 +4,46 @@ import numpy as np
 
 from mechwright import material
 from mechwright.contracts.rule_list import all_of
-from mechwright.mechanics.strength.allowed import PIN_SHEAR, ROOT_SAFETY, allowed
-from mechwright.mechanics.strength.fastening import LONGEST_KEY, key_pressure, key_shear
+from mechwright.mechanics.linkage.turned import PIN_MATERIAL
+from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_ROOT, ROOT_SAFETY, allowed
+from mechwright.mechanics.strength.fastening import (
+    LONGEST_KEY,
+    key_pressure,
+    key_shear,
+    stud_bending,
+    stud_shear,
+)
 from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
-from mechwright.mechanics.strength.judging import Stress, StressRule, Way
+from mechwright.mechanics.strength.judging import SHEAR_SHARE, STUD_SHARE, Stress, StressRule, Way
 from mechwright.mechanics.strength.tooth_bending import STRAIGHT, Rack, root_stress
-from mechwright_spur_gears.gear_table import GearTable, table_of
+from mechwright_spur_gears.gear_table import AXIAL_GAP, GearTable, table_of
 from mechwright_spur_gears.pair import module_of
 
 KEY_STEEL = "steel"
 """Of keys."""
 
 
-def tangential_force(m: GearTable) -> np.ndarray:
-    """On the operating pitch circles, N."""
-    return np.asarray(1000 * m.given.load_torque / abs(m.pair.operating(1)))
-
-
 def root_stresses(m: GearTable) -> list[Stress]:
-    """Bending at the roots; a tooth that is loaded at its tip carries alone. A ring's is one of a rack."""
-    pair, given = m.pair, m.given
-    own = Rack(pair.angle, given.addendum, given.dedendum, given.tip_radius)
-    bears = allowed(given.material).root
-    found = []
-    for gear, flank in enumerate(m.flanks):
-        height = pair.addendum[gear] + pair.shifts[gear] - pair.shortening
+    """Bending at the roots; a tooth that is loaded at its tip carries alone. A ring's is one of a rack.
+
+    Planets are pressed on by the sun on one side of their teeth, and by the ring on the other.
+    """
+    given, bears, found = m.given, allowed(m.given.material).root, []
+    for one in m.flanks:
+        pair, gear = m.meshes[one.mesh], one.gear
+        own = Rack(pair.angle, given.addendum, given.dedendum, given.tip_radius)
         value = root_stress(
-            tangential_force(m) * np.cos(pair.operating_angle) / np.cos(pair.angle),
+            m.normal_force * np.cos(pair.angle),
             given.thickness,
             pair.module,
             np.where(np.asarray(pair.teeth[gear]) < 0, STRAIGHT, pair.teeth[gear]),
             rack=own,
             shift=pair.shifts[gear],
-            addendum=height,
+            addendum=pair.addendum[gear] + pair.shifts[gear] - pair.shortening,
         )
-        what = f"teeth of {flank.words} are bent at their roots with"
-        found.append(Stress(what, _number(value), bears, ROOT_SAFETY * bears))
+        what = f"teeth of {one.words} are bent at their roots with"
+        both_ways = REVERSING_ROOT if one.bore == "pin_diameter" else 1.0
+        found.append(Stress(what, _number(value), both_ways * bears, ROOT_SAFETY * bears))
     return found
 
 
@@ -49,23 +53,54 @@ def _number(value: np.ndarray) -> float:
 
 
 def flank_pressures(m: GearTable) -> list[Stress]:
-    """Hertz pressure at the pitch point; more than is allowed wears the flanks."""
-    pair, own = m.pair, material(m.given.material)
-    sine = np.sin(pair.operating_angle)
-    radius = relative_radius(pair.operating(0) * sine, pair.operating(1) * sine)
-    force = tangential_force(m) / np.cos(pair.operating_angle)
-    pressure = line_pressure(force, m.given.thickness, radius, contact_modulus(own, own))
-    what = "flanks press on each other with"
-    return [Stress(what, _number(np.asarray(pressure)), allowed(m.given.material).contact)]
+    """Hertz pressure at the pitch points; more than is allowed wears the flanks."""
+    own, found = material(m.given.material), []
+    for pair in m.meshes:
+        sine = np.sin(pair.operating_angle)
+        radius = relative_radius(pair.operating(0) * sine, pair.operating(1) * sine)
+        pressure = line_pressure(m.normal_force, m.given.thickness, radius, contact_modulus(own, own))
+        limit = allowed(m.given.material).contact
+        found.append(Stress("flanks press on each other with", _number(np.asarray(pressure)), limit))
+    return found
+
+
+def pin_stresses(m: GearTable) -> list[Stress]:
+    """Bending and shear of the pins of planets, on which sun and ring press with twice a tooth's force."""
+    if not m.planetary:
+        return []
+    given, d, own = m.dimensions, m.dimensions.pin_diameter, material(PIN_MATERIAL)
+    force = 2 * m.normal_force * np.cos(m.pair.operating_angle)
+    endurance, arm = allowed(PIN_MATERIAL).endurance, AXIAL_GAP + given.thickness / 2
+    bent, sheared = (stud_bending(force, arm, d), stud_shear(force, d))
+    return [
+        Stress(
+            "a planet's pin is bent with", _number(np.asarray(bent)), STUD_SHARE * endurance, own.strength
+        ),
+        Stress(
+            "a planet's pin is sheared with",
+            _number(np.asarray(sheared)),
+            SHEAR_SHARE * endurance,
+            own.strength / 2,
+        ),
+    ]
+
+
+def _shaft_torque(m: GearTable) -> float:
+    """Greatest torque on a gear with a shaft, N m; a ring has none."""
+    load = float(m.given.load_torque)
+    if m.planetary:
+        return load * float(max(m.lever("sun"), m.lever("carrier")) / m.lever(m.driven))
+    return load * max(0.0 if m.ring else 1.0, abs(float(m.ratio)))
 
 
 def key_stresses(m: GearTable) -> list[Stress]:
     """Pressure on the hubs and shear of the keys; none without keys."""
     if not m.single or m.opening is None or not m.opening.has_keyway:
         return []
-    given, opening = m.given, m.opening
-    torque = given.load_torque * max(0.0 if m.ring else 1.0, abs(float(m.ratio)))
-    bears = min(given.thickness, LONGEST_KEY * opening.bore)
+    given, opening = m.dimensions, m.opening
+    torque = _shaft_torque(m)
+    width = min(given.thickness, given.carrier_thickness) if m.planetary else given.thickness
+    bears = min(width, LONGEST_KEY * opening.bore)
     pressure = key_pressure(torque, opening.bore, opening.key_top - opening.bore / 2, bears)
     sheared = key_shear(torque, opening.bore, opening.width, bears)
     own = material(given.material)
@@ -99,5 +134,11 @@ FLANK = StressRule[GearTable](
 KEY = StressRule[GearTable](
     "gear.key", key_stresses, lambda m: [_wider(m), Way("bore", m.given.bore), _less(m)], table_of
 )
-STRENGTH = all_of(ROOT, FLANK, KEY)
+PIN = StressRule[GearTable](
+    "gear.pin",
+    pin_stresses,
+    lambda m: [Way("pin_diameter", m.dimensions.pin_diameter or 1.0), _less(m)],
+    table_of,
+)
+STRENGTH = all_of(ROOT, FLANK, KEY, PIN)
 """What teeth and keys bear."""

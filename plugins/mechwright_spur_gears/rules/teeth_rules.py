@@ -28,7 +28,7 @@ from mechwright.mechanics.gearing.involute import (
 from mechwright.mechanics.opening_rules import keyway_rules, size_rules
 from mechwright.tolerances import falls_short
 from mechwright_spur_gears.gear_table import Flank, GearTable
-from mechwright_spur_gears.pair import backlash_for
+from mechwright_spur_gears.pair import least_backlash
 from mechwright_spur_gears.parts.teeth import prove
 
 GOOD_CONTACT, LEAST_CONTACT = 1.2, 1.0
@@ -38,9 +38,11 @@ Rule = DesignRule[GearTable]
 Fails = Failure[GearTable]
 
 
-def each(m: GearTable, value: Callable[[InvolutePair, int], Any]) -> Array:
-    """A number of every gear in its meshes, (n, k)."""
-    found = [value(m.meshes[one.mesh], one.gear) for one in m.flanks]
+def each(m: GearTable, value: Callable[[InvolutePair, int], Any], again: float | None = None) -> Array:
+    """A number of every gear in its meshes, (n, k); ``again`` of a gear that is in a mesh before."""
+    found = [
+        again if one.again and again is not None else value(m.meshes[one.mesh], one.gear) for one in m.flanks
+    ]
     return np.concatenate([np.broadcast_to(np.reshape(one, (-1, 1)), (m.size, 1)) for one in found], axis=1)
 
 
@@ -101,8 +103,8 @@ TOO_NEAR = Rule(
     limit=0.0,
     reported=lambda f: (_sum(f.m), _sum_limit(f.m)),
     remedy=lambda f: (
-        f"make both shifts together at {'most' if f.m.ring else 'least'} "
-        f"{(math.floor if f.m.ring else math.ceil)(100 * _sum_limit(f.m)) / 100:g}"
+        f"make both shifts together at {'most' if f.m.pair.total < 0 else 'least'} "
+        f"{(math.floor if f.m.pair.total < 0 else math.ceil)(100 * _sum_limit(f.m)) / 100:g}"
     ),
     must_be="above",
     stage=Stage.MOTION,
@@ -111,7 +113,7 @@ SHIFT = Rule(
     "gear.shift",
     lambda f: flank_of(f).shift if getattr(f.m.given, flank_of(f).shift) is not None else "centre_distance",
     "the centre distance asks for a profile shift of {value:.3f} modules, and the limit is {limit:g}",
-    value=lambda m: np.abs(each(m, lambda pair, gear: pair.shifts[gear])),
+    value=lambda m: np.abs(each(m, lambda pair, gear: pair.shifts[gear], again=0.0)),
     limit=MOST_SHIFT,
     must_be="at most",
     remedy=lambda f: (
@@ -143,7 +145,7 @@ UNDERCUT = Rule(
         f"{flank_of(f).words} with {f.m.number_of(flank_of(f))} teeth and a profile shift of {f.value:.3f} "
         "is undercut: the cutter takes away a part of the flank near the root"
     ),
-    value=lambda m: each(m, lambda pair, gear: pair.shifts[gear]),
+    value=lambda m: each(m, lambda pair, gear: pair.shifts[gear], again=np.inf),
     limit=lambda m: each(
         m, lambda pair, gear: least_shift(pair.teeth[gear], pair.angle, pair.dedendum, pair.tip_radius)
     ),
@@ -180,7 +182,9 @@ TIP = Rule(
         + ("pointed" if f.value <= 0 else f"{f.value:.3f} modules wide at the tip")
         + f", below {LEAST_TIP:g} modules"
     ),
-    value=lambda m: each(m, lambda pair, gear: pair.thickness_at(gear, pair.tip(gear)) / pair.module),
+    value=lambda m: each(
+        m, lambda pair, gear: pair.thickness_at(gear, pair.tip(gear)) / pair.module, again=np.inf
+    ),
     limit=LEAST_TIP,
     remedy=lambda f: f"make {flank_of(f).shift} or {height_key(f)} smaller",
 )
@@ -232,7 +236,7 @@ def _form(pair: InvolutePair, gear: int) -> Any:
     return np.where(np.asarray(pair.teeth[gear]) < 0, form, np.maximum(form, 0.0))
 
 
-def _reach(m: GearTable) -> Any:
+def reach(m: GearTable) -> Any:
     """How far the shaft opening reaches from the axis, mm."""
     given = m.given
     width = float(np.ravel(given.keyway_width)[0])
@@ -243,35 +247,40 @@ def _reach(m: GearTable) -> Any:
 
 
 def _rim(m: GearTable) -> Any:
-    # A ring has no shaft.
-    roots = each(m, lambda pair, gear: np.where(np.asarray(pair.teeth[gear]) < 0, np.inf, pair.root(gear)))
-    return (roots - np.reshape(_reach(m), (-1, 1))) / np.reshape(m.pair.module, (-1, 1))
+    def rim(pair: InvolutePair, gear: int) -> Any:
+        if np.all(np.asarray(pair.teeth[gear]) < 0):
+            return np.inf  # a ring has no shaft
+        pin = m.planetary and gear == 1
+        return (pair.root(gear) - (m.dimensions.pin_diameter / 2 if pin else reach(m))) / pair.module
+
+    return each(m, rim, again=np.inf)
 
 
 def _bored(m: GearTable) -> Any:
-    return np.asarray(m.given.bore) > 0
+    return m.planetary | (np.asarray(m.given.bore) > 0)
 
 
 def _bore(f: Fails, share: float) -> float:
     m = f.m
     most = 2 * (float(m.meshes[flank_of(f).mesh].root(flank_of(f).gear)) - share * float(m.pair.module))
-    return math.floor(100 * (most - 2 * (float(_reach(m)) - m.given.bore / 2))) / 100
+    keyed = 2 * (float(reach(m)) - m.given.bore / 2) if flank_of(f).bore == "bore" else 0.0
+    return math.floor(100 * (most - keyed)) / 100
 
 
 RIM = Rule(
     "bore.rim",
-    "bore",
+    lambda f: flank_of(f).bore,
     "{value:.2f} modules stay between the shaft opening and the nearest root",
     value=_rim,
     limit=LEAST_RIM,
-    remedy=lambda f: f"make bore at most {max(_bore(f, LEAST_RIM), 0):g}, or the gear larger",
+    remedy=lambda f: f"make {flank_of(f).bore} at most {max(_bore(f, LEAST_RIM), 0):g}, or the gear larger",
     when=_bored,
     each=False,
 )
 THIN_RIM = RIM.but(
     severity=Severity.WARNING,
     limit=lambda m: FULL_RIM * (m.given.addendum + m.given.dedendum),
-    remedy=lambda f: f"make bore at most {max(_bore(f, f.limit), 0):g}, or the gear larger",
+    remedy=lambda f: f"make {flank_of(f).bore} at most {max(_bore(f, f.limit), 0):g}, or the gear larger",
     when=lambda m: _bored(m) & np.asarray(~falls_short(_rim(m), LEAST_RIM)).all(axis=-1, keepdims=True),
 )
 
@@ -285,7 +294,7 @@ BACKLASH = Rule(
     "backlash",
     "gears as made may jam: walls and axes within tolerance take up to {limit:g} mm of the backlash",
     value=lambda m: m.given.backlash,
-    limit=lambda m: backlash_for(m.pair),
+    limit=lambda m: least_backlash(m.given, m.pair),
     unit="mm",
     remedy="make backlash at least {limit:g}, or leave it out",
     severity=Severity.WARNING,
@@ -296,18 +305,20 @@ BACKLASH = Rule(
 JAMS = BACKLASH.but(
     severity=Severity.ERROR,
     message="gears as made jam: walls as they are planned take up to {limit:g} mm of the backlash",
-    limit=lambda m: backlash_for(m.pair, jams=True),
+    limit=lambda m: least_backlash(m.given, m.pair, jams=True),
 )
 BACKLASH = BACKLASH.but(
     when=lambda m: (
-        _given_backlash(m) and ~np.asarray(falls_short(m.given.backlash, backlash_for(m.pair, jams=True)))
+        _given_backlash(m)
+        and ~np.asarray(falls_short(m.given.backlash, least_backlash(m.given, m.pair, jams=True)))
     )
 )
 
 
 def _mesh(m: GearTable) -> Iterator[Finding]:
-    """The mesh proof of one pair."""
-    yield from mesh_findings(prove(m), float(m.pair.backlash), list)
+    """The mesh proofs of one design."""
+    for mesh, pair in enumerate(m.meshes):
+        yield from mesh_findings(prove(m, mesh), float(pair.backlash), list)
 
 
 OPENING = all_of(*size_rules("keyway_relief"), keyway_rules("bore", "keyway_width", "keyway_relief"))
