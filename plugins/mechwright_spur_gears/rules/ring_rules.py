@@ -104,7 +104,7 @@ RING_TEETH = Rule(
     "gear.ring-teeth",
     lambda f: f.m.flanks[-1].teeth,
     lambda f: f"the ring has {f.value:g} teeth more than the gear that runs in it, below {f.limit:g}",
-    value=lambda m: -m.meshes[-1].total,
+    value=lambda m: -m.meshes[-1].teeth[0] - m.meshes[-1].teeth[1],
     limit=LEAST_DIFFERENCE,
     remedy=lambda f: (
         f"make {f.m.flanks[-1].teeth} at least {f.m.number_of(f.m.flanks[-2]) + LEAST_DIFFERENCE:g}"

@@ -95,8 +95,9 @@ class InvolutePair(Rowwise):
 
     @property
     def total(self) -> Any:
-        """z1 + z2."""
-        return self.teeth[0] + self.teeth[1]
+        """z1 + z2; NaN of a ring with as many teeth as its pinion, which has no centre distance."""
+        total = self.teeth[0] + self.teeth[1]
+        return np.where(np.asarray(total) == 0, np.nan, total)
 
     @property
     def reference_distance(self) -> Any:
@@ -196,7 +197,8 @@ class InvolutePair(Rowwise):
         centre = self.distance - self.root(1) - arc
         space = (math.tau * rolled / self.teeth[0] - self.thickness_at(1, self.operating(1))) / 2
         angle = space / rolled + involute(self.operating_angle) - arc / self.base(0)
-        return angle - involute(np.arccos(np.minimum(self.base(0) / centre, 1.0)))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return angle - involute(np.arccos(np.minimum(self.base(0) / centre, 1.0)))
 
     @property
     def tip_passing(self) -> Any:
