@@ -185,8 +185,9 @@ def test_what_makes_teeth_larger_is_the_key_that_sizes_them():
         ("gear.distance", {"centre_distance": 50.0}),
         ("gear.shift", {"centre_distance": 64.0}),
         ("gear.undercut", {"teeth": 9, "shift": 0.0}),
-        ("gear.tip", {"teeth": 9, "shift": 0.9}),
+        ("gear.tip", {"teeth": 9, "shift": 0.84}),
         ("gear.root-land", {"tip_radius": 0.5, "pressure_angle": 25.0}),
+        ("gear.rack", {"mate_teeth": 72, "mate_shift": 0.9}),
         ("gear.clearance", {"addendum": 1.2, "dedendum": 1.2}),
         ("gear.contact-ratio", {"addendum": 0.5}),
         (

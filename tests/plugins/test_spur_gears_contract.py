@@ -13,10 +13,11 @@ RING = {"arrangement": "internal", "teeth": 15, "mate_teeth": 40, "module": 1.5}
 SET = {
     "arrangement": "planetary",
     "teeth": 20,
-    "mate_teeth": 16,
+    "mate_teeth": 17,
     "module": 1.5,
     "keyway_width": 2,
     "pin_diameter": 6,
+    "planet_spacing": "nearest",
 }
 
 
@@ -51,10 +52,10 @@ class TestSpurGears(DayContract):
         ({**RING, "ring_outside": 66}, "ring_outside"),
         ({**RING, "ring_addendum": 1.1}, "addendum"),
         ({"ring_hole": 4}, "ring_hole"),
-        ({**SET, "planets": 5}, "planets"),
+        ({**SET, "planets": 6}, "planets"),
         ({**SET, "ring_teeth": 58}, "ring_teeth"),
         ({"backlash": 0.0}, "backlash"),
-        ({"teeth": 9, "mate_teeth": 30, "shift": 0.9}, "addendum"),
+        ({"teeth": 9, "mate_teeth": 30, "shift": 0.84}, "addendum"),
     )
     variations: ClassVar = {
         "load_torque": [2.0],
@@ -71,7 +72,6 @@ class TestSpurGears(DayContract):
         "ring_hole": [6.6],
         "ring_teeth": [53],
         "planets": [4],
-        "planet_spacing": ["nearest"],
         "fixed_member": ["sun", "carrier"],
         "driving_member": ["carrier"],
         "pin_diameter": [8.0],

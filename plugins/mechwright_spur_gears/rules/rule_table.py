@@ -7,6 +7,7 @@ from mechwright_spur_gears.rules.planet_rules import APART, CARRIER, COAXIAL, EQ
 from mechwright_spur_gears.rules.ring_rules import AXIAL, CUTTER_LAND, FOULING, RING_TEETH, RING_TIP
 from mechwright_spur_gears.rules.strength import STRENGTH
 from mechwright_spur_gears.rules.teeth_rules import (
+    ARC,
     BACKLASH,
     CLEARANCE,
     CONTACT,
@@ -42,7 +43,7 @@ MOTION = in_turn(of_rings(RING_TEETH), DISTANCE, TOO_NEAR, of_planets(COAXIAL))
 """What a motion needs."""
 
 PROFILE = in_turn(
-    all_of(SHIFT, LAND, NO_CLEARANCE, CLEARANCE, of_rings(RING_TIP)),
+    all_of(SHIFT, ARC, LAND, NO_CLEARANCE, CLEARANCE, of_rings(RING_TIP)),
     all_of(of_rings(CUTTER_LAND), UNDERCUT, TIP),
     all_of(CONTACT, ROUGH, INTERFERENCE),
     of_rings(FOULING),

@@ -34,6 +34,9 @@ from mechwright_spur_gears.parts.teeth import prove
 GOOD_CONTACT, LEAST_CONTACT = 1.2, 1.0
 """Contact ratio below which gears run roughly, and below which contact is lost."""
 
+LEAST_ARC = 0.02
+"""Modules between the centres of the rack's tip arcs and the pitch circle, below it: fillets begin there."""
+
 Rule = DesignRule[GearTable]
 Fails = Failure[GearTable]
 
@@ -152,6 +155,21 @@ UNDERCUT = Rule(
     remedy=lambda f: f"make {flank_of(f).shift} at least {_up(f.limit):g}, or {flank_of(f).teeth} larger",
     proposed=_shifted,
 )
+
+
+def _arc_depth(pair: InvolutePair, gear: int) -> Any:
+    """How deep the centres of the rack's tip arcs are below the pitch circle, modules; a ring has no rack."""
+    depth = pair.dedendum - pair.shifts[gear] - pair.tip_radius
+    return np.where(np.asarray(pair.teeth[gear]) < 0, np.inf, depth)
+
+
+def _less_round(f: Fails) -> Iterator[Change]:
+    less = math.floor(1000 * (float(f.m.given.tip_radius) + f.value - f.limit)) / 1000
+    if less >= 0:
+        yield {"parameters.tip_radius": less}
+    yield {f"parameters.{flank_of(f).shift}": None}
+
+
 LAND = Rule(
     "gear.root-land",
     "tip_radius",
@@ -163,6 +181,20 @@ LAND = Rule(
     ),
     limit=0.0,
     remedy="make tip_radius, dedendum or pressure_angle smaller",
+)
+ARC = Rule(
+    "gear.rack",
+    "tip_radius",
+    lambda f: (
+        f"with its shift the tip arcs of the rack have their centres {f.value:.3f} modules below the pitch "
+        f"circle of {flank_of(f).words}, and need {f.limit:g}"
+    ),
+    value=lambda m: each(m, _arc_depth, again=np.inf),
+    limit=LEAST_ARC,
+    remedy=lambda f: (
+        f"make tip_radius or {flank_of(f).shift} smaller by {math.ceil(1000 * (f.limit - f.value)) / 1000:g}"
+    ),
+    proposed=_less_round,
 )
 CLEARANCE = Rule(
     "gear.clearance",
