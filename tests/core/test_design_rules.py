@@ -13,6 +13,7 @@ from mechwright import DesignRule, DesignTable, Figure, Note, Parameters, Proced
 from mechwright.contracts.design_table import by_row, column, plain, rows_of, with_columns
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.rule_list import by_design
 from mechwright.contracts.standing import Standing
 from mechwright.errors import PluginFaultError
 
@@ -218,6 +219,27 @@ class TestOneRule:
         one = rule(value=by_row(lambda t: math.floor(t.params.a)), limit=1)
         assert one.forbids(table(a=[0.5, 1.5]), Stage.PARTS).tolist() == [True, False]
         assert [f.value for f in one.findings(DesignTable(Params(a=0.5)), quick=False)] == [0.0]
+
+
+def test_rules_by_design_are_all_asked_of_one_design_before_the_next():
+    asked = []
+
+    def watched(name):
+        def value(t):
+            asked.append((name, t.params.a))
+            return getattr(t.params, name)
+
+        return value
+
+    late = rule("machined", value=lambda _: -1.0, stage=Stage.MACHINING)
+    inner = all_of(rule("a", value=watched("a")), rule("b", value=watched("b")))
+    some = table(a=[1, -1, 2], b=[1, -1, -1])
+    rules = in_turn(rule("c", value=lambda t: t.params.c), by_design(inner, late))
+    assert allowed(rules, some) == ["", "a", "b"]
+    assert asked == [(name, a) for a in (1, -1, 2) for name in "ab"]
+    assert allowed(rules, table(a=[1.0], b=[1.0]), Stage.MACHINING) == ["machined"]
+    assert [one.code for one in rules.findings(some.row(1))] == ["a", "b"]
+    assert rules.codes == ("c", "a", "b", "machined")
 
 
 def test_a_procedure_is_asked_of_each_row_or_once_for_all():

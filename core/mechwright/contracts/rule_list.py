@@ -6,6 +6,8 @@ all of
     Rules that are all asked.
 in turn
     Rules of which each is asked if none before it found an error.
+by design
+    Rules that are asked of one design of a table after the other: all of them of each.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -17,7 +19,7 @@ from numpy.typing import NDArray
 
 from mechwright.contracts.design_rule import DesignRule, RuleLike
 from mechwright.contracts.design_table import DesignTable
-from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.contracts.finding import Finding, Severity, Stage, errors
 
 D = TypeVar("D", bound=DesignTable[Any])
 
@@ -34,15 +36,22 @@ class Rules(Generic[D]):
         Whether each is asked only if none before it found an error; else all are.
     when
         Whether they are asked at all, by what the designs of a table have in common.
+    singly
+        Whether they are asked of one design of a table after the other, so that what takes long to compute
+        is in memory for one design at once.
     """
 
     every: Sequence["RuleLike[D] | Rules[D]"]
     turns: bool
     when: Callable[[D], bool] | None = None
+    singly: bool = False
 
     def of(self, table: D) -> "Iterator[RuleLike[D]]":
         """Give the rules that are asked of a table, in order."""
         if self.when is not None and not self.when(table):
+            return
+        if self.singly:
+            yield from (_Verdict(self, code) for code in self.codes)
             return
         for one in self.every:
             if isinstance(one, Rules):
@@ -51,6 +60,11 @@ class Rules(Generic[D]):
             if isinstance(one, DesignRule) and (surely := one.surely) is not None:
                 yield surely
             yield one
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """Codes of what they find, each once."""
+        return tuple(dict.fromkeys(code for one in self.every for code in one.codes))
 
     def findings(self, m: D, *, quick: bool = False) -> list[Finding]:
         """Give what there is to say of one design, in order."""
@@ -111,6 +125,32 @@ class Rules(Generic[D]):
         return table, places
 
 
+@dataclass(frozen=True)
+class _Verdict(Generic[D]):
+    """The designs in which one code is the first error of rules that are asked by design."""
+
+    rules: Rules[D]
+    code: str
+
+    @property
+    def codes(self) -> Sequence[str]:
+        return (self.code,)
+
+    def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_]:
+        """Give the designs (n,); all rules are asked once of each."""
+        name = "first error", id(self.rules), stage
+        return np.asarray(table.once(name, lambda: self._first(table, stage))[:, 0] == self.code)
+
+    def _first(self, table: D, stage: Stage) -> NDArray[np.object_]:
+        found = (self.rules.findings(table.row(place), quick=True) for place in range(table.size))
+        stopping = ([one.code for one in errors(some, stage)] for some in found)
+        return np.array([next(iter(some), "") for some in stopping], object)[:, None]
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
+        """Give those of its code."""
+        yield from (one for one in self.rules.findings(m, quick=quick) if one.code == self.code)
+
+
 def _one_by_one(
     rule: RuleLike[D], table: D, stage: Stage, error: Exception
 ) -> tuple[NDArray[np.bool_], dict[int, Exception]]:
@@ -140,3 +180,8 @@ def all_of(*rules: "RuleLike[D] | Rules[D]", when: Callable[[D], bool] | None = 
 def in_turn(*rules: "RuleLike[D] | Rules[D]", when: Callable[[D], bool] | None = None) -> Rules[D]:
     """Rules of which each is asked only if none before it found an error."""
     return Rules(rules, turns=True, when=when)
+
+
+def by_design(*rules: "RuleLike[D] | Rules[D]") -> Rules[D]:
+    """Rules in turn that are asked of one design after the other, which keeps what takes long to compute."""
+    return Rules(rules, turns=True, singly=True)
