@@ -197,7 +197,12 @@ class DesignRule(Generic[D]):
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
         """Give what breaks it of one design; see :class:`RuleLike`."""
-        if (self.when is not None and not np.any(self.when(m))) or (quick and self.slow == "value"):
+        if not (quick and self.slow == "value"):
+            yield from (self._finding(failure, quick) for failure in self.failures(m))
+
+    def failures(self, m: D) -> Iterator[Failure[D]]:
+        """Give the items of one design that break it, or the first of them."""
+        if self.when is not None and not np.any(self.when(m)):
             return
         if self.worst is not None and not self._fails(m).any():
             return
@@ -209,7 +214,7 @@ class DesignRule(Generic[D]):
             return
         values, limits = (np.broadcast_to(one, wrong.shape).ravel() for one in (value, limit))
         for item in np.flatnonzero(wrong.ravel()).tolist():
-            yield self._finding(Failure(m, values[item].item(), float(limits[item]), item), quick)
+            yield Failure(m, values[item].item(), float(limits[item]), item)
             if not self.each:
                 return
 

@@ -37,21 +37,21 @@ class Rules(Generic[D]):
     when
         Whether they are asked at all, by what the designs of a table have in common.
     singly
-        Whether they are asked of one design of a table after the other, so that what takes long to compute
-        is in memory for one design at once.
+        The earliest stage of what they find, if they are asked of one design of a table after the other: what
+        takes long to compute is then in memory for one design at once.
     """
 
     every: Sequence["RuleLike[D] | Rules[D]"]
     turns: bool
     when: Callable[[D], bool] | None = None
-    singly: bool = False
+    singly: Stage | None = None
 
     def of(self, table: D) -> "Iterator[RuleLike[D]]":
         """Give the rules that are asked of a table, in order."""
         if self.when is not None and not self.when(table):
             return
-        if self.singly:
-            yield from (_Verdict(self, code) for code in self.codes)
+        if self.singly is not None:
+            yield from (_Verdict(self, code, self.singly) for code in self.codes)
             return
         for one in self.every:
             if isinstance(one, Rules):
@@ -131,13 +131,16 @@ class _Verdict(Generic[D]):
 
     rules: Rules[D]
     code: str
+    earliest: Stage
 
     @property
     def codes(self) -> Sequence[str]:
         return (self.code,)
 
-    def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_]:
+    def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_] | None:
         """Give the designs (n,); all rules are asked once of each."""
+        if self.earliest.is_after(stage):
+            return None
         name = "first error", id(self.rules), stage
         return np.asarray(table.once(name, lambda: self._first(table, stage))[:, 0] == self.code)
 
@@ -182,6 +185,6 @@ def in_turn(*rules: "RuleLike[D] | Rules[D]", when: Callable[[D], bool] | None =
     return Rules(rules, turns=True, when=when)
 
 
-def by_design(*rules: "RuleLike[D] | Rules[D]") -> Rules[D]:
-    """Rules in turn that are asked of one design after the other, which keeps what takes long to compute."""
-    return Rules(rules, turns=True, singly=True)
+def by_design(*rules: "RuleLike[D] | Rules[D]", stage: Stage = Stage.MOTION) -> Rules[D]:
+    """Rules in turn, all asked of one design after the other; ``stage`` is the earliest of what they find."""
+    return Rules(rules, turns=True, singly=stage)

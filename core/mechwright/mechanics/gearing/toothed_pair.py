@@ -12,11 +12,12 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.design_table import DesignTable
+from mechwright.contracts.design_table import DesignTable, number
 from mechwright.contracts.finding import Change
 from mechwright.contracts.keyed import Keyed
 from mechwright.contracts.parameters import Parameters
 from mechwright.geometry.keyway import Opening
+from mechwright.mechanics.gearing.backlash import PLANNED, pair_backlash
 from mechwright.mechanics.gearing.checks import Profile, least_tip
 from mechwright.mechanics.gearing.proof import MeshProof
 from mechwright.mechanics.gearing.rack import Rack
@@ -95,19 +96,24 @@ class ToothedPair(DesignTable[P]):
         """The cutter of the driver, mm."""
 
     @property
-    @abstractmethod
+    def upright(self) -> Any:
+        """Cosine of the greatest slope ν of the pitch curves: 1 of circles."""
+        return 1.0
+
+    @property
     def backlash(self) -> Any:
-        """Of the design, or what the family chooses."""
+        """Of the design, or the least with which gears as made turn, mm."""
+        return self.least_backlash if self.profile.backlash is None else self.profile.backlash
 
     @property
-    @abstractmethod
     def least_backlash(self) -> Any:
-        """With which gears as made turn."""
+        """With which gears as made turn, mm."""
+        return number(pair_backlash(self.upright, np.radians(self.profile.pressure_angle)))
 
     @property
-    @abstractmethod
     def jamming_backlash(self) -> Any:
-        """Below which walls as they are planned jam at the exact centre distance."""
+        """Below which walls as they are planned jam at the exact centre distance, mm."""
+        return number(pair_backlash(self.upright, np.radians(self.profile.pressure_angle), PLANNED, 0.0))
 
     @abstractmethod
     def teeth_with(self, backlash: float) -> Sequence[Teeth]:
