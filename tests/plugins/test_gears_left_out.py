@@ -18,7 +18,7 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.undercut import is_undercut as ellipse_undercut
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.shape_checks import is_undercut
+from mechwright_noncircular_gears.rules.shape_rules import is_undercut
 from mechwright_noncircular_gears.sized import SizedParams
 
 LEFT_OUT = ("dedendum", "tip_radius", "teeth", "thickness", "bore")

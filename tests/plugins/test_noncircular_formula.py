@@ -7,15 +7,17 @@ import pytest
 from noncircular import design
 from pydantic import ValidationError
 
-from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.law_checks import law_findings, runs
-from mechwright_noncircular_gears.laws.formula import RatioFormula
+from mechwright_noncircular_gears.kinematics.law import law_of
+from mechwright_noncircular_gears.kinematics.laws.formula import RatioFormula
+from mechwright_noncircular_gears.rules.law_rules import LAW, runs
+from mechwright_noncircular_gears.rules.remedies import advised
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 
 def found(law: str, text: str, **more: object) -> dict[str, object]:
     made = SizedParams.model_validate({"law": law, law: text, **more})
-    return {one.code: one for one in law_findings(made)}
+    return {one.code: advised(made, one) for one in LAW.findings(table_of(made))}
 
 
 @pytest.mark.parametrize(
