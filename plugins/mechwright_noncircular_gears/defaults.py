@@ -21,7 +21,7 @@ from mechwright_noncircular_gears.kinematics.law import extremes_of
 from mechwright_noncircular_gears.parameters import NoncircularParams
 from mechwright_noncircular_gears.parts.cutter import profile_of
 from mechwright_noncircular_gears.rules.law_rules import LAW
-from mechwright_noncircular_gears.rules.shape_rules import hollow, is_undercut, least_teeth, whole
+from mechwright_noncircular_gears.rules.shape_rules import HOLLOW, UNDERCUT, least_teeth, whole
 from mechwright_noncircular_gears.table import table_of
 
 TEETH = 40
@@ -71,9 +71,10 @@ def _of_curves(params: NoncircularParams) -> int:
     """
     usual = params.model_copy(update={"teeth": whole(params, TEETH)})
     try:
-        if not _runs(usual) or hollow(usual) or _certain(usual):
+        m = table_of(usual)
+        if not _runs(usual) or not HOLLOW.allows(m) or _certain(usual):
             return usual.teeth
-        return (least_teeth(usual) if is_undercut(usual) else None) or usual.teeth
+        return (None if UNDERCUT.allows(m) else least_teeth(usual)) or usual.teeth
     except MechwrightError:
         return usual.teeth
 

@@ -10,11 +10,10 @@ from mechwright import Finding, Stage
 from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
 from mechwright.contracts.finding import Change
 from mechwright.contracts.rule_list import in_turn
-from mechwright_noncircular_gears.kinematics.law import LEAST_RATIO, Extreme, fastest_of, law_of, slowest_of
+from mechwright_noncircular_gears.kinematics.law import LEAST_RATIO, Extreme, fastest_of, slowest_of
 from mechwright_noncircular_gears.kinematics.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.kinematics.laws.sector import SectorLaw
 from mechwright_noncircular_gears.kinematics.laws.window import WindowLaw
-from mechwright_noncircular_gears.parameters import NoncircularParams
 from mechwright_noncircular_gears.rules.formula_rules import FORMULA_CODES, formula_finding
 from mechwright_noncircular_gears.rules.sector_rules import SECTOR_CODES, sector_law_finding
 from mechwright_noncircular_gears.table import GearTable
@@ -140,13 +139,3 @@ LAW = in_turn(
     TURNS_BACK,
 )
 """Room for the blends of a window, a smooth formula, a ratio above 0, and below 1 in a ring."""
-
-
-def outruns(params: NoncircularParams) -> bool:
-    """Whether the driver is faster than the ring about it, all the way round."""
-    return fastest_of(law_of(params)).value < MOST_RING_RATIO
-
-
-def runs(params: NoncircularParams) -> bool:
-    """Whether the ratio stays above 0."""
-    return slowest_of(law_of(params)).value > LEAST_RATIO * params.lobes / params.mate_lobes

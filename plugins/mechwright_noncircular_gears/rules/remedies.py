@@ -17,14 +17,13 @@ from mechwright import Finding, Severity
 from mechwright.contracts.design_rule import DesignRule
 from mechwright.contracts.finding import Change, errors
 from mechwright.contracts.rule_list import in_turn
-from mechwright.mechanics.gearing.checks import SHAFT_PRESSURE_ANGLE
-from mechwright_noncircular_gears.kinematics.law import extremes_of, fastest_of, law_of, slowest_of
+from mechwright_noncircular_gears.kinematics.law import fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.kinematics.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.parameters import NoncircularParams
 from mechwright_noncircular_gears.parts.cutter import profile_of
-from mechwright_noncircular_gears.rules.law_rules import LAW, outruns, runs
-from mechwright_noncircular_gears.rules.part_rules import PARTS
-from mechwright_noncircular_gears.rules.shape_rules import finer, hollow, is_undercut, least_teeth, slower
+from mechwright_noncircular_gears.rules.law_rules import LAW, RING, TURNS_BACK
+from mechwright_noncircular_gears.rules.part_rules import LOCKED, PARTS, STEEP
+from mechwright_noncircular_gears.rules.shape_rules import HOLLOW, UNDERCUT, finer, least_teeth
 from mechwright_noncircular_gears.rules.softer import nearest, said
 from mechwright_noncircular_gears.rules.tip_rules import CUSP, TIP_FILLET, Fits, both, clear, lower, straight
 from mechwright_noncircular_gears.table import GearTable, table_of
@@ -45,6 +44,7 @@ STEPS = 7
 """Halvings: to a hundredth of the change of the ratio, for each asks for all teeth."""
 
 Works = Callable[[NoncircularParams], bool]
+Advice = Callable[[NoncircularParams, Finding], Finding]
 
 
 def with_remedy(params: NoncircularParams, finding: Finding) -> Finding:
@@ -67,9 +67,7 @@ def advised(params: NoncircularParams, finding: Finding) -> Finding:
     return finding if advice is None or finding.proposed else advice(params, finding)
 
 
-def _softer(
-    works: Works,
-) -> Callable[[NoncircularParams, Finding], Finding]:
+def _softer(works: Works) -> Advice:
     """Advice that is the nearest softer law that works."""
 
     def advice(params: NoncircularParams, finding: Finding) -> Finding:
@@ -79,26 +77,33 @@ def _softer(
     return advice
 
 
+def _keeps(*rules: DesignRule[GearTable]) -> Works:
+    return lambda params: all(rule.allows(table_of(params)) for rule in rules)
+
+
 def _not_hollow(params: NoncircularParams, finding: Finding) -> Finding:
     """A shaper, more teeth, or a softer law."""
-    words, changes = said(nearest(params, lambda one: not hollow(one)), slower(params))
     if profile_of(params).shaper_radius is None:
-        words, changes = f'set cutter = "shaper", or {words}', ({"parameters.cutter": "shaper"}, *changes)
-    elif not changes and (more := finer(params)) is not None:
-        words, changes = f"use {more} teeth, or {words}", ({"parameters.teeth": more},)
-    return replace(finding, remedy=words, proposed=changes)
+        words, changes = said(nearest(params, _keeps(HOLLOW)), "")
+        remedy = f'set cutter = "shaper", or {words}' if words else finding.remedy
+        return replace(finding, remedy=remedy, proposed=({"parameters.cutter": "shaper"}, *changes))
+    softer = _softer(_keeps(HOLLOW))(params, finding)
+    if softer.proposed or (more := finer(params)) is None:
+        return softer
+    change: Change = {"parameters.teeth": more}
+    return replace(softer, remedy=f"use {more} teeth, or {softer.remedy}", proposed=(change,))
 
 
 def _without_undercut(params: NoncircularParams, finding: Finding) -> Finding:
     """The least number of teeth, or a softer law."""
     more = least_teeth(params)
     if more is None:
-        return _softer(lambda one: not is_undercut(one))(params, finding)
+        return _softer(_keeps(UNDERCUT))(params, finding)
     remedy, change = f"use {more} teeth, the least number that works", {"parameters.teeth": more}
     return replace(finding, limit=more, remedy=remedy, proposed=(change,))
 
 
-def _lower_tips(rule: DesignRule[GearTable], works: Fits) -> Callable[[NoncircularParams, Finding], Finding]:
+def _lower_tips(rule: DesignRule[GearTable], works: Fits) -> Advice:
     """Advice that are the greatest tooth heights that work for both gears, or a softer law."""
 
     def advice(params: NoncircularParams, finding: Finding) -> Finding:
@@ -112,19 +117,14 @@ def _lower_tips(rule: DesignRule[GearTable], works: Fits) -> Callable[[Noncircul
     return advice
 
 
-def _upright(params: NoncircularParams, finding: Finding) -> Finding:
-    most = math.radians(SHAFT_PRESSURE_ANGLE - params.pressure_angle)
-    return _softer(lambda one: extremes_of(one).steepest.value <= most)(params, finding)
-
-
-ADVICE: dict[str, Callable[[NoncircularParams, Finding], Finding]] = {
-    "law.ring": _softer(outruns),
-    "law.turns-back": _softer(runs),
+ADVICE: dict[str, Advice] = {
+    "law.ring": _softer(_keeps(RING)),
+    "law.turns-back": _softer(_keeps(TURNS_BACK)),
     "gear.convexity": _not_hollow,
     "gear.undercut": _without_undercut,
     "gear.tip-cusp": _lower_tips(CUSP, straight),
     "gear.tip-fillet": _lower_tips(TIP_FILLET, clear),
-    "gear.pressure-angle": _upright,
+    "gear.pressure-angle": _softer(_keeps(LOCKED, STEEP)),
 }
 """Code to what helps."""
 

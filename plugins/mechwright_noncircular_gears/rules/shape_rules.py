@@ -17,13 +17,6 @@ Rule = DesignRule[GearTable]
 Fails = Failure[GearTable]
 
 
-def slower(params: NoncircularParams) -> str:
-    """What makes pitch curves less hollow, in words."""
-    if params.law == "slider":
-        return "make window larger, or the stroke shorter: the ratio changes too fast"
-    return "let the ratio change more slowly"
-
-
 def _hollow_words(f: Fails) -> str:
     least, radius = f.m.extremes.curvatures[f.item], f.m.profile.shaper_radius
     return (
@@ -37,6 +30,13 @@ def _hollow_words(f: Fails) -> str:
     )
 
 
+def _slower(f: Fails) -> str:
+    first = 'set cutter = "shaper", or ' if f.m.profile.shaper_radius is None else ""
+    if f.m.given.law == "slider":
+        return f"{first}make window larger, or the stroke shorter: the ratio changes too fast"
+    return f"{first}let the ratio change more slowly"
+
+
 HOLLOW = Rule(
     "gear.convexity",
     "law",
@@ -44,11 +44,7 @@ HOLLOW = Rule(
     value=lambda m: np.array([one.value for one in m.extremes.curvatures]),
     limit=lambda m: flattest(m.given),
     unit="1/mm",
-    remedy=lambda f: (
-        f'set cutter = "shaper", or {slower(f.m.given)}'
-        if f.m.profile.shaper_radius is None
-        else slower(f.m.given)
-    ),
+    remedy=_slower,
     reported=lambda f: (f.value / f.m.pair.distance, f.limit / f.m.pair.distance),
     each=False,
 )
@@ -97,12 +93,6 @@ _SPARE = 0.01
 """Share of teeth beyond those with which a cutter just fits: as made, it has room."""
 
 
-def hollow(params: NoncircularParams) -> bool:
-    """Whether a pitch curve is more hollow than the cutter can follow."""
-    limit = flattest(params)
-    return any(least.value < limit for least in extremes_of(params).curvatures)
-
-
 def whole(params: NoncircularParams, teeth: int) -> int:
     """So many teeth of the driver, or the next greater number of which the driven gear has whole ones too."""
     step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
@@ -141,11 +131,6 @@ UNDERCUT = Rule(
 """Flanks of either gear that are undercut."""
 
 
-def is_undercut(params: NoncircularParams) -> bool:
-    """Whether any flank of either gear is undercut."""
-    return any(bool((teeth.least_regularity < LEAST_REGULARITY).any()) for teeth in table_of(params).teeth)
-
-
 def least_teeth(params: NoncircularParams) -> int | None:
     """The least greater number of teeth of the driver that is free of undercut; None up to 300."""
     step = params.lobes // math.gcd(params.lobes, params.mate_lobes)
@@ -153,7 +138,7 @@ def least_teeth(params: NoncircularParams) -> int | None:
     def works(count: int) -> bool:
         found = table_of(params).changed(teeth=count)
         sharpest = max(one.value for one in found.extremes.sharpest)
-        return found.rack.dedendum * sharpest < found.pair.distance and not is_undercut(found.given)
+        return found.rack.dedendum * sharpest < found.pair.distance and UNDERCUT.allows(found)
 
     # Finer teeth reach less deeply into the same curve: the limit is found by halving, then looked at.
     low, high = params.teeth // step, MOST_TEETH // step
