@@ -42,8 +42,8 @@ def test_a_cam_behind_gears_lifts_by_where_its_shaft_stands(turning: str, kind: 
 
 def design_alone(turning: str, kind: dict[str, object]):
     """The turn of the same cam."""
-    from mechwright_cam_follower.cycle import cycle_of
-    from mechwright_cam_follower.params import CamParams
+    from mechwright_cam_follower.kinematics.cycle import cycle_of
+    from mechwright_cam_follower.parameters import CamParams
 
     return cycle_of(CamParams.model_validate({**kind, "turning": turning}))
 

@@ -108,6 +108,22 @@ def test_the_page_of_rules_is_what_families_declare():
     )
 
 
+@pytest.mark.parametrize(
+    ("title", "name", "besides"),
+    [
+        ("Geneva mechanism", "geneva", {"as-made", "as-made-lock", "requirement"}),
+        ("Cam and follower", "cam-follower", set()),
+    ],
+)
+def test_the_page_of_a_family_lists_its_rules(title, name, besides):
+    section = rule_page.page().partition(f"## {title}\n")[2].partition("\n## ")[0]
+    codes = rf"`((?:bore|{name.removeprefix('cam-')})\.[\w-]+)`"
+    declared = set(re.findall(codes, section))
+    listed = set(re.findall(codes, (ROOT / "docs" / f"{name}.md").read_text("utf-8")))
+    assert declared - listed == set()
+    assert listed - declared == {f"{name}.{one}" for one in besides}
+
+
 def test_every_public_name_is_documented_and_can_be_imported():
     text = PLUGINS.read_text(encoding="utf-8")
     names = mechwright.__all__

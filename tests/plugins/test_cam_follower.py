@@ -11,15 +11,19 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from mechwright.contracts.finding import Severity, errors
-from mechwright_cam_follower.as_made import error_of
-from mechwright_cam_follower.checks import findings
-from mechwright_cam_follower.cures import sound
-from mechwright_cam_follower.cycle import cycle_of
-from mechwright_cam_follower.extremes import cams_of, extremes_of, face_of, greatest, weakest_of
-from mechwright_cam_follower.geometry import geometry_of
-from mechwright_cam_follower.motion import contacts_at, figures, motion_of
-from mechwright_cam_follower.outline import FIT, outline_of
-from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.as_made.lift_error import error_of
+from mechwright_cam_follower.family import CamFollower
+from mechwright_cam_follower.kinematics.contact import contact_of
+from mechwright_cam_follower.kinematics.cycle import cycle_of
+from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak, pressure_peak, weakest
+from mechwright_cam_follower.kinematics.mechanism import mechanism_of
+from mechwright_cam_follower.kinematics.motion import contacts_at, motion_of
+from mechwright_cam_follower.kinematics.turn import greatest
+from mechwright_cam_follower.parameters import CamParams
+from mechwright_cam_follower.parts.cam_outline import FIT, outline_of
+from mechwright_cam_follower.rules.validity import is_valid
+
+findings = CamFollower().check
 
 TURN = np.linspace(0.0, math.tau, 721)
 LAWS = ["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7", "simple-harmonic"]
@@ -62,10 +66,10 @@ def test_both_rollers_touch_their_cams(table):
     params = cam(**table)
     radius = params.value("roller_radius")
     step = 1e-6
-    for second in cams_of(params):
-        geometry = geometry_of(params)
+    for second in mechanism_of(params).cams:
+        m = mechanism_of(params)
         contact, before, after = (
-            geometry.contact(rates_at(params, at), second)
+            contact_of(m, rates_at(params, at), second)
             for at in (TURN[5:-5], TURN[5:-5] - step, TURN[5:-5] + step)
         )
         assert_allclose(np.abs(contact.centre - contact.point), radius, rtol=0, atol=1e-9)
@@ -86,14 +90,14 @@ def test_outline_is_the_envelope_that_shapely_cuts(table):
     if errors(findings(params)):
         return
     theta = np.linspace(0.0, math.tau, 2001)
-    for second in cams_of(params):
-        centre = geometry_of(params).contact(rates_at(params, theta), second).centre
+    for second in mechanism_of(params).cams:
+        centre = contact_of(mechanism_of(params), rates_at(params, theta), second).centre
         centre = centre * np.exp(-1j * params.sense * theta)
         swept = shapely.LinearRing(np.column_stack((centre.real, centre.imag))).buffer(
             params.value("roller_radius"), 64
         )
         inside = shapely.Polygon(swept.interiors[0])
-        ours = shapely.Polygon(outline_of(params, second)[0].flatten(1e-4))
+        ours = shapely.Polygon(outline_of(mechanism_of(params), second)[0].flatten(1e-4))
         # Both polygons have chords: 2000 of the way, and 256 of the roller's circle.
         assert ours.exterior.hausdorff_distance(inside.exterior) < 0.02
         assert abs(ours.area - inside.area) < 0.003 * inside.length
@@ -104,7 +108,7 @@ def test_pressure_angle_of_a_slide(offset, base, law):
     """Norton, Design of Machinery: tan α = (s' - e)/(s + √(Rp² - e²))."""
     params = cam(offset=offset, base_radius=base, laws=[law])
     rates = rates_at(params)
-    (contact,) = contacts_at(params, rates)
+    (contact,) = contacts_at(mechanism_of(params), rates)
     height = rates.s + math.sqrt((base + 8) ** 2 - offset**2)
     assert_allclose(np.tan(contact.pressure_angle), (rates.v - offset) / height, rtol=0, atol=1e-12)
 
@@ -113,7 +117,7 @@ def test_radius_of_curvature_of_a_slide_in_line():
     """Norton: ρ = ((Rp + s)² + s'²)^(3/2)/((Rp + s)² + 2 s'² - s'' (Rp + s))."""
     params = cam(laws=["3-4-5"])
     rates = rates_at(params)
-    (contact,) = contacts_at(params, rates)
+    (contact,) = contacts_at(mechanism_of(params), rates)
     r = 48 + rates.s
     wanted = (r**2 + rates.v**2) ** 1.5 / (r**2 + 2 * rates.v**2 - rates.a * r)
     assert_allclose(contact.pitch_radius, wanted, rtol=1e-12)
@@ -128,20 +132,20 @@ def test_eccentric_circle():
     params = cam(
         contact="flat", angles=(180, 180), lifts=(50, 0), laws=("simple-harmonic",), base_radius=25, bore=0
     )
-    (contact,) = contacts_at(params, rates_at(params))
+    (contact,) = contacts_at(mechanism_of(params), rates_at(params))
     profile = contact.point * np.exp(-1j * TURN)
     assert_allclose(contact.radius, 50, rtol=1e-12)
     assert_allclose(np.abs(profile + 25j), 50, rtol=1e-12)
-    low, high = face_of(params)
+    low, high = face_ends(mechanism_of(params))
     assert (low, high) == pytest.approx((-25, 25), abs=1e-9)
-    assert outline_of(params)[0].area == pytest.approx(math.pi * 2500, rel=1e-6)
+    assert outline_of(mechanism_of(params))[0].area == pytest.approx(math.pi * 2500, rel=1e-6)
 
 
 def test_flat_face_radius():
     """ρ = R_b + s + s'' for a slide; a lever's by differences of its profile."""
     params = cam(contact="flat", laws=["4-5-6-7"])
     rates = rates_at(params)
-    (contact,) = contacts_at(params, rates)
+    (contact,) = contacts_at(mechanism_of(params), rates)
     assert_allclose(contact.radius, 40 + rates.s + rates.a, rtol=1e-12)
     lever = cam(
         contact="flat",
@@ -152,7 +156,7 @@ def test_flat_face_radius():
         laws=["4-5-6-7"],
     )
     fine = np.linspace(0.2, 1.9, 40001)
-    (contact,) = contacts_at(lever, rates_at(lever, fine))
+    (contact,) = contacts_at(mechanism_of(lever), rates_at(lever, fine))
     profile = contact.point * np.exp(-1j * fine)
     rate = np.gradient(profile, fine)
     bend = np.gradient(rate, fine)
@@ -168,7 +172,7 @@ def test_radius_of_curvature_by_differences(table, second):
     """ρ of the pitch curve and of the cam, both of a pair, from their points alone."""
     params = cam(**table, conjugate=True, laws=["4-5-6-7"])
     fine = np.linspace(0.2, 1.9, 40001)
-    contact = contacts_at(params, rates_at(params, fine))[second]
+    contact = contacts_at(mechanism_of(params), rates_at(params, fine))[second]
     turned = np.exp(-1j * params.sense * fine)
     for points, radius in ((contact.centre, contact.pitch_radius), (contact.point, contact.radius)):
         rate = np.gradient(points * turned, fine)
@@ -185,12 +189,12 @@ def test_force_of_harmonic_motion(mass, preload, rate, speed, load):
     params = cam(angles=(180, 180), lifts=(20, 0), laws=("simple-harmonic",), **table)
     swing = mass / 1000 * params.omega**2 * 10
     wanted = min(swing + preload + load, -swing + preload + load + 20 * rate)
-    assert weakest_of(params).value == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    assert weakest(mechanism_of(params)).value == pytest.approx(wanted, rel=1e-9, abs=1e-9)
     told = [one for one in findings(params) if one.code == "follower.contact"]
     assert bool(told) == (wanted <= 0)
     for change in told[0].proposed if told else ():
         (key, value) = next(iter(change.items()))
-        assert weakest_of(params.model_copy(update={key.split(".")[1]: value})).value > 0
+        assert weakest(mechanism_of(params.model_copy(update={key.split(".")[1]: value}))).value > 0
 
 
 def test_torque_is_the_power_of_the_follower():
@@ -205,7 +209,7 @@ def test_torque_is_the_power_of_the_follower():
     )
     assert (
         abs(np.trapezoid(motion["torque"], motion["theta"]))
-        < 1e-6 * figures(cam(laws=["3-4-5"]))["torque_max"].value * 10
+        < 1e-6 * load_peak(mechanism_of(cam(laws=["3-4-5"])), "torque_max").value * 10
     )
 
 
@@ -234,18 +238,18 @@ def test_conjugate_pair_shares_the_force():
 
 
 def test_dwells_are_arcs():
-    segments = outline_of(cam())[0].segments
+    segments = outline_of(mechanism_of(cam()))[0].segments
     arcs = [one for one in segments if one.tag == "dwell"]
     assert sorted(one.radius for one in arcs) == pytest.approx([40, 55], abs=1e-12)
-    assert outline_of(cam())[1] <= FIT
+    assert outline_of(mechanism_of(cam()))[1] <= FIT
 
 
 def test_extremes_are_refined():
     """The greatest pressure angle of a coarse grid is below, and that of a fine one no more than that."""
     params = cam(laws=["modified-sine"], offset=4)
-    best = extremes_of(params).pressure
+    best = pressure_peak(mechanism_of(params))
     fine = np.linspace(0, math.tau, 200001)
-    (contact,) = contacts_at(params, rates_at(params, fine))
+    (contact,) = contacts_at(mechanism_of(params), rates_at(params, fine))
     seen = np.abs(contact.pressure_angle)
     assert 0 <= best.value - seen.max() < 1e-9
     assert best.angle == pytest.approx(fine[seen.argmax()], abs=1e-4)
@@ -254,7 +258,7 @@ def test_extremes_are_refined():
 def test_jumps_belong_to_the_segment():
     """At the end of a harmonic rise into a dwell the deceleration counts, though the dwell has none."""
     params = cam(angles=(90, 180, 90), lifts=(10, 10, 0), laws=("simple-harmonic",))
-    least = -greatest(params, lambda rates: -rates.a).value
+    least = -greatest(mechanism_of(params), "slowest", lambda one: -one.rates.a).value
     assert least == pytest.approx(-(math.pi**2) * 10 / 2 / (math.pi / 2) ** 2, rel=1e-6)
 
 
@@ -289,12 +293,12 @@ def test_undercut_is_named_and_mended():
     "table",
     [{"offset": 70.0}, {"follower": "oscillating", "centre_distance": 200.0, "arm_length": 20.0}],
 )
-def test_a_cam_that_its_follower_does_not_reach_is_not_sound(table):
+def test_a_cam_that_its_follower_does_not_reach_is_not_valid(table):
     (found,) = errors(findings(cam(**table)))
-    assert not sound(cam(**table), steep=False)
+    assert not is_valid(mechanism_of(cam(**table)), steep=False)[0]
     (change,) = found.proposed
     ((key, value),) = change.items()
-    assert sound(cam(**table | {key.split(".")[1]: value}), steep=False)
+    assert is_valid(mechanism_of(cam(**table | {key.split(".")[1]: value})), steep=False)[0]
 
 
 def test_steep_cam_is_mended():
@@ -304,20 +308,20 @@ def test_steep_cam_is_mended():
     for change in found.proposed:
         ((key, value),) = change.items()
         mended = cam(lifts=[30, 30, 0, 0], angles=[70, 60, 120, 110], **{key.split(".")[1]: value})
-        assert math.degrees(extremes_of(mended).pressure.value) <= 30
+        assert math.degrees(pressure_peak(mechanism_of(mended)).value) <= 30
 
 
 @pytest.mark.parametrize("table", [{}, {"contact": "flat"}, {"follower": "oscillating"}, {"conjugate": True}])
 def test_lift_error_as_made(table):
     """The drawn outline gives the law within its fit; a cam 10 µm fat lifts by that over the cosine."""
     params = cam(**table)
-    contacts = contacts_at(params, rates_at(params))
-    for second, contact in zip(cams_of(params), contacts, strict=True):
-        outline = outline_of(params, second)[0].flatten(1e-5)
-        exact = error_of(params, TURN, contact, outline) * contact.share
+    contacts = contacts_at(mechanism_of(params), rates_at(params))
+    for second, contact in zip(mechanism_of(params).cams, contacts, strict=True):
+        outline = outline_of(mechanism_of(params), second)[0].flatten(1e-5)
+        exact = error_of(mechanism_of(params), TURN, contact, outline) * contact.share
         assert np.abs(exact).max() < FIT + 2e-5
         fat = np.asarray(shapely.Polygon(outline).buffer(0.01, 64).exterior.coords)
-        lifted = error_of(params, TURN, contact, fat) * contact.share
+        lifted = error_of(mechanism_of(params), TURN, contact, fat) * contact.share
         assert_allclose(lifted, 0.01, rtol=0, atol=FIT + 5e-5)
 
 
@@ -340,7 +344,7 @@ def test_a_roller_on_an_eccentric_circle():
         roller_radius=roller,
     )
     theta = np.radians(np.linspace(30, 150, 481))
-    (contact,) = contacts_at(params, rates_at(params, theta))
+    (contact,) = contacts_at(mechanism_of(params), rates_at(params, theta))
     assert_allclose(np.sin(contact.pressure_angle), off * np.sin(theta) / whole, rtol=0, atol=1e-6)
     assert_allclose(contact.pitch_radius, whole, rtol=1e-4)
     assert_allclose(contact.radius, whole - roller, rtol=1e-4)

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 
 from mechwright import Stage
-from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
-from mechwright_cam_follower.evaluation import answer, covered
 from mechwright_cam_follower.family import CamFollower
-from mechwright_cam_follower.params import CamParams
+from mechwright_cam_follower.parameters import CamParams
 
 FAMILY = CamFollower()
 
@@ -100,9 +98,8 @@ STUDIES = {
 
 
 def columns(study):
-    """All but the angles at which peaks are, which are found one by one."""
-    found = FAMILY.measures(CamParams.model_validate(study.content))
-    return tuple(name for name in found if not name.endswith(".theta"))
+    """All columns."""
+    return tuple(FAMILY.measures(CamParams.model_validate(study.content)))
 
 
 @pytest.mark.parametrize("study", STUDIES)
@@ -115,13 +112,14 @@ def test_they_are_what_each_is_by_itself(study):
 
 
 @pytest.mark.parametrize("study", STUDIES)
-def test_most_are_decided_by_arrays(study):
+def test_no_design_is_evaluated_by_itself(study, monkeypatch):
     one = STUDIES[study]
-    allowed = Designs(CamParams.model_validate(one.content), one.varied)
-    with np.errstate(all="ignore"):
-        found = answer(allowed, columns(one), Stage.PARTS)
-    assert found.undecided.sum() <= 2
-    assert not set(columns(one)) - set(found.values)
+    asked = columns(one)
+    monkeypatch.setattr(CamFollower, "judge", None)
+    monkeypatch.setattr(CamFollower, "solve", None)
+    monkeypatch.setattr(CamFollower, "parts", None)
+    found = FAMILY.evaluate(one, asked)
+    assert all(np.isfinite(found.values[name][found.forbidden == 0]).all() for name in asked)
 
 
 def test_what_moves_is_not_judged_for_its_parts():
@@ -139,11 +137,23 @@ def test_keyways_that_are_none_forbid_all(keyway):
     assert found.forbidden.all()
 
 
-def test_shafts_with_keys_that_are_varied_are_left_to_each():
-    keyed = CamParams.model_validate({"keyway_width": 5})
-    assert covered(Designs(keyed, {"base_radius": np.array([40.0])}))
-    assert not covered(Designs(keyed, {"bore": np.array([15.0])}))
-    assert not covered(Designs(CamParams(), {"keyway_width": np.array([5.0])}))
+def test_shafts_with_keys_may_be_varied():
+    """Bores, depths and reliefs of one keyway are columns; each width has a table of its own."""
+    varied = {
+        "bore": np.array([13.0, 15.0, 17.0, 76.0, 15.0, 15.0, 15.0, 4.0]),
+        "keyway_width": np.array([5.0, 5.0, 5.0, 5.0, 4.0, 6.0, 4.5, 5.0]),
+        "keyway_depth": np.array([2.3, 2.3, 3.0, 2.3, 1.8, 1.0, 2.0, 2.3]),
+        "keyway_relief": np.array([0.0, 1.0, 0.5, 1.0, 0.0, 0.0, 9.0, 0.0]),
+    }
+    one, asked = Batch(CamParams, {}, varied), ("mass.cam", "cam_radius_max")
+    found = FAMILY.evaluate(one, asked)
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, one, asked, Stage.PARTS, FAMILY.parts))
+    assert found.counts == {
+        "bore.keyway-depth": 1,
+        "bore.keyway-relief": 1,
+        "bore.keyway-width": 1,
+        "follower.wall": 1,
+    }
 
 
 def test_kinds_that_are_varied_are_evaluated_kind_by_kind(monkeypatch):
@@ -190,3 +200,11 @@ def test_a_bar_is_refused_that_leaves_less_than_a_wall_beside_its_hole(table, ho
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, (), Stage.PARTS))
     assert found.counts == {"follower.wall": 2}
     assert (found.forbidden > 0).tolist() == [True, True, False, False]
+
+
+def test_a_law_that_is_none_forbids_all_by_its_first_fault():
+    table = {"laws": ["polynomial"], "polynomial": [0, 0, 3, -1]}
+    few = Batch(CamParams, table, {"base_radius": np.array([40.0, 50.0])})
+    found = FAMILY.evaluate(few, ())
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, (), Stage.PARTS))
+    assert found.forbidden.all()

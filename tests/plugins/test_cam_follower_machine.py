@@ -9,11 +9,14 @@ from mechwright.contracts.mounting import MountingError
 from mechwright.errors import KinematicsError
 from mechwright.machine.drive import SAMPLES, drive_of
 from mechwright.machine.settings import MachineSettings
-from mechwright_cam_follower.motion import loaded, motion_of
-from mechwright_cam_follower.mounting import mounting_of
-from mechwright_cam_follower.params import CamParams
-from mechwright_cam_follower.parts import parts_of
+from mechwright_cam_follower.family import CamFollower
+from mechwright_cam_follower.kinematics.extremes import load_peak
+from mechwright_cam_follower.kinematics.mechanism import mechanism_of
+from mechwright_cam_follower.kinematics.motion import motion_of
+from mechwright_cam_follower.parameters import CamParams
+from mechwright_cam_follower.parts.parts import parts_of
 
+FAMILY = CamFollower()
 TABLES = [
     {"laws": ["4-5-6-7"], "speed": 400, "spring_preload": 200, "load": 5},
     {"laws": ["4-5-6-7"], "follower": "oscillating", "turning": "cw", "speed": 300, "load_torque": 1},
@@ -46,11 +49,11 @@ def test_a_share_has_a_number_for_each_sample():
 
 def test_shafts_of_a_lever_carry_the_contact():
     params = CamParams(follower="oscillating")
-    cam, lever = mounting_of(params).spindles
-    most = loaded(params)
-    torque = most["torque_max"].value
-    assert cam.force * torque == pytest.approx(most["contact_force_max"].value)
-    assert lever.torque * torque == pytest.approx(most["contact_force_max"].value * 75 / 1000)
+    cam, lever = FAMILY.mounting(params).spindles
+    m = mechanism_of(params)
+    torque = load_peak(m, "torque_max").value
+    assert cam.force * torque == pytest.approx(load_peak(m, "contact_force_max").value)
+    assert lever.torque * torque == pytest.approx(load_peak(m, "contact_force_max").value * 75 / 1000)
 
 
 @pytest.mark.parametrize(
@@ -63,4 +66,4 @@ def test_shafts_of_a_lever_carry_the_contact():
 )
 def test_what_has_no_frame_is_refused_by_name(table, word):
     with pytest.raises(MountingError, match=word):
-        mounting_of(CamParams.model_validate(table))
+        FAMILY.mounting(CamParams.model_validate(table))

@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from mechwright_cam_follower.cycle import cycle_of
-from mechwright_cam_follower.extremes import extremes_of, face_of
-from mechwright_cam_follower.motion import contacts_at
-from mechwright_cam_follower.params import CamParams
-from mechwright_cam_follower.requirement import SizeRequirement
-from mechwright_cam_follower.synthesis import smallest
+from mechwright_cam_follower.kinematics.cycle import cycle_of
+from mechwright_cam_follower.kinematics.extremes import face_ends, pressure_peak
+from mechwright_cam_follower.kinematics.mechanism import mechanism_of
+from mechwright_cam_follower.kinematics.motion import contacts_at
+from mechwright_cam_follower.parameters import CamParams
+from mechwright_cam_follower.requirements import SizeRequirement
+from mechwright_cam_follower.synthesis.smallest_cam import smallest
 
 
 def cam(**table) -> CamParams:
@@ -34,7 +35,7 @@ def test_radius_of_curvature_of_a_handbook(law, printed):
         bore=0,
     )
     theta = np.linspace(0.0, math.pi / 3, 20001)
-    (contact,) = contacts_at(params, cycle_of(params).at(theta))
+    (contact,) = contacts_at(mechanism_of(params), cycle_of(params).at(theta))
     assert np.abs(contact.centre).min() / scale == pytest.approx(2.9, abs=1e-9)
     bent = contact.pitch_radius[contact.pitch_radius > 0]
     assert round(bent.min() / scale, 1) == printed
@@ -56,7 +57,7 @@ def test_sizes_that_another_program_prints():
     )
     (best,) = smallest(wanted, lambda done, what: None).candidates
     assert best.params.base_radius / scale == pytest.approx(1.893, abs=0.001)
-    low, high = face_of(best.params)
+    low, high = face_ends(mechanism_of(best.params))
     assert round((high - low) / scale, 2) == 2.55
 
 
@@ -67,8 +68,8 @@ def test_pressure_angle_that_another_program_prints():
     """
     scale = 10.0
     table = {"angles": (90, 90, 90, 90), "lifts": (0, scale, scale, 0), "roller_radius": scale / 2, "bore": 0}
-    printed = extremes_of(cam(base_radius=1.25091 * scale, **table), False)
-    assert round(math.degrees(printed.pressure.value), 2) == 30.0
+    printed = pressure_peak(mechanism_of(cam(base_radius=1.25091 * scale, **table)))
+    assert round(math.degrees(printed.value), 2) == 30.0
     wanted = SizeRequirement(**table, greatest_pressure_angle=30, offset=0.0)
     (best,) = smallest(wanted, lambda done, what: None).candidates
     assert best.params.base_radius / scale == pytest.approx(1.2509, abs=1e-4)

@@ -289,10 +289,14 @@ class Procedure(Generic[D]):
             wrong[place] = self._stops(table.row(place), stage)
         return wrong
 
+    def code_of(self, table: D, stage: Stage) -> str:
+        """Give the code of what forbids designs: of several common ones the first error's."""
+        if not self.common or len(self.codes) == 1:
+            return self.codes[0]
+        return next(one.code for one in self.inspect(table.row(0)) if _forbids(one, stage))
+
     def _stops(self, m: D, stage: Stage) -> bool:
-        return any(
-            one.severity is Severity.ERROR and not one.stage.is_after(stage) for one in self.inspect(m)
-        )
+        return any(_forbids(one, stage) for one in self.inspect(m))
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
         """Give what it finds of one design; see :class:`RuleLike`."""
@@ -371,6 +375,10 @@ def _breaks(must_be: Comparison, value: Any, limit: Any) -> Any:
     if must_be == "at most":
         return exceeds(value, limit)
     return ~np.asarray(value > limit) if must_be == "above" else ~np.asarray(value < limit)
+
+
+def _forbids(finding: Finding, stage: Stage) -> bool:
+    return finding.severity is Severity.ERROR and not finding.stage.is_after(stage)
 
 
 def _truth(value: Any, size: int) -> Bools:

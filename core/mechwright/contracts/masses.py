@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 TOTAL, OF_PART, OF_BODY, UNIT = "mass", "mass.", "mass_", "kg"
 """Of bodies are figures of a motion."""
 
-WEIGHED = 5e-6
+WEIGHED = 3e-5
 """Share of a mass by which two ways to it may differ: an outline that is fitted runs within
 ``TOLERANCES.outline`` of its curve, now on one side and now on the other; formulas integrate the curve."""
 

@@ -17,7 +17,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.contracts.design_rule import DesignRule, RuleLike
+from mechwright.contracts.design_rule import DesignRule, Procedure, RuleLike
 from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 
@@ -117,7 +117,8 @@ class Rules(Generic[D]):
                 places, table, wrong = places[sound], table.rows(sound), wrong[sound]
             if wrong is None or not wrong.any():
                 continue
-            forbid(rule.codes[0], places[wrong])
+            code = rule.code_of(table, stage) if isinstance(rule, Procedure) else rule.codes[0]
+            forbid(code, places[wrong])
             left = np.flatnonzero(~wrong)
             places, table = places[left], table.rows(left)
             if not left.size:

@@ -16,8 +16,14 @@ NEARER = (1 / 16, 1 / 16, 1 / 16, 1 / 256)
 """Steps, in those of the grid, of the samples through which parabolas are put one after the other: a top
 that lies beyond the samples is followed by the next ones."""
 
-SETTLED = 5e-6
+SETTLED = 1e-7
 """Share by which the last parabola may have raised a value: what is left is 1/256² of that."""
+
+MISSED = 1e-10
+"""Share by which the last samples may stay below the greatest value that is known."""
+
+ROUNDING = 1e-13
+"""Share by which two samples of one value differ."""
 
 Places = NDArray[np.intp]
 """Which functions (m,) are asked."""
@@ -28,9 +34,10 @@ Asked = Callable[[Places, Array], Array]
 
 @dataclass(frozen=True)
 class Tops:
-    """The greatest samples (n,) of a grid, where parabolas have tops, in steps, and how far they rise."""
+    """Of a grid the greatest samples (n,) and where they are, in steps; tops of parabolas, and their rise."""
 
     value: Array
+    sample: Array
     place: Array
     rise: Array
 
@@ -46,11 +53,12 @@ class Tops:
         row, place = np.arange(len(values)), np.argmax(values, axis=1)
         most = values[row, place]
         if values.shape[1] < 3:
-            return cls(*(np.broadcast_to(one, size) for one in (most, place + 0.0, 0 * most)))
-        middle = np.clip(place, 1, values.shape[1] - 2)
-        shift, top = _vertex(*(values[row, middle + one] for one in (-1, 0, 1)))
-        rise = np.maximum(top - most, 0.0)
-        return cls(*(np.broadcast_to(one, size) for one in (most, middle + shift, rise)))
+            found = most, place, place + 0.0, 0 * most
+        else:
+            middle = np.clip(place, 1, values.shape[1] - 2)
+            shift, top = _vertex(*(values[row, middle + one] for one in (-1, 0, 1)))
+            found = most, place, middle + shift, np.maximum(top - most, 0.0)
+        return cls(*(found if len(values) == size else (np.broadcast_to(one, size) for one in found)))
 
 
 def _told(values: Array) -> Array:
@@ -68,36 +76,46 @@ def _vertex(left: Array, centre: Array, right: Array) -> tuple[Array, Array]:
 
 
 def climbed(
-    asked: Asked, tops: Tops, which: Places, low: float, high: float, count: int
-) -> tuple[Array, NDArray[np.bool_]]:
-    """The greatest values (m,) of some functions about their best samples, and whether each stands.
+    asked: Asked, tops: Tops, which: Places, low: "Array | float", high: "Array | float", count: int
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """The greatest values (m,) of some functions about their best samples, where, and whether each stands.
 
     Parameters
     ----------
     asked
         Values of functions.
     tops
-        Of a grid of ``count`` samples from ``low`` to ``high``.
+        Of a grid of ``count`` samples from ``low`` to ``high``, which may differ (m,).
     which
         The functions (m,).
     """
+    low, high = (np.broadcast_to(np.asarray(end, dtype=float), which.size) for end in (low, high))
     step = (high - low) / (count - 1)
     middle, best = low + step * tops.place[which], tops.value[which].copy()
+    place = low + step * tops.sample[which]
     settled = np.zeros(which.size, dtype=bool)
     for wide in NEARER:
         left = np.flatnonzero(~settled)
-        around = np.clip(middle[left], low + wide * step, high - wide * step)
-        values = _told(asked(which[left], around[:, None] + wide * step * np.array([-1.0, 0.0, 1.0])))
+        some, reach = which[left], wide * step[left]
+        around = np.clip(middle[left], low[left] + reach, high[left] - reach)
+        values = _told(asked(some, around[:, None] + reach[:, None] * np.array([-1.0, 0.0, 1.0])))
         known = values.max(axis=1) <= best[left]
         last = np.maximum(best[left], values.max(axis=1))
         shift = _vertex(*values.T)[0]
-        middle[left] = np.clip(around + wide * step * shift, low, high)
-        best[left] = np.maximum(last, _told(asked(which[left], middle[left, None]))[:, 0])
-        # A top beyond the samples is followed, unless they only lead to what is known.
+        middle[left] = np.clip(around + reach * shift, low[left], high[left])
+        found = np.column_stack((_told(asked(some, middle[left, None])), values))
+        top = np.argmax(found, axis=1)
+        at = np.where(top == 0, middle[left], around + reach * (top - 2.0))
+        value = found[np.arange(left.size), top]
+        place[left] = np.where(value > best[left] + ROUNDING * np.abs(best[left]), at, place[left])
+        best[left] = np.maximum(last, value)
+        # A top beyond the samples is followed, unless they only lead to what is known; one that they miss is
+        # where the function is no parabola.
         settled[left] = (known | (np.abs(shift) < 1)) & (best[left] - last <= SETTLED * np.abs(last))
+        settled[left] &= best[left] - value <= MISSED * np.abs(best[left])
         if settled.all():
             break
-    return best, settled
+    return best, place, settled
 
 
 def greatest(asked: Asked, size: int, low: float, high: float, count: int) -> tuple[Array, NDArray[np.bool_]]:
@@ -110,5 +128,5 @@ def greatest(asked: Asked, size: int, low: float, high: float, count: int) -> tu
     """
     every = np.arange(size)
     tops = Tops.of(asked(every, np.linspace(low, high, count)[None]), size)
-    value, settled = climbed(asked, tops, every, low, high, count)
+    value, _, settled = climbed(asked, tops, every, low, high, count)
     return value, settled & np.isfinite(value)

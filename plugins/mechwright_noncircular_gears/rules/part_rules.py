@@ -8,7 +8,7 @@ from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import SHAFT_PRESSURE_ANGLE
 from mechwright.mechanics.gearing.ring_plate import RING_RULES
 from mechwright.mechanics.gearing.tooth_rules import CLEARANCE, LAND, NO_CLEARANCE, RACK, RIM, TIP
-from mechwright.mechanics.opening_rules import keyed_rules
+from mechwright.mechanics.opening_rules import keyed_rules, size_rules
 from mechwright_noncircular_gears.fields import LEAST_MODULE
 from mechwright_noncircular_gears.rules.ring_rules import ROOM
 from mechwright_noncircular_gears.rules.sector_rules import SECTORS
@@ -75,7 +75,7 @@ PARTS = in_turn(
     all_of(RACK, NO_CLEARANCE, CLEARANCE),
     CONVEXITY,
     ROOM,
-    keyed_rules("bore", "keyway_width", "keyway_relief"),
+    in_turn(all_of(*size_rules("bore", "keyway_width", "keyway_relief")), keyed_rules()),
     SECTORS,
     LAND,
     UNDERCUT,

@@ -1,0 +1,1 @@
+"""How the follower moves with parts as their programs leave them."""

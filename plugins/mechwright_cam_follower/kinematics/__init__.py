@@ -1,0 +1,1 @@
+"""Positions, contact, forces and figures of a cam and its follower."""

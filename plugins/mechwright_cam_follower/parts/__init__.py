@@ -1,0 +1,1 @@
+"""Outlines, parts, masses and shafts of a cam and its follower."""

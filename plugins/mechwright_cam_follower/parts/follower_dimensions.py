@@ -1,0 +1,90 @@
+"""Dimensions of followers and rails that follow from the design.
+
+Of a slide, rails stand beside the bar, clear of everything the cam reaches; the bar is so long that both
+rails hold it over their whole length at every lift.
+"""
+
+import cmath
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mechwright.contracts.design_table import number
+from mechwright_cam_follower.kinematics.extremes import face_ends, outermost
+from mechwright_cam_follower.kinematics.mechanism import Mechanism
+
+FREE = 1.0
+"""mm between parts that pass each other in one plane, and about the shaft in its slot."""
+
+CORNER = 1.0
+"""Radius of the corners of plain plates, mm; smaller where there is less room."""
+
+
+@dataclass(frozen=True)
+class Rails:
+    """Both rails of a slide.
+
+    Parameters
+    ----------
+    width, length
+        Of one, mm.
+    places
+        Lower left corners of both, mm.
+    """
+
+    width: float
+    length: float
+    places: tuple[complex, complex]
+
+
+def shaft_room(m: Mechanism) -> Any:
+    """Half the width of the slot in which the shaft of conjugate cams passes through the follower, mm."""
+    return m.given.bore / 2 + FREE
+
+
+def bar_width(m: Mechanism) -> Any:
+    """Width of a slide's bar, mm: that of a pair has room for the shaft's slot."""
+    if not m.given.conjugate:
+        return m.given.follower_width
+    room = 2 * (shaft_room(m) + m.given.least_wall + np.abs(m.offset))
+    return number(np.maximum(m.given.follower_width, room))
+
+
+def studs_of(m: Mechanism) -> tuple[complex, ...]:
+    """Centres of the rollers in the follower's frame, mm, of one design."""
+    if m.slides:
+        return (0j, -1j * m.apart)[: len(m.cams)]
+    arm = complex(m.arm)
+    return (arm, arm * cmath.exp(1j * m.apart))[: len(m.cams)]
+
+
+def slide_sides(m: Mechanism) -> tuple[Any, Any]:
+    """Left and right side of a slide in its frame, mm."""
+    if not m.flat:
+        return -bar_width(m) / 2, bar_width(m) / 2
+    low, high = face_ends(m)
+    margin = m.value("face_margin")
+    return low - margin, high + margin
+
+
+def slide_height(m: Mechanism) -> Any:
+    """From the origin of a slide to its top, mm, where its sides end."""
+    return _rail_foot(m) + m.given.guide_length - m.start
+
+
+def _rail_foot(m: Mechanism) -> Any:
+    """Height over the cam's axis where rails begin, mm."""
+    if m.flat:
+        return number(np.maximum(outermost(m).value, m.start + m.stroke)) + FREE
+    return m.start + m.stroke + bar_width(m) / 2 + FREE
+
+
+def rails_of(m: Mechanism) -> Rails:
+    """The rails of a slide, of one design."""
+    width = 2 * (m.given.guide_screw + m.given.least_wall)
+    low, high = slide_sides(m)
+    foot = _rail_foot(m)
+    left = complex(m.offset + low - m.given.guide_clearance - width, foot)
+    right = complex(m.offset + high + m.given.guide_clearance, foot)
+    return Rails(width, m.given.guide_length, (left, right))
