@@ -22,8 +22,8 @@ import shapely
 
 from mechwright.mechanics.gearing import SIDES, mesh
 from mechwright.mechanics.gearing.made import signed_depth
-from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 DATA = Path(__file__).parents[1] / "tests" / "data" / "noncircular-gears.json"
 FINE = 2e-5
@@ -51,8 +51,8 @@ DESIGNS = {
 def ours(table: dict[str, object]) -> tuple[float, tuple[np.ndarray, np.ndarray]]:
     """Centre distance and both outlines."""
     params = SizedParams.model_validate({**PROFILE, **table})
-    one, two = outlines_of(params)
-    return pair_of(params).distance, (one.outer.flatten(FINE), two.outer.flatten(FINE))
+    one, two = table_of(params).outlines
+    return table_of(params).pair.distance, (one.outer.flatten(FINE), two.outer.flatten(FINE))
 
 
 def theirs(expression: str, ratio: float | None, teeth: int) -> tuple[float, tuple[np.ndarray, np.ndarray]]:
@@ -78,7 +78,7 @@ def flank_error(params: SizedParams, outline: np.ndarray) -> float:
 
     The other program may count its angles the other way round: the nearer of both.
     """
-    teeth = teeth_of(params)[0]
+    teeth = table_of(params).teeth[0]
     start, t = teeth.flank_arcs[..., None], np.linspace(0.0, 1.0, 400)
     tip = teeth.curve.arc(teeth.tip_trim[0])[..., None]
     frame = teeth.curve.frame_at(teeth.join_arcs[..., None] * (1 - t) + tip * t)
@@ -120,7 +120,7 @@ def main(names: list[str]) -> None:
                 flush=True,
             )
             if who == "mechwright":
-                found = mesh(*outlines, pair_of(params), params.teeth, allowance=1e-3)
+                found = mesh(*outlines, table_of(params).pair, params.teeth, allowance=1e-3)
                 print(f"  {'':<11} transmission error {1e6 * found.transmission_error:.2f} µrad")
 
 

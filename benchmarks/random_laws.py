@@ -19,8 +19,8 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import MechwrightError
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import outlines_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 FAMILY = NoncircularGears()
 SEGMENTS = 12
@@ -100,7 +100,7 @@ def judged(params: SizedParams) -> str:
         return _refused(params, bad[0].code, bad[0].proposed)
     if any(one.code == "gear.contact" and one.severity is Severity.WARNING for one in found):
         return "built, with a warning of contact"
-    for outline in outlines_of(params):
+    for outline in table_of(params).outlines:
         if len((*outline.outer.segments, *(outline.inner[0].segments if params.internal else ()))) > (
             SEGMENTS * max(params.teeth, params.mate_teeth)
         ):

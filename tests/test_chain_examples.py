@@ -15,7 +15,7 @@ from mechwright.mechanics.chain import Chain, ChainParams
 from mechwright.mechanics.chain.links import links_of
 from mechwright.mechanics.chain.motion import motion_of
 from mechwright.mechanics.chain.placing import in_plan
-from mechwright_noncircular_gears.law import extremes_of
+from mechwright_noncircular_gears.kinematics.law import extremes_of
 from mechwright_noncircular_gears.sized import SizedParams
 
 FILES = sorted(

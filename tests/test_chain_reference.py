@@ -14,7 +14,7 @@ from mechwright import Turning
 from mechwright.mechanics.chain.running import inputs_of
 from mechwright.mechanics.laws import cycloidal
 from mechwright_geneva.kinematics.straight_slot import StraightSlot
-from mechwright_noncircular_gears.laws.indexing import IndexLaw
+from mechwright_noncircular_gears.kinematics.laws.indexing import IndexLaw
 
 PAIR = ("noncircular-gears", D1)
 FACTS = {one["name"]: one for one in REFERENCE["facts"] if one["design"] not in TABLES}

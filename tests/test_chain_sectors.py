@@ -11,7 +11,7 @@ from mechwright import Turning
 from mechwright.contracts.finding import errors
 from mechwright.designs.design import Design
 from mechwright.mechanics.chain.running import inputs_of
-from mechwright_noncircular_gears.law import law_of
+from mechwright_noncircular_gears.kinematics.law import law_of
 from mechwright_noncircular_gears.sized import SizedParams
 
 LEVER = ("cam-follower", {"follower": "oscillating", "laws": ["4-5-6-7"]})

@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mechwright_noncircular_gears.params import NoncircularParams
-from mechwright_noncircular_gears.together import pair_together
+import numpy as np
+
+from mechwright_noncircular_gears.consistency import pair_together
+from mechwright_noncircular_gears.parameters import NoncircularParams
 
 
 class SizedParams(NoncircularParams):
@@ -18,8 +20,10 @@ class SizedParams(NoncircularParams):
 
     def fitted(self) -> Mapping[str, Any]:
         """Teeth that can be cut, a face width that mills reach, and a bore that leaves the rim."""
-        from mechwright_noncircular_gears.usual import following
+        from mechwright_noncircular_gears.defaults import following
 
+        if any(isinstance(one, np.ndarray) for one in self.__dict__.values()):  # rows have their own
+            return {}
         try:
             pair_together(self)
         except ValueError:  # which is refused

@@ -16,9 +16,9 @@ from mechwright_cad.exporters import StepExporter
 from mechwright_elliptic_gears.gear_parts import parts_of as elliptic_parts
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.proof import prove_outlines as prove_elliptic
-from mechwright_noncircular_gears.parts import parts_of
-from mechwright_noncircular_gears.proof import prove_outlines
+from mechwright_noncircular_gears.parts.parts import parts_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 sys.path.append(str(Path(__file__).parents[1] / "plugins"))
 from noncircular import TABLES
@@ -60,12 +60,14 @@ PAIRS = dict(pairs()) if NIGHT else {}
 @pytest.mark.parametrize("name", PAIRS)
 def test_transmission_error_of_the_file(name):
     params = PAIRS[name]
-    one, two = (read_step_outline(StepExporter().part(part), CHORDS)[0] for part in parts_of(params))
+    one, two = (
+        read_step_outline(StepExporter().part(part), CHORDS)[0] for part in parts_of(table_of(params))
+    )
     wall = (
         max(two.interiors, key=lambda hole: shapely.Polygon(hole).area) if params.internal else two.exterior
     )
     outlines = [np.asarray(ring.coords)[:-1] for ring in (one.exterior, wall)]
-    proof = prove_outlines(params, *outlines, 1e-3)
+    proof = table_of(params).prove_outlines(*outlines, 1e-3)
     assert not proof.collides
     assert proof.error < 5e-6, proof.error
 

@@ -7,8 +7,8 @@ import pytest
 from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
 from mechwright.mechanics.gearing.inertia import UNSURE, near_moment
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_noncircular_gears.gear import outlines_of, rim_of, teeth_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 
 @pytest.mark.parametrize(("teeth", "eccentricity"), [(20, 0.1), (25, 0.5), (41, 0.6)])
@@ -24,6 +24,6 @@ def test_drawn_teeth_have_nearly_that_moment(teeth: int, eccentricity: float) ->
 def test_a_ring_is_its_rim_without_the_opening_that_its_teeth_leave() -> None:
     law = {"law": "fourier", "sines": [2.0], "internal": True, "module": 4.0, "teeth": 20, "mate_lobes": 3}
     params = SizedParams.model_validate(law)
-    ring, rim = teeth_of(params)[1], rim_of(params)
+    ring, rim = table_of(params).teeth[1], table_of(params).ring_plate
     low, high = sorted(rim.moment + share * near_moment(ring.curve, ring.rack) for share in UNSURE)
-    assert low < outlines_of(params)[1].polar_moment < high
+    assert low < table_of(params).outlines[1].polar_moment < high

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from mechwright import Stage
-from mechwright.contracts.by_arrays import Designs
+from mechwright.contracts import by_arrays
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
-from mechwright_noncircular_gears.evaluation import answer, covered
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.sized import SizedParams
 
@@ -49,31 +48,45 @@ def test_they_move_as_each_by_itself(study):
     assert set(found.counts) >= ({"law.window", "law.turns-back"} if study == "windows" else set())
 
 
+@pytest.fixture
+def alone(monkeypatch):
+    """The places that tables leave to one design after the other."""
+    places = []
+    inner = by_arrays.singly
+
+    def counted(family, batch, columns, stage, some, **more):
+        places.extend(some.tolist())
+        return inner(family, batch, columns, stage, some, **more)
+
+    monkeypatch.setattr(by_arrays, "singly", counted)
+    return places
+
+
 @pytest.mark.parametrize("study", STUDIES)
-def test_none_but_the_steepest_are_left(study):
-    one = STUDIES[study]
-    with np.errstate(all="ignore"):
-        found = answer(Designs(one.common, one.varied), COLUMNS, Stage.MOTION)
-    assert found.undecided.sum() <= 1
-    assert set(found.values) == set(COLUMNS)
+def test_tables_leave_none_to_itself(study, alone):
+    found = FAMILY.evaluate(STUDIES[study], COLUMNS, Stage.MOTION)
+    assert not alone
+    assert np.isfinite([found.values[name][found.forbidden == 0] for name in COLUMNS]).all()
 
 
-def test_teeth_are_looked_at_one_by_one():
-    few = batch({"law": "window", "teeth": 41, "bore": 12.0}, 3, window_ratio=(0.8, 0.9), thickness=(5, 20))
-    found = FAMILY.evaluate(few, COLUMNS[:2])
-    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, COLUMNS[:2], Stage.PARTS))
-    with np.errstate(all="ignore"):
-        assert answer(Designs(few.common, few.varied), COLUMNS[:2], Stage.PARTS).undecided.all()
+EVERY = (*COLUMNS, "ratio_max.theta1", "ratio_min.theta1", "omega2.least", "jerk2.greatest", "s1.least")
 
 
 @pytest.mark.parametrize(
-    "content",
+    ("content", "ranges"),
     [
-        {"law": "fourier"},
-        {"law": "slider"},
-        {"law": "ellipse", "internal": True, "mate_lobes": 2},
-        {"law": "ratio", "ratio": "1", "sector": 120},
+        ({"law": "window", "teeth": 41, "bore": 12.0}, {"window_ratio": (0.8, 0.9), "thickness": (5, 20)}),
+        ({"law": "window", "centre_distance": None, "module": 2.0}, {"blend": (60, 150)}),
+        ({"law": "fourier", "sines": [12.0]}, {"speed": (10, 300), "pressure_angle": (14, 28)}),
+        ({"law": "slider", "teeth": 48}, {"rod_ratio": (2.5, 5), "speed": (10, 300)}),
+        ({"law": "ellipse", "internal": True, "mate_lobes": 2}, {"eccentricity": (0, 0.9)}),
+        ({"law": "spiral", "sector": 100, "teeth": 20}, {"first_ratio": (0.6, 0.8), "load_torque": (0, 1)}),
+        ({"law": "geneva", "slots": 6}, {"ramp": (0.1, 0.4), "window": (120, 200)}),
     ],
 )
-def test_other_laws_are_left_to_each(content):
-    assert not covered(Designs(SizedParams.model_validate(content), {"speed": np.array([60.0])}))
+@pytest.mark.parametrize("stage", [Stage.MOTION, Stage.PARTS])
+def test_rows_are_what_each_is_by_itself(content, ranges, stage, alone):
+    few = batch(content, 4, **ranges)
+    found = FAMILY.evaluate(few, EVERY, stage)
+    assert not alone
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, few, EVERY, stage))

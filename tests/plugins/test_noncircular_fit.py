@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from mechwright import Candidate, Scalar
-from mechwright_noncircular_gears.checks import findings
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.fit.goals import goal_of
-from mechwright_noncircular_gears.fit.requirements import (
+from mechwright_noncircular_gears.kinematics.law import extremes_of, law_of
+from mechwright_noncircular_gears.parts.cutter import profile_of
+from mechwright_noncircular_gears.requirements import (
     REQUIREMENTS,
     ApproachRequirement,
     FitRequirement,
@@ -17,11 +17,10 @@ from mechwright_noncircular_gears.fit.requirements import (
     QuickReturnRequirement,
     SliderRequirement,
 )
-from mechwright_noncircular_gears.fit.search import fitted
-from mechwright_noncircular_gears.fit.waves import Asked, Waves
-from mechwright_noncircular_gears.law import extremes_of, law_of
-from mechwright_noncircular_gears.profile import profile_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.synthesis.goals import goal_of
+from mechwright_noncircular_gears.synthesis.search import fitted
+from mechwright_noncircular_gears.synthesis.waves import Asked, Waves
 
 STEP = 1e-4
 
@@ -31,7 +30,7 @@ def best(kind: str, **wanted: object) -> tuple[SizedParams, dict[str, float]]:
     found = NoncircularGears().synthesise(kind, requirement, lambda *_: None)
     assert not found.findings
     first = found.candidates[0]
-    assert not [one for one in findings(first.params) if one.severity == "error"]
+    assert not [one for one in NoncircularGears().check(first.params) if one.severity == "error"]
     return first.params, {"residual": first.residual.value, **{k: v.value for k, v in first.figures.items()}}
 
 
@@ -64,7 +63,9 @@ def test_the_better_law_has_hollow_curves_and_teeth_low_enough_for_them() -> Non
     assert 4 < told["residual"] < 4.04
     assert profile_of(params).addendum < 0.8
     usual = params.model_copy(update={"addendum": None})
-    assert [one.code for one in findings(usual) if one.severity == "error"] == ["gear.tip-fillet"]
+    assert [one.code for one in NoncircularGears().check(usual) if one.severity == "error"] == [
+        "gear.tip-fillet"
+    ]
 
 
 def test_a_slider_keeps_its_speed() -> None:

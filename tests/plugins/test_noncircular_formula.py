@@ -7,15 +7,17 @@ import pytest
 from noncircular import design
 from pydantic import ValidationError
 
-from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.law_checks import law_findings, runs
-from mechwright_noncircular_gears.laws.formula import RatioFormula
+from mechwright_noncircular_gears.kinematics.law import law_of
+from mechwright_noncircular_gears.kinematics.laws.formula import RatioFormula
+from mechwright_noncircular_gears.rules.law_rules import LAW, TURNS_BACK
+from mechwright_noncircular_gears.rules.remedies import advised
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 
 def found(law: str, text: str, **more: object) -> dict[str, object]:
     made = SizedParams.model_validate({"law": law, law: text, **more})
-    return {one.code: one for one in law_findings(made)}
+    return {one.code: advised(made, one) for one in LAW.findings(table_of(made))}
 
 
 @pytest.mark.parametrize(
@@ -93,7 +95,7 @@ def test_the_nearest_law_that_turns_on_is_near() -> None:
     """The proposed constant leaves a ratio just above 0, so that no smaller one would do."""
     (change,) = found("ratio", "1 + 1.2*cos(phi)")["law.turns-back"].proposed
     better = SizedParams(law="ratio", ratio=change["parameters.ratio"])
-    assert runs(better)
+    assert TURNS_BACK.allows(table_of(better))
     assert law_of(better).rates(np.array(math.pi))[0] < 2.5e-3
 
 

@@ -15,10 +15,10 @@ from mechwright.mechanics.gearing import FIT
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics.straight_slot import StraightSlot
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import outlines_of, teeth_of
-from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.laws.indexing import IndexLaw
+from mechwright_noncircular_gears.kinematics.law import law_of
+from mechwright_noncircular_gears.kinematics.laws.indexing import IndexLaw
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 
 @settings(max_examples=examples(6, 60), deadline=None)
@@ -90,7 +90,7 @@ def test_where_the_curvature_jumps_an_outline_is_cut(
     jump that it crosses.
     """
     params = SizedParams(law="geneva", slots=slots, window=window, teeth=teeth, ramp=ramp)
-    for teeth_of_one, outline in zip(teeth_of(params), outlines_of(params), strict=True):
+    for teeth_of_one, outline in zip(table_of(params).teeth, table_of(params).outlines, strict=True):
         curve = teeth_of_one.curve
         assert curve.breaks.size == 2
         beside = 1 / curve.frame(curve.breaks[:, None] + np.array([-1e-5, 1e-5])).radius

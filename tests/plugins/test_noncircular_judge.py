@@ -4,10 +4,12 @@ import pytest
 
 from mechwright import Stage
 from mechwright.contracts.finding import errors
-from mechwright_noncircular_gears.checks import findings, judged
-from mechwright_noncircular_gears.gear import pair_of, teeth_of
-from mechwright_noncircular_gears.law import law_of
+from mechwright_noncircular_gears.family import NoncircularGears
+from mechwright_noncircular_gears.kinematics.law import law_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
+
+FAMILY = NoncircularGears()
 
 REFUSED = (
     {"sines": [60.0]},
@@ -27,7 +29,7 @@ def params_of(table: dict[str, object]) -> SizedParams:
 
 @pytest.mark.parametrize("table", REFUSED)
 def test_the_judge_finds_what_check_finds_and_seeks_no_advice(table: dict[str, object]) -> None:
-    told, plain = errors(findings(params_of(table))), errors(judged(params_of(table)))
+    told, plain = errors(FAMILY.check(params_of(table))), errors(FAMILY.judge(params_of(table)))
     assert told
     assert [(one.code, one.stage, one.parameter, one.message) for one in told] == [
         (one.code, one.stage, one.parameter, one.message) for one in plain
@@ -41,11 +43,11 @@ def test_the_judge_finds_what_check_finds_and_seeks_no_advice(table: dict[str, o
 def test_advice_is_no_part_of_what_is_kept_for_the_judge() -> None:
     """Asked in either order, each gets its own."""
     for table in ({"teeth": 13, "bore": 4}, {"teeth": 12, "bore": 4}):
-        one, two = (judged, findings) if table["teeth"] == 13 else (findings, judged)
-        answers = {ask.__name__: errors(ask(params_of(table)), Stage.PARTS)[0] for ask in (one, two)}
-        assert answers["findings"].code == answers["judged"].code == "gear.undercut"
-        assert answers["findings"].proposed
-        assert not answers["judged"].proposed
+        asked = ("judge", "check") if table["teeth"] == 13 else ("check", "judge")
+        answers = {one: errors(getattr(FAMILY, one)(params_of(table)), Stage.PARTS)[0] for one in asked}
+        assert answers["check"].code == answers["judge"].code == "gear.undercut"
+        assert answers["check"].proposed
+        assert not answers["judge"].proposed
 
 
 def test_designs_that_differ_in_bores_and_loads_share_law_and_teeth() -> None:
@@ -53,10 +55,10 @@ def test_designs_that_differ_in_bores_and_loads_share_law_and_teeth() -> None:
     for other in ({"bore": 9.0}, {"load_torque": 3.0}, {"thickness": 7.0}, {"speed": 12.0}):
         same = one.model_copy(update=other)
         assert law_of(one) is law_of(same)
-        assert all(a is b for a, b in zip(teeth_of(one), teeth_of(same), strict=True))
+        assert all(a is b for a, b in zip(table_of(one).teeth, table_of(same).teeth, strict=True))
     assert law_of(one) is not law_of(one.model_copy(update={"sines": (9.0,)}))
     farther = one.model_copy(update={"centre_distance": 120.0, "module": None})
     assert law_of(farther) is law_of(one)
-    assert pair_of(farther).distance == 120.0
+    assert table_of(farther).pair.distance == 120.0
     for other in ({"teeth": 31}, {"addendum": 0.9}, {"backlash": 0.2}, {"tooth_offset": 0.3}):
-        assert teeth_of(one.model_copy(update=other))[0] is not teeth_of(one)[0], other
+        assert table_of(one.model_copy(update=other)).teeth[0] is not table_of(one).teeth[0], other

@@ -14,11 +14,10 @@ from mechwright.mechanics.gearing import Primitive, RatioLaw, RolledPair, Rollin
 from mechwright_elliptic_gears.gear import outline_of
 from mechwright_elliptic_gears.kinematics import Turning, driven
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_noncircular_gears.gear import outlines_of, pair_of, teeth_of
-from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.laws.fourier import FourierLaw
-from mechwright_noncircular_gears.proof import prove
+from mechwright_noncircular_gears.kinematics.law import law_of
+from mechwright_noncircular_gears.kinematics.laws.fourier import FourierLaw
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 STEP = 1e-5
 SMOOTH = 2e-8
@@ -54,7 +53,7 @@ def test_ratio_and_slope_have_no_jump(name):
 
 @pytest.mark.parametrize("name", ["D1", "D3", "D4", "D8", "SL"])
 def test_frames_are_those_of_the_curve(name):
-    pair = pair_of(design(name))
+    pair = table_of(design(name)).pair
     t = np.linspace(0.1, 6.1, 41)
     for curve in (pair.driver, pair.driven):
         before, now, after = curve.frame(t - STEP), curve.frame(t), curve.frame(t + STEP)
@@ -106,10 +105,10 @@ def test_an_ellipse_is_the_elliptic_family():
     law = design("D3", mate_lobes=1, teeth=39, eccentricity=0.3, backlash=0.05)
     theta = np.linspace(0, math.tau, 37)
     mate = driven(Turning.of(theta, 1.0), 0.3)
-    turned, ratio = pair_of(law).law(theta)
+    turned, ratio = table_of(law).pair.law(theta)
     assert np.exp(1j * turned) == pytest.approx(np.exp(1j * mate.theta), abs=1e-12)
     assert ratio == pytest.approx(mate.omega, abs=1e-12)
-    gear = outlines_of(law)[0]
+    gear = table_of(law).outlines[0]
     points, others = (one.outer.flatten(1e-3) for one in (gear, outline_of(own)))
     assert shapely.hausdorff_distance(shapely.LinearRing(points), shapely.LinearRing(others)) < 2.2e-3
 
@@ -117,7 +116,7 @@ def test_an_ellipse_is_the_elliptic_family():
 def test_a_shaper_leaves_the_flanks_of_a_rack():
     """Camus: the flank is that of any cutter, down to where the fillet of each begins."""
     table = {"eccentricity": 0.2, "teeth": 40, "mate_lobes": 1, "addendum": 0.8, "tip_radius": 0.2}
-    rack, shaper = (teeth_of(design("D3", **table, cutter=cutter))[0] for cutter in ("rack", "shaper"))
+    rack, shaper = (table_of(design("D3", **table, cutter=cutter)).teeth[0] for cutter in ("rack", "shaper"))
     assert shaper.tip_trim[0] == pytest.approx(rack.tip_trim[0])
     assert shaper.flank_arcs == pytest.approx(rack.flank_arcs)
     # A round cutter's tip swings out of the space, and less of the flank is left straight.
@@ -179,6 +178,6 @@ def test_tables_that_are_no_lobe_are_refused(nodes, said):
 def test_small_gears_turn_as_exactly_as_large_ones(module: float) -> None:
     """The ovals of a flowmeter: the smaller the driven gear, the nearer its flanks to the exact ones."""
     table = {"law": "ellipse", "lobes": 2, "mate_lobes": 2, "eccentricity": 0.2, "teeth": 30, "bore": 3}
-    proof = prove(SizedParams.model_validate({**table, "module": module}))
+    proof = table_of(SizedParams.model_validate({**table, "module": module})).proof()
     assert not proof.collides
     assert proof.error < 6e-6

@@ -11,8 +11,8 @@ from mechwright import Stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing import Rolling
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import pair_of, rack_of, teeth_of
-from mechwright_noncircular_gears.law import extremes_of, law_of
+from mechwright_noncircular_gears.kinematics.law import extremes_of, law_of
+from mechwright_noncircular_gears.table import table_of
 
 FACTS = {
     name: {
@@ -28,7 +28,7 @@ MICRO = 1e6
 def value(name, key):
     """A figure of the reference by what the family computes."""
     params = design(name)
-    pair, law, teeth = pair_of(params), law_of(params), teeth_of(params)
+    pair, law, teeth = table_of(params).pair, law_of(params), table_of(params).teeth
     a, found = pair.distance, extremes_of(params)
     if "@" in key:
         what, at = key.split("@")
@@ -54,8 +54,8 @@ def value(name, key):
     gear = int(key[-1]) - 1 if key[-1] in "12" else 0
     simple = {
         "a": lambda: a,
-        "m": lambda: rack_of(params).module,
-        "p": lambda: rack_of(params).pitch,
+        "m": lambda: table_of(params).rack.module,
+        "p": lambda: table_of(params).rack.pitch,
         "L1": lambda: pair.driver.perimeter,
         "L2": lambda: pair.driven.perimeter,
         "z1": lambda: params.teeth,
@@ -98,7 +98,7 @@ def returned(law):
 
 def centre(params):
     """The greatest error and play by the centre distance, and error by a wall, µrad for a micrometre."""
-    pair, law = pair_of(params), law_of(params)
+    pair, law = table_of(params).pair, law_of(params)
     phi = np.linspace(0, law.period, 7201)
     alpha, r2 = math.radians(params.pressure_angle), pair.pitch_radii(phi)[1]
     i, first, _ = law.rates(phi)

@@ -10,12 +10,11 @@ from mechwright import DesignError, MountingError, Stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.gearing import Primitive, mesh, prove_mesh
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import outlines_of, pair_of, rack_of, racks_of, rim_of, teeth_of
-from mechwright_noncircular_gears.law import law_of
-from mechwright_noncircular_gears.motion import motion_of
-from mechwright_noncircular_gears.parts import mill_for_fillets, parts_of
-from mechwright_noncircular_gears.proof import collides
+from mechwright_noncircular_gears.kinematics.law import law_of
+from mechwright_noncircular_gears.kinematics.motion import motion_of
+from mechwright_noncircular_gears.parts.parts import parts_of
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 FAMILY = NoncircularGears()
 SMALL = {"teeth": 16, "mate_lobes": 2, "addendum": 0.5, "tip_radius": 0.05, "shaper_radius": 6, "bore": 4}
@@ -27,17 +26,19 @@ def ring(**changes):
 
 def test_the_pair_meshes_and_off_its_phase_it_does_not():
     params = ring()
-    one, two = outlines_of(params)
+    one, two = table_of(params).outlines
     outlines = one.outer.flatten(2e-5), two.inner[0].flatten(2e-5)
-    found = prove_mesh(pair_of(params), rack_of(params), params.teeth, outlines, 1e-3)
+    found = prove_mesh(table_of(params).pair, table_of(params).rack, params.teeth, outlines, 1e-3)
     assert not found.collides
     assert found.error < 5e-6
     # The gap is that of the backlash all the way: no tip stands free, and none jams.
-    normal = rack_of(params).backlash / 2 * math.cos(rack_of(params).pressure_angle)
+    normal = table_of(params).rack.backlash / 2 * math.cos(table_of(params).rack.pressure_angle)
     assert found.mesh.gap.min() == pytest.approx(normal, abs=2e-4)
     # Turned by a little more than the play, flanks of one side stand in each other in every position.
     turned = two.inner[0].moved(0.0, 0.0, 1.1 * found.mesh.ahead.max()).flatten(1e-3)
-    off = mesh(one.outer.flatten(1e-3), turned, pair_of(params), params.teeth, positions=12, allowance=1e-3)
+    off = mesh(
+        one.outer.flatten(1e-3), turned, table_of(params).pair, params.teeth, positions=12, allowance=1e-3
+    )
     assert off.ahead.max() < 0
     assert (off.depth > 1e-3).all()
     assert off.overlap > 0.001
@@ -51,14 +52,14 @@ def test_pitch_curves_close_in_a_ring(law, mates):
     turned = Primitive.of(lambda phi: found.rates(phi)[0], found.period).total
     assert turned == pytest.approx(math.tau / mates, rel=1e-13)
     phi = np.linspace(0.0, math.tau, 33)
-    r1, r2 = pair_of(params).pitch_radii(phi)
+    r1, r2 = table_of(params).pair.pitch_radii(phi)
     shape = found.radius(phi)[0]
     assert r1 / r1[0] == pytest.approx(shape / shape[0], rel=1e-12)
-    assert r2 - r1 == pytest.approx(pair_of(params).distance, rel=1e-13)
+    assert r2 - r1 == pytest.approx(table_of(params).pair.distance, rel=1e-13)
 
 
 def test_both_turn_the_same_way_round():
-    motion = motion_of(ring(), 361)
+    motion = motion_of(table_of(ring()), 361)
     theta1, theta2 = (motion.channels[name].values for name in ("theta1", "theta2"))
     assert theta1[-1] == pytest.approx(3 * math.tau)
     assert theta2[-1] == pytest.approx(math.tau)
@@ -67,7 +68,7 @@ def test_both_turn_the_same_way_round():
 
 def test_the_ring_has_its_teeth_holes_and_rim():
     params = ring(ring_holes=4, ring_hole=6.6, ring_outside=190)
-    driver, outer = parts_of(params)
+    driver, outer = parts_of(table_of(params))
     assert [one.name for one in outer.machined] == [
         "hole-1",
         "hole-2",
@@ -76,7 +77,7 @@ def test_the_ring_has_its_teeth_holes_and_rim():
         "teeth",
         "outside",
     ]
-    rim = rim_of(params)
+    rim = table_of(params).ring_plate
     assert outer.outline.area == pytest.approx(
         math.pi * (95**2 - 4 * 3.3**2) - -outer.outline.inner[0].area, rel=1e-9
     )
@@ -86,7 +87,7 @@ def test_the_ring_has_its_teeth_holes_and_rim():
     # Each mark of the ring stands under a tooth, outside of its root, and the mark of the gear between them.
     one, two = (np.array(part.marks[0].dots) for part in (driver, outer))
     at = -math.atan2(one[0, 1], one[0, 0])
-    theta2 = pair_of(params).law(np.array(at))[0]
+    theta2 = table_of(params).pair.law(np.array(at))[0]
     space = np.exp(1j * theta2) * (two[:, 0] + 1j * two[:, 1])
     assert np.abs(np.angle(space)) == pytest.approx(math.pi / params.mate_teeth, rel=0.2)
     assert np.prod(np.angle(space)) < 0
@@ -96,10 +97,10 @@ def test_the_ring_has_its_teeth_holes_and_rim():
 @pytest.mark.parametrize("name", ["D3", "D5"])
 def test_marks_meet_wherever_the_teeth_stand(name, offset):
     params = design(name, tooth_offset=offset, backlash=None)
-    driver, driven = parts_of(params)
+    driver, driven = parts_of(table_of(params))
     x, y = driver.marks[0].dots[0]
     at = -math.atan2(y, x)
-    theta2 = float(pair_of(params).law(np.array(at))[0])
+    theta2 = float(table_of(params).pair.law(np.array(at))[0])
     dots = np.array([complex(*dot) for dot in driven.marks[0].dots]) * np.exp(1j * theta2)
     towards = np.angle(dots * (-params.side))
     assert np.abs(towards).max() < 1.6 * math.pi / params.mate_teeth
@@ -110,7 +111,7 @@ def test_the_fillets_of_the_ring_are_its_tightest():
     """By hand: the path of the cutter's tip arc, measured where the ring is hollow the most."""
     params = ring()
     radii = []
-    for teeth in teeth_of(params):
+    for teeth in table_of(params).teeth:
         x = teeth.arc_centres
         step = np.array([-1e-3, 0.0, 1e-3]) * teeth.rack.module
         points = teeth.rack.fillet(teeth.curve.frame_at(x[..., None] + step), x[..., None])
@@ -118,7 +119,7 @@ def test_the_fillets_of_the_ring_are_its_tightest():
         second = points[..., 2, :] - 2 * points[..., 1, :] + points[..., 0, :]
         bend = np.abs(first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0])
         radii.append(((first**2).sum(axis=-1) ** 1.5 / bend).min())
-    assert mill_for_fillets(params) == pytest.approx(2 * min(radii), rel=1e-3)
+    assert table_of(params).fillet_mill == pytest.approx(2 * min(radii), rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +148,7 @@ def test_what_no_ring_can_be_is_named_and_mended(table, code, key):
 
 
 def test_heights_are_those_of_each_gear():
-    one, two = racks_of(ring(ring_addendum=0.5))
+    one, two = (teeth.rack for teeth in table_of(ring(ring_addendum=0.5)).teeth)
     assert (one.addendum, two.addendum) == pytest.approx((1.6, 1.0))
     assert two.dedendum == one.dedendum
 
@@ -188,23 +189,24 @@ def test_a_driver_without_room_in_its_ring_is_told_by_the_pitch_curves_with_the_
         internal=True,
         bore=4,
     )
-    assert collides(wide)
+    assert table_of(wide).collides
     (found,) = errors(FAMILY.check(wide), Stage.PARTS)
     assert found.code == "gear.ring-room"
     assert found.value > 10 * found.limit
     (change,) = found.proposed
     mended = wide.model_copy(update={"ratio": change["parameters.ratio"]})
     assert mended.ratio in found.remedy
-    assert not collides(mended)
+    assert not table_of(mended).collides
     assert not errors(FAMILY.judge(mended), Stage.PARTS)
 
 
 def test_a_collision_ends_the_proof_where_it_is_seen():
     params = ring()
-    one, two = outlines_of(params)
+    one, two = table_of(params).outlines
     outlines = one.outer.flatten(1e-3), two.inner[0].moved(0.0, 0.0, 0.05).flatten(1e-3)
     whole, first = (
-        mesh(*outlines, pair_of(params), params.teeth, allowance=1e-3, stop=stop) for stop in (False, True)
+        mesh(*outlines, table_of(params).pair, params.teeth, allowance=1e-3, stop=stop)
+        for stop in (False, True)
     )
     assert 10 < first.arc.size < whole.arc.size / 5
     assert 1e-3 < first.depth.max() <= whole.depth.max()

@@ -12,11 +12,10 @@ from mechwright.contracts.finding import Severity, Stage, errors
 from mechwright.geometry.segments import Arc, Line
 from mechwright.mechanics.gearing import SectorTeeth, prove_mesh
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.gear import curves_of, outlines_of, pair_of, rack_of, teeth_of
-from mechwright_noncircular_gears.law import extremes_of, law_of
-from mechwright_noncircular_gears.laws.sector import SectorLaw
-from mechwright_noncircular_gears.proof import prove
+from mechwright_noncircular_gears.kinematics.law import extremes_of, law_of
+from mechwright_noncircular_gears.kinematics.laws.sector import SectorLaw
 from mechwright_noncircular_gears.sized import SizedParams
+from mechwright_noncircular_gears.table import table_of
 
 FAMILY = NoncircularGears()
 
@@ -46,7 +45,7 @@ def test_a_spiral_has_the_least_travel_for_its_slope() -> None:
     assert math.radians(degrees) == pytest.approx(1.20057, abs=1e-5)
     assert extremes_of(params).steepest.value == pytest.approx(math.radians(30), abs=1e-12)
     phi = np.linspace(0, math.radians(degrees), 50)
-    frame = curves_of(params)[0].frame(-phi)
+    frame = table_of(params).pair.driver.frame(-phi)
     # ρ = r √(1 + c²), the tangent's slope is the same all along, the radius an exponential.
     c = math.tan(math.radians(30))
     assert frame.radius == pytest.approx(frame.polar_radius * math.sqrt(1 + c * c), rel=1e-11)
@@ -62,8 +61,8 @@ def test_the_mates_arc_and_turn_are_those_of_the_law() -> None:
     spiral = design(SPIRAL)
     c = sector_law(spiral).course.slope  # type: ignore[attr-defined]
     q0, q1 = 0.7 / 1.7, 1.4 / 2.4
-    arc = pair_of(spiral).distance * math.sqrt(1 + c * c) / c * (q1 - q0)
-    assert arc == pytest.approx(20 * rack_of(spiral).pitch, rel=1e-12)
+    arc = table_of(spiral).pair.distance * math.sqrt(1 + c * c) / c * (q1 - q0)
+    assert arc == pytest.approx(20 * table_of(spiral).rack.pitch, rel=1e-12)
 
 
 @pytest.mark.parametrize("table", ALL.values(), ids=ALL)
@@ -82,7 +81,7 @@ def test_sectors_mesh_over_their_travel(table: dict[str, object]) -> None:
     """At every position, both ends included, flanks of both sides meet; the exact motion to 5 µrad."""
     params = design(table)
     assert [one for one in FAMILY.check(params) if one.severity is not Severity.NOTE] == []
-    found = prove(params)
+    found = table_of(params).proof()
     assert not found.collides
     assert found.mesh.overlap == 0
     assert np.isfinite(found.mesh.ahead).all()
@@ -94,10 +93,12 @@ def test_sectors_mesh_over_their_travel(table: dict[str, object]) -> None:
 def test_a_sector_set_wrongly_collides() -> None:
     """The proof is no formality: a law that is off by a twentieth of a pitch runs into its mate."""
     params = design(SPIRAL)
-    one, two = outlines_of(params)
+    one, two = table_of(params).outlines
     cos, sin = math.cos(0.02), math.sin(0.02)
     turned = two.outer.flatten(1e-4) @ np.array([[cos, sin], [-sin, cos]])
-    proof = prove_mesh(pair_of(params), rack_of(params), 20, (one.outer.flatten(1e-4), turned), 1e-3)
+    proof = prove_mesh(
+        table_of(params).pair, table_of(params).rack, 20, (one.outer.flatten(1e-4), turned), 1e-3
+    )
     assert proof.collides
 
 
@@ -106,7 +107,7 @@ def test_a_sector_set_wrongly_collides() -> None:
 def test_both_have_the_teeth_that_meet(offset: float, teeth: int) -> None:
     """Within half a pitch of each end, every flank of the driver has a tooth of the mate."""
     params = design(SPIRAL, tooth_offset=offset, teeth=teeth, bore=0)
-    driver, driven = teeth_of(params)
+    driver, driven = table_of(params).teeth
     assert isinstance(driver, SectorTeeth)
     p = driver.rack.pitch
     one = -driver.tooth_arcs[1:] / p
@@ -124,14 +125,14 @@ def test_both_have_the_teeth_that_meet(offset: float, teeth: int) -> None:
 
 
 def test_the_blank_is_drawn_taut_around_the_hub() -> None:
-    hub = outlines_of(design(SPIRAL, sector_hub=20))[0].outer.segments[-3:]
+    hub = table_of(design(SPIRAL, sector_hub=20)).outlines[0].outer.segments[-3:]
     assert [type(one) for one in hub] == [Line, Arc, Line]
     side, arc, _ = hub
     assert isinstance(arc, Arc)
     assert arc.radius == 10
     way = np.subtract(side.end, side.start)
     assert abs(float(np.dot(way, side.end))) < 1e-9 * float(np.hypot(*way)) * 10  # it touches the hub
-    chord = outlines_of(design(FAR))[0].outer.segments[-1]
+    chord = table_of(design(FAR)).outlines[0].outer.segments[-1]
     assert isinstance(chord, Line)
     assert chord.tag == "side"
 
@@ -231,8 +232,8 @@ def test_how_far_sectors_may_pass_their_ends_is_told() -> None:
     """Half a pitch of arc: from the end of the travel on, the arc over that angle is found again."""
     params = design(SPIRAL)
     (told,) = (one for one in FAMILY.check(params) if one.code == "sector.stops")
-    driver, end = curves_of(params)[0], math.radians(120)
+    driver, end = table_of(params).pair.driver, math.radians(120)
     half = math.radians(told.value)
     arcs = [driver.arc(-np.array([at, at + step])) for at, step in ((0, -half), (end, half))]
     farthest = max(abs(float(np.diff(one)[0])) for one in arcs)
-    assert farthest == pytest.approx(pair_of(params).pitch(20) / 2, rel=0.05)
+    assert farthest == pytest.approx(table_of(params).pair.pitch(20) / 2, rel=0.05)

@@ -11,7 +11,7 @@ from mechwright.contracts.finding import Stage, errors
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Primitive
 from mechwright_noncircular_gears.family import NoncircularGears
-from mechwright_noncircular_gears.law import extremes_of, fastest_of, law_of, slowest_of
+from mechwright_noncircular_gears.kinematics.law import extremes_of, fastest_of, law_of, slowest_of
 from mechwright_noncircular_gears.sized import SizedParams
 
 FAMILY = NoncircularGears()

@@ -218,6 +218,13 @@ class DesignRule(Generic[D]):
             if not self.each:
                 return
 
+    def allows(self, m: D) -> bool:
+        """Give whether one design keeps it; one for which its value is no number does not."""
+        try:
+            return next(self.failures(m), None) is None
+        except RuleError:
+            return False
+
     def _finding(self, failure: Failure[D], quick: bool) -> Finding:
         value, limit = (failure.value, failure.limit) if self.reported is None else self.reported(failure)
         advises = not quick or self.slow != "remedy"

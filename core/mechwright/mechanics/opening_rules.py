@@ -11,12 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import DesignTable
-from mechwright.contracts.finding import Change, Severity, Stage, at_stage
+from mechwright.contracts.finding import Change, Severity
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.geometry.keyway import KEYS, LEAST_WIDTH, SMALLEST_EDGE, KeySize, key_for_bore, key_of_width
-from mechwright.mechanics.openings import keyed_findings
 
 Rule = DesignRule[DesignTable[Any]]
 
@@ -36,23 +35,6 @@ def _size_rule(name: str, size: Callable[[Any], Any]) -> Rule:
         unit="mm",
         remedy=f"set {name} to 0 for none, or to {LEAST_WIDTH:g} or more",
         when=lambda t: np.asarray(size(t)) > 0,
-    )
-
-
-def keyed_rules(*sizes: str) -> Rules[Any]:
-    """Rules of designs whose keyway has a depth of its own (:mod:`mechwright.contracts.keyed`).
-
-    ``sizes`` names the parameters that may be 0 but not too small to be milled.
-    """
-    codes = [f"bore.keyway-{name}" for name in ("depth", "width", "series", "relief")]
-    return in_turn(
-        all_of(*size_rules(*sizes)),
-        Procedure[Any](
-            codes,
-            lambda t: at_stage(Stage.PARTS, keyed_findings(t.params)),
-            when=lambda t: np.asarray(t.params.keyway_width) > 0,
-            stage=Stage.PARTS,
-        ),
     )
 
 

@@ -1,0 +1,1 @@
+"""Laws of pairs, their motion and figures, over tables of designs."""

@@ -1,0 +1,1 @@
+"""Cutter, teeth, outlines, parts, shafts, and the pair as made."""
