@@ -88,6 +88,11 @@ class GearTable(DesignTable[SpurGearParams]):
         return (self.pair, ring_pair_of(self.given, self.pair)) if self.planetary else (self.pair,)
 
     @property
+    def profile(self) -> SpurGearParams:
+        """The rack, in modules and degrees."""
+        return self.given
+
+    @property
     def dimensions(self) -> Any:
         """The parameters; those of the arrangement are set, and have no None in their types."""
         return self.given

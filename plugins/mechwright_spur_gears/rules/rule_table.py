@@ -1,7 +1,10 @@
 """The rules of spur gears, in the order in which they are asked."""
 
+from typing import cast
+
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.mechanics.gearing.ring_plate import RING_RULES
+from mechwright.mechanics.gearing.tooth_rules import CLEARANCE, NO_CLEARANCE
 from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.rules.planet_rules import APART, CARRIER, COAXIAL, EQUAL, PLACES
 from mechwright_spur_gears.rules.ring_rules import AXIAL, CUTTER_LAND, FOULING, RING_TEETH, RING_TIP
@@ -9,14 +12,12 @@ from mechwright_spur_gears.rules.strength import STRENGTH
 from mechwright_spur_gears.rules.teeth_rules import (
     ARC,
     BACKLASH,
-    CLEARANCE,
     CONTACT,
     DISTANCE,
     INTERFERENCE,
     JAMS,
     LAND,
     MESH,
-    NO_CLEARANCE,
     OPENING,
     RIM,
     ROUGH,
@@ -42,8 +43,11 @@ def of_planets(*rules: object) -> Rules[GearTable]:
 MOTION = in_turn(of_rings(RING_TEETH), DISTANCE, TOO_NEAR, of_planets(COAXIAL))
 """What a motion needs."""
 
+CLEARANCES = cast("Rules[GearTable]", all_of(NO_CLEARANCE, CLEARANCE))
+"""Of any table with a ``profile``."""
+
 PROFILE = in_turn(
-    all_of(SHIFT, ARC, LAND, NO_CLEARANCE, CLEARANCE, of_rings(RING_TIP)),
+    all_of(SHIFT, ARC, LAND, CLEARANCES, of_rings(RING_TIP)),
     all_of(of_rings(CUTTER_LAND), UNDERCUT, TIP),
     all_of(CONTACT, ROUGH, INTERFERENCE),
     of_rings(FOULING),

@@ -1,26 +1,23 @@
 """Strength of teeth and keys under a steady torque (ISO 6336, simple form)."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mechwright import material
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.linkage.turned import PIN_MATERIAL
-from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_ROOT, ROOT_SAFETY, allowed
+from mechwright.mechanics.strength.allowed import REVERSING_ROOT, ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.fastening import (
-    LONGEST_KEY,
-    key_pressure,
-    key_shear,
     stud_bending,
     stud_shear,
 )
+from mechwright.mechanics.strength.gear_stresses import loaded_key
 from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, relative_radius
 from mechwright.mechanics.strength.judging import SHEAR_SHARE, STUD_SHARE, Stress, StressRule, Way
 from mechwright.mechanics.strength.tooth_bending import STRAIGHT, Rack, root_stress
 from mechwright_spur_gears.gear_table import AXIAL_GAP, GearTable, table_of
 from mechwright_spur_gears.pair import module_of
-
-KEY_STEEL = "steel"
-"""Of keys."""
 
 
 def root_stresses(m: GearTable) -> list[Stress]:
@@ -93,21 +90,15 @@ def _shaft_torque(m: GearTable) -> float:
     return load * max(0.0 if m.ring else 1.0, abs(float(m.ratio)))
 
 
-def key_stresses(m: GearTable) -> list[Stress]:
+def key_stresses(m: GearTable) -> Sequence[Stress]:
     """Pressure on the hubs and shear of the keys; none without keys."""
-    if not m.single or m.opening is None or not m.opening.has_keyway:
+    if not m.single:
         return []
-    given, opening = m.dimensions, m.opening
-    torque = _shaft_torque(m)
-    width = min(given.thickness, given.carrier_thickness) if m.planetary else given.thickness
-    bears = min(width, LONGEST_KEY * opening.bore)
-    pressure = key_pressure(torque, opening.bore, opening.key_top - opening.bore / 2, bears)
-    sheared = key_shear(torque, opening.bore, opening.width, bears)
-    own = material(given.material)
-    return [
-        Stress("the key presses on its hub with", pressure, allowed(given.material).key, own.strength),
-        Stress("the key is sheared with", sheared, PIN_SHEAR["swelling"], material(KEY_STEEL).strength / 2),
-    ]
+    plate = m.given
+    if m.planetary:
+        thinner = min(plate.thickness, m.dimensions.carrier_thickness)
+        plate = plate.model_copy(update={"thickness": thinner})
+    return loaded_key(plate, m.opening, _shaft_torque(m), reverses=False)
 
 
 def _wider(m: GearTable) -> Way:

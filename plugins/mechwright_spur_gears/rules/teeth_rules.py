@@ -13,7 +13,6 @@ from mechwright.contracts.finding import Change
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.checks import (
     FULL_RIM,
-    LEAST_CLEARANCE,
     LEAST_RIM,
     LEAST_TIP,
     mesh_findings,
@@ -196,16 +195,6 @@ ARC = Rule(
     ),
     proposed=_less_round,
 )
-CLEARANCE = Rule(
-    "gear.clearance",
-    "dedendum",
-    "tips run {value:.3g} modules from the mating roots, below {limit:g}",
-    value=lambda m: m.given.dedendum - m.given.addendum,
-    limit=LEAST_CLEARANCE,
-    remedy=lambda f: f"make dedendum at least {f.m.given.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
-    severity=Severity.WARNING,
-)
-NO_CLEARANCE = CLEARANCE.but(severity=Severity.ERROR, limit=0.0, must_be="above")
 TIP = Rule(
     "gear.tip",
     "addendum",
