@@ -69,6 +69,10 @@ class SpurGearParams(Parameters):
         "x1": "it is called shift",
         "x2": "it is called mate_shift",
         "face_width": "it is called thickness",
+        "internal": 'set arrangement = "internal"',
+        "sun_teeth": "it is called teeth",
+        "planet_teeth": "it is called mate_teeth",
+        "number_of_planets": "it is called planets",
     }
 
     arrangement: Arrangement = Field(

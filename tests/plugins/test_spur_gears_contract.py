@@ -16,6 +16,7 @@ SET = {
     "mate_teeth": 17,
     "module": 1.5,
     "keyway_width": 2,
+    "keyway_relief": 1.2,
     "pin_diameter": 6,
     "planet_spacing": "nearest",
 }

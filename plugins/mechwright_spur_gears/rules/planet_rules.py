@@ -46,7 +46,7 @@ COAXIAL = Rule(
     limit=MOST_SHIFT,
     must_be="at most",
     stage=Stage.MOTION,
-    remedy=lambda f: f"make ring_teeth {_plain_ring(f.m)}, with which no shift is needed, or leave it out",
+    remedy=lambda f: f"make ring_teeth {_plain_ring(f.m)}, which is teeth + 2 mate_teeth, or leave it out",
     reported=lambda f: (f.value if math.isfinite(f.value) else None, MOST_SHIFT),
     proposed=lambda _: ({"parameters.ring_teeth": None},),
 )
