@@ -196,6 +196,15 @@ def test_tables_of_sets_are_judged_as_each_alone():
             assert found.values["ratio"][place] == pytest.approx(float(m.ratio))
 
 
+def test_a_planet_is_one_gear_in_both_meshes():
+    m = table_of(planetary(teeth=16, mate_teeth=18, shift=0.5, mate_shift=0.4, ring_teeth=53))
+    outer, inner = m.meshes
+    assert outer.shortening > 0.05
+    for size in ("tip", "root", "thickness", "base"):
+        assert float(getattr(outer, size)(1)) == pytest.approx(float(getattr(inner, size)(0)), rel=1e-9)
+    assert float(outer.distance) == pytest.approx(float(-inner.distance), rel=1e-9)
+
+
 def test_members_are_not_both_fixed_and_driving():
     with pytest.raises(ValueError, match='fixed_member and driving_member are both "sun"'):
         planetary(fixed_member="sun", driving_member="sun")

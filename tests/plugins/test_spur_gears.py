@@ -202,6 +202,7 @@ def test_what_makes_teeth_larger_is_the_key_that_sizes_them():
             },
         ),
         ("bore.rim", {"bore": 34.0}),
+        ("bore.keyway-depth", {"bore": 12, "keyway_width": 4, "keyway_depth": 1.2}),
         ("gear.backlash", {"backlash": 0.0}),
         ("gear.root", {"load_torque": 300.0}),
     ],

@@ -24,7 +24,7 @@ from mechwright.mechanics.gearing.involute import (
     least_shift,
     straight_depth,
 )
-from mechwright.mechanics.opening_rules import keyway_rules, size_rules
+from mechwright.mechanics.opening_rules import keyed_rules, size_rules
 from mechwright.tolerances import falls_short
 from mechwright_spur_gears.gear_table import Flank, GearTable
 from mechwright_spur_gears.pair import least_backlash
@@ -342,7 +342,7 @@ def _mesh(m: GearTable) -> Iterator[Finding]:
         yield from mesh_findings(prove(m, mesh), float(pair.backlash), list)
 
 
-OPENING = all_of(*size_rules("keyway_relief"), keyway_rules("bore", "keyway_width", "keyway_relief"))
+OPENING = all_of(*size_rules("bore", "keyway_width", "keyway_relief"), keyed_rules())
 MESH = Procedure[GearTable](
     ("gear.mesh", "gear.contact"), _mesh, when=lambda m: m.single, slow=True, stage=Stage.PARTS
 )
