@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mechwright import Severity, Stage
 from mechwright.contracts.evaluation import Batch
 from mechwright_spur_gears.family import SpurGears
-from mechwright_spur_gears.gear_table import MEMBERS, table_of
+from mechwright_spur_gears.gear_table import MEMBERS, UNEVEN, table_of
 from mechwright_spur_gears.parameters import SpurGearParams
 
 GEARS = SpurGears()
@@ -157,13 +157,15 @@ def test_planets_stand_where_all_their_teeth_mesh(sun, planet, planets, more):
 
 
 def test_torques_of_all_members_add_up_and_carry_the_power():
-    m = table_of(planetary(teeth=24, mate_teeth=18, ring_teeth=61, planet_spacing="nearest"))
+    given = {"ring_teeth": 61, "planet_spacing": "nearest", "planets": 4, "load_torque": 5.0}
+    m = table_of(planetary(teeth=24, mate_teeth=18, **given))
     sun, ring, carrier = (float(m.lever(name)) for name in MEMBERS)
     assert carrier == pytest.approx(sun + ring)
     # Base radii are as numbers of teeth, so that the power of all torques is none.
     assert sun * float(m.rate("sun")) + ring * float(m.rate("ring")) == pytest.approx(
         carrier * float(m.rate("carrier"))
     )
+    assert 4 * float(m.normal_force) / UNEVEN * carrier == pytest.approx(5000.0)
 
 
 def test_tables_of_sets_are_judged_as_each_alone():
