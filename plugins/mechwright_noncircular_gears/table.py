@@ -6,6 +6,7 @@ shared law
     The law of a table whose designs differ in none of its fields.
 """
 
+import copy
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -316,10 +317,17 @@ class GearTable(ToothedPair[NoncircularParams]):
         return 2 * least
 
 
-@kept
 def table_of(params: NoncircularParams) -> GearTable:
     """One pair; it is kept with all that has been computed of it."""
-    return GearTable(params)
+    found: GearTable = _kept(params)
+    if found.given.model_fields_set == params.model_fields_set:
+        return found
+    stated = copy.copy(found)  # equal designs may differ in what they leave out
+    stated.given = params
+    return stated
+
+
+_kept = kept(GearTable)
 
 
 @kept

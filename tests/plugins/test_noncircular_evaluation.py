@@ -81,6 +81,7 @@ EVERY = (*COLUMNS, "ratio_max.theta1", "ratio_min.theta1", "omega2.least", "jerk
         ({"law": "slider", "teeth": 48}, {"rod_ratio": (2.5, 5), "speed": (10, 300)}),
         ({"law": "ellipse", "internal": True, "mate_lobes": 2}, {"eccentricity": (0, 0.9)}),
         ({"law": "spiral", "sector": 100, "teeth": 20}, {"first_ratio": (0.6, 0.8), "load_torque": (0, 1)}),
+        ({"law": "angle", "angle": "0.9*phi + 0.1*sin(phi)"}, {"speed": (10, 300), "bore": (5, 12)}),
         ({"law": "geneva", "slots": 6}, {"ramp": (0.1, 0.4), "window": (120, 200)}),
     ],
 )

@@ -62,3 +62,12 @@ def test_designs_that_differ_in_bores_and_loads_share_law_and_teeth() -> None:
     assert table_of(farther).pair.distance == 120.0
     for other in ({"teeth": 31}, {"addendum": 0.9}, {"backlash": 0.2}, {"tooth_offset": 0.3}):
         assert table_of(one.model_copy(update=other)).teeth[0] is not table_of(one).teeth[0], other
+
+
+def test_equal_designs_keep_what_each_leaves_out() -> None:
+    given = params_of({"module": 1.0, "teeth": 30})
+    every = SizedParams.model_validate(given.model_dump())
+    assert given == every
+    for one in (every, given, every):
+        assert table_of(one).given.model_fields_set == one.model_fields_set
+    assert table_of(given).teeth[0] is table_of(every).teeth[0]

@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from mechwright import Array, Finding, GeometryError
+from mechwright import Array, Finding, GeometryError, kept
 from mechwright_noncircular_gears.kinematics.law import LEAST_RATIO
 from mechwright_noncircular_gears.kinematics.laws.formula import AngleFormula, RatioFormula, WrittenLaw
 
@@ -26,6 +26,7 @@ FORMULA_CODES = ("law.formula", "law.closure", "law.corner", "law.turns-back")
 """Codes of what is found of a formula."""
 
 
+@kept
 def formula_finding(key: str, law: RatioFormula | AngleFormula) -> Finding | None:
     """What keeps a formula from being a law; None where nothing does."""
     phi = law.grid(GRID)

@@ -9,7 +9,7 @@ import numpy as np
 from mechwright import Finding, Stage
 from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
 from mechwright.contracts.finding import Change
-from mechwright.contracts.rule_list import in_turn
+from mechwright.contracts.rule_list import by_design, in_turn
 from mechwright_noncircular_gears.kinematics.law import LEAST_RATIO, Extreme, fastest_of, slowest_of
 from mechwright_noncircular_gears.kinematics.laws.formula import AngleFormula, RatioFormula
 from mechwright_noncircular_gears.kinematics.laws.sector import SectorLaw
@@ -128,13 +128,13 @@ TURNS_BACK = Rule(
 
 LAW = in_turn(
     WINDOW,
-    Procedure[GearTable](
-        FORMULA_CODES,
-        _formula,
-        common=True,
+    in_turn(
+        by_design(Procedure[GearTable](FORMULA_CODES, _formula)),
         when=lambda m: m.given.law in {"ratio", "angle"} and m.given.sector is None,
     ),
-    Procedure[GearTable](SECTOR_CODES, _sector, when=lambda m: m.given.sector is not None),
+    in_turn(
+        by_design(Procedure[GearTable](SECTOR_CODES, _sector)), when=lambda m: m.given.sector is not None
+    ),
     RING,
     TURNS_BACK,
 )
