@@ -15,6 +15,8 @@ ON_DEMAND = (
     "mechwright.mechanics.compiled",
     "mechwright.mechanics.continuation",
     "mechwright.mechanics.laws.table",
+    "mechwright.mechanics.linkage.kinematics.channel_extremes",
+    "mechwright.mechanics.planar.compiled_",
     "mechwright.geometry.prepared",
     "mechwright.machine.frame.",
     "mechwright.machine.framed",
