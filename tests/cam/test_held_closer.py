@@ -122,3 +122,14 @@ def test_what_is_near_a_small_piece_is_near_it_wherever_it_lies(distance: float)
     away = np.hypot(y[..., None] - rows, x[..., None] - columns).min(axis=-1)
     assert (found == (away <= distance / 0.4)).all()
     assert not grid.within(np.zeros_like(mask), distance).any()
+
+
+@pytest.mark.parametrize("middle", [True, False])
+def test_a_piece_that_its_cut_mills_away_is_no_more(middle: bool) -> None:
+    """A ring around a disc of 4 mm; the mill goes on over that, or not, and then round once more."""
+    x, y = -48.0, -38.0
+    ring = f"G3 X{x + 5} Y{y} I-5 J0 F400\n"
+    over = f"G1 X{x} Y{y}\nX{x + 5}\n" if middle else ""
+    check = judged(f"G0 X{x + 5} Y{y}\nZ1\nG1 Z-6.3 F100\n{ring}{over}{ring}{ring}G0 Z5\n")
+    assert check.passed is middle
+    assert middle or "passes a piece of" in check.message

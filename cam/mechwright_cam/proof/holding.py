@@ -8,7 +8,7 @@ from mechwright_cam.proof.bands import bands, stock_shape
 from mechwright_cam.proof.closer import loose_for_sure
 from mechwright_cam.proof.finished import finished_bodies
 from mechwright_cam.proof.grips import advice
-from mechwright_cam.proof.loose import Loose, passed
+from mechwright_cam.proof.loose import Loose, milled_away, passed
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import grow
 from mechwright_cam.proof.report import Check
@@ -95,7 +95,7 @@ def remarks(scene: Scene) -> list[str]:
         f"a piece of {piece.area:.0f} mm² comes loose {piece.where}, at X{piece.place[0]:.1f} "
         f"Y{piece.place[1]:.1f}; {_goes(piece)}"
         for piece in loose_for_sure(scene)
-        if not piece.is_part and passed(scene, piece) is None
+        if not piece.is_part and not milled_away(scene, piece) and passed(scene, piece) is None
     ]
 
 

@@ -82,10 +82,11 @@ def _loose(scene: Scene, found: Footprint, cells: Mask, step: int) -> Loose:
 
 def passed(scene: Scene, loose: Loose) -> int | None:
     """The first step in which a cutter comes as near to a loose piece as that may move; None if none does."""
-    paths, found = scene.paths, loose.grid
-    freed = float(paths.radius[loose.step]) * 2 if loose.step >= 0 else 0.0
+    if milled_away(scene, loose):
+        return None
+    paths, found, freed = scene.paths, loose.grid, _kerf(scene, loose)
     until = len(scene.run) if loose.taken is None else loose.taken
-    steps = paths.steps[(paths.steps > _away(scene, loose.step, CLOSING * freed)) & (paths.steps < until)]
+    steps = paths.steps[(paths.steps > _closed(scene, loose)) & (paths.steps < until)]
     way = paths.end[steps] - paths.start[steps]
     up = (np.hypot(*way[:, :2].T) <= NEAR) & (way[:, 2] > 0)
     steps = steps[(paths.low[steps] < ABOVE) & ~up]
@@ -102,9 +103,19 @@ def passed(scene: Scene, loose: Loose) -> int | None:
     return min(near, default=None)
 
 
-def _away(scene: Scene, step: int, length: float) -> int:
-    """The last step of a cut that goes on after a step by no more than a length, mm."""
-    run, gone = scene.run, 0.0
+def milled_away(scene: Scene, loose: Loose) -> bool:
+    """Whether the cut that frees a piece takes all of it in going on."""
+    return bool(loose.grid.cut[loose.cells].max() <= _closed(scene, loose))
+
+
+def _kerf(scene: Scene, loose: Loose) -> float:
+    """Width of the cut that frees a piece, mm."""
+    return float(scene.paths.radius[loose.step]) * 2 if loose.step >= 0 else 0.0
+
+
+def _closed(scene: Scene, loose: Loose) -> int:
+    """The last step of the cut that frees a piece, in so far as it may go on."""
+    run, step, gone, length = scene.run, loose.step, 0.0, CLOSING * _kerf(scene, loose)
     while step + 1 < len(run) and run.cutting[step + 1] and step >= 0:
         gone += float(run.length[step + 1])
         if not gone <= length:
