@@ -53,7 +53,7 @@ from mechwright_cam.proof import prove
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_elliptic_gears.gear import outline_of
+from mechwright_elliptic_gears.parts.gear import outline_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 CHILD = Path(__file__).with_name("freecad_job.py")

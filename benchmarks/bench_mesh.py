@@ -17,10 +17,10 @@ from mechwright.contracts.finding import errors, until_error
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.gearing import mesh
 from mechwright.mechanics.gearing.mesh import EDGES_PER_PITCH
-from mechwright_elliptic_gears import checks
-from mechwright_elliptic_gears.gear import offsets_that_mesh, outline_of, pair_of, teeth_of
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.undercut import undercut_findings
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import offsets_that_mesh, outline_of, pair_of, teeth_of
+from mechwright_elliptic_gears.rules import checks
+from mechwright_elliptic_gears.rules.undercut import undercut_findings
 
 POSITIONS = 8
 ALLOWANCE = 2e-4

@@ -19,7 +19,7 @@ from mechwright_cam.planning import choose_tools
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.table import settings_of
-from mechwright_elliptic_gears.gear import outline_of, teeth_of
+from mechwright_elliptic_gears.parts.gear import outline_of, teeth_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 ANCHOR, ANCHOR_SECONDS = "import cadquery", 1.6

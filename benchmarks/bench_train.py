@@ -14,7 +14,7 @@ import numpy as np
 from harness import race, report, require
 
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.figures import figures
+from mechwright_elliptic_gears.kinematics.figures import figures
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 SAMPLES = 100_000

@@ -74,7 +74,7 @@ def after(at: float, omega: float = 1.0, alpha: float = 0.0, jerk: float = 0.0) 
 @pytest.mark.parametrize("phase", [0.0, 90.0, 135.0])
 def test_train_of_the_seed_is_a_chain_of_two_pairs(phase: float) -> None:
     """Gear 5 of the figure-eight train and its point Q, from position to jerk, to 1e-12 of their sizes."""
-    from mechwright_elliptic_gears.kinematics import phase_offset
+    from mechwright_elliptic_gears.kinematics.equations import phase_offset
 
     pair = {"eccentricity": 0.4, "teeth": 25, "semi_major": 50}
     family = host().family("elliptic-gears")

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from mechwright import Array
-from mechwright_elliptic_gears.figures import coupled_gears
-from mechwright_elliptic_gears.kinematics import Turning
-from mechwright_elliptic_gears.params import REPORTED_PHASES
-from mechwright_elliptic_gears.point import point_of_coupler
+from mechwright_elliptic_gears.kinematics.equations import Turning
+from mechwright_elliptic_gears.kinematics.figures import coupled_gears
+from mechwright_elliptic_gears.kinematics.point import point_of_coupler
+from mechwright_elliptic_gears.parameters import REPORTED_PHASES
 
 PICTURE = Path(__file__).parents[1] / "images" / "figure-eight-charts.svg"
 COLOURS = {0.2: "#2f6fb0", 0.4: "#1b6e3c", 0.6: "#b3261e", 0.8: "#6b4fa0"}

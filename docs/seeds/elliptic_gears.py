@@ -12,17 +12,17 @@ from typing import Any
 from mechwright.designs.design import load
 from mechwright.mechanics.peak import Peak
 from mechwright.plugins.host import host
-from mechwright_elliptic_gears.clamp import clamp_of
-from mechwright_elliptic_gears.figures import point_peaks, point_window
-from mechwright_elliptic_gears.joint_load import greatest_torque
-from mechwright_elliptic_gears.joint_made import phase_sensitivity
-from mechwright_elliptic_gears.kinematics import phase_offset, ratio
-from mechwright_elliptic_gears.layout import dividing_of
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.phase_checks import pin_play, shifted_window
-from mechwright_elliptic_gears.point import speed_of_q
-from mechwright_elliptic_gears.window import Window
+from mechwright_elliptic_gears.as_made.joint import phase_sensitivity
+from mechwright_elliptic_gears.kinematics.equations import phase_offset, ratio
+from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_window
+from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.kinematics.point import speed_of_q
+from mechwright_elliptic_gears.kinematics.window import Window
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.clamp import clamp_of
+from mechwright_elliptic_gears.parts.layout import dividing_of
+from mechwright_elliptic_gears.rules.pins import pin_play, shifted_window
 
 HERE = Path(__file__).parent
 PRINTED = json.loads((HERE / "elliptic-gears.json").read_text(encoding="utf-8"))

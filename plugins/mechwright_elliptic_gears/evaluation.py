@@ -24,14 +24,14 @@ from mechwright.mechanics.linkage.areas import circle_area
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
 from mechwright.mechanics.strength.tooth_bending import FACTOR, STRAIGHT, Rack, form_factors
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_elliptic_gears.assembly import least_backlashes
-from mechwright_elliptic_gears.kinematics import alpha_peak
-from mechwright_elliptic_gears.many import ENDS, SHARES, Gears, least_regularity, tips_of
-from mechwright_elliptic_gears.many_areas import areas_of
+from mechwright_elliptic_gears.kinematics.equations import alpha_peak
 from mechwright_elliptic_gears.many_columns import columns_of
-from mechwright_elliptic_gears.params import LEAST_MODULE
-from mechwright_elliptic_gears.tip_reach import DOUBT
-from mechwright_elliptic_gears.usual import following
+from mechwright_elliptic_gears.parameters import LEAST_MODULE
+from mechwright_elliptic_gears.parts.areas import areas_of
+from mechwright_elliptic_gears.parts.backlash import least_backlashes
+from mechwright_elliptic_gears.parts.defaults import following
+from mechwright_elliptic_gears.parts.teeth import ENDS, SHARES, Gears, least_regularity, tips_of
+from mechwright_elliptic_gears.parts.tip_reach import DOUBT
 
 BLOCK = 256
 """Gears whose teeth are followed at once: arrays of a tenth of a megabyte."""
@@ -125,7 +125,7 @@ class Sizes:
 
 
 def _judge(designs: Designs, said: Answer) -> None:
-    """As :func:`mechwright_elliptic_gears.checks.judged`."""
+    """As :func:`mechwright_elliptic_gears.rules.checks.judged`."""
     sizes = Sizes(designs)
     gears = sizes.gears()
     _rack(sizes, gears, said)

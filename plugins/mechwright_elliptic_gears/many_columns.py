@@ -12,9 +12,9 @@ from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.evaluation import told
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.contracts.stretch import travelled
-from mechwright_elliptic_gears.kinematics import Turning, alpha_peak, jerk_peak
-from mechwright_elliptic_gears.motion import pair_channels
-from mechwright_elliptic_gears.point import place
+from mechwright_elliptic_gears.kinematics.equations import Turning, alpha_peak, jerk_peak
+from mechwright_elliptic_gears.kinematics.motion import pair_channels
+from mechwright_elliptic_gears.kinematics.point import place
 
 BLOCK = 64
 """Designs whose motion is sampled at once: arrays of a third of a megabyte."""

@@ -31,7 +31,7 @@ from mechwright_cam.planning.prepare import prepare
 from mechwright_cam.proof.judge import judge
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import CamTable, JobSettings, settings_of
-from mechwright_elliptic_gears.proof import prove_outlines
+from mechwright_elliptic_gears.parts.mesh_proof import prove_outlines
 
 READ_ALLOWANCE = 4e-4
 """Fit and chords of two outlines read back, 0.1 µm each, mm."""

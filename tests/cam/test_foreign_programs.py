@@ -15,8 +15,8 @@ from foreign import LONG, THICK, coupler_drawing, coupler_program, freecad_gear
 from mechwright.errors import DesignError
 from mechwright_cam.commands.drawing import read_drawing
 from mechwright_cam.commands.verify_drawing import job_of
-from mechwright_elliptic_gears.gear import outline_of
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import outline_of
 
 ROOT = Path(__file__).parents[2]
 

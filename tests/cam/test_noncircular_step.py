@@ -13,9 +13,9 @@ from mechwright import host
 from mechwright.designs.design import load
 from mechwright.mechanics.chain import ChainParams
 from mechwright_cad.exporters import StepExporter
-from mechwright_elliptic_gears.gear_parts import parts_of as elliptic_parts
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.proof import prove_outlines as prove_elliptic
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear_parts import parts_of as elliptic_parts
+from mechwright_elliptic_gears.parts.mesh_proof import prove_outlines as prove_elliptic
 from mechwright_noncircular_gears.parts.parts import parts_of
 from mechwright_noncircular_gears.sized import SizedParams
 from mechwright_noncircular_gears.table import table_of

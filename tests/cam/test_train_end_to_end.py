@@ -25,7 +25,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, machine
 from mechwright_cam.planning.prepare import plates, prepare
 from mechwright_cam.shop.table import settings_of
-from mechwright_elliptic_gears.proof import prove_outlines
+from mechwright_elliptic_gears.parts.mesh_proof import prove_outlines
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 READ_ALLOWANCE = 4e-4

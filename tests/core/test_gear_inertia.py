@@ -6,7 +6,7 @@ import pytest
 
 from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
 from mechwright.mechanics.gearing.inertia import UNSURE, near_moment
-from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.kinematics.ellipse import Ellipse
 from mechwright_noncircular_gears.sized import SizedParams
 from mechwright_noncircular_gears.table import table_of
 

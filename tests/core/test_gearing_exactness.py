@@ -4,8 +4,8 @@ import pytest
 
 from mechwright.mechanics.gearing import FIT, prove_mesh
 from mechwright.mechanics.gearing.exactness import EXACT, exact_fit
-from mechwright_elliptic_gears import gear as elliptic
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts import gear as elliptic
 from mechwright_noncircular_gears.sized import SizedParams
 from mechwright_noncircular_gears.table import table_of
 

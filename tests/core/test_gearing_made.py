@@ -12,8 +12,8 @@ import shapely
 
 from mechwright.mechanics.gearing import mesh
 from mechwright.mechanics.gearing.made import Contacts, error_of, signed_depth
-from mechwright_elliptic_gears.gear import outline_of, pair_of, teeth_of
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import outline_of, pair_of, teeth_of
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "as-made.json").read_text())["facts"]
 CASES = defaultdict(dict)

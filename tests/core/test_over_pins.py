@@ -14,7 +14,7 @@ from mechwright import Measure
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing import Rack, Round, Teeth, gear_loop, gear_measures
 from mechwright.mechanics.gearing.over_pins import gauge_pin, pins_in
-from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.kinematics.ellipse import Ellipse
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "gear-sizes.json").read_text())
 

@@ -16,7 +16,7 @@ from mechwright.mechanics.strength import beam, bearings_life, bolts, critical, 
 from mechwright.mechanics.strength import motor as motors
 from mechwright.mechanics.strength import shaft as shafts
 from mechwright.mechanics.strength import tooth_bending as teeth
-from mechwright_elliptic_gears.kinematics import Turning, driven, phase_offset
+from mechwright_elliptic_gears.kinematics.equations import Turning, driven, phase_offset
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "machine.json").read_text(encoding="utf-8"))["facts"]
 VALUES = {fact["name"]: fact["expected"] for fact in FACTS}

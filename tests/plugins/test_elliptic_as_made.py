@@ -10,14 +10,14 @@ from by_night import by_night
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.made_part import MadePart
 from mechwright.mechanics.gearing.running import AGREEMENT
-from mechwright_elliptic_gears.as_made import as_made, pairs_of
-from mechwright_elliptic_gears.assembly import (
+from mechwright_elliptic_gears.as_made.pairs import as_made, pairs_of
+from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.parts.backlash import (
     OFF_CENTRE,
     jamming_backlash,
     least_backlash,
     with_backlash,
 )
-from mechwright_elliptic_gears.family import EllipticGears
 
 FAMILY = EllipticGears()
 PAIR = {"eccentricity": 0.4, "semi_major": 50.0, "teeth": 25, "thickness": 10.0, "bore": 12.0}

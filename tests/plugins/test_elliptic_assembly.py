@@ -7,10 +7,10 @@ import pytest
 import shapely
 
 from mechwright.contracts.finding import Severity, Stage
-from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, backlash_of, least_backlash
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.gear import outline_of, rack_of
-from mechwright_elliptic_gears.kinematics import Turning, driven
+from mechwright_elliptic_gears.kinematics.equations import Turning, driven
+from mechwright_elliptic_gears.parts.backlash import LEFT, OFF_CENTRE, backlash_of, least_backlash
+from mechwright_elliptic_gears.parts.gear import outline_of, rack_of
 
 FAMILY = EllipticGears()
 Params = FAMILY.Params

@@ -173,7 +173,7 @@ def test_tables_that_make_no_sense_are_refused(table):
 
 
 def test_module_and_semi_major_make_the_same_gear():
-    from mechwright_elliptic_gears.gear import ellipse_of, rack_of
+    from mechwright_elliptic_gears.parts.gear import ellipse_of, rack_of
 
     by_module = Params(teeth=39, module=2.0)
     by_axis = Params(teeth=39, semi_major=ellipse_of(by_module).semi_major)

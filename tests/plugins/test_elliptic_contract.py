@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from mechwright.testing.strategies import tables
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.params import TRAIN_ONLY
+from mechwright_elliptic_gears.parameters import TRAIN_ONLY
 
 QUICK = {"designs": 1, "starts": 1}
 

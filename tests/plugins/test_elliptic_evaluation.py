@@ -9,8 +9,8 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.testing.evaluation import assert_same
 from mechwright_elliptic_gears.evaluation import Sizes, answer
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.many_areas import areas_of, by_mean, by_teeth
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.areas import areas_of, by_mean, by_teeth
 
 FAMILY = EllipticGears()
 

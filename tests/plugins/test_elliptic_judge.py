@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from mechwright.contracts.finding import errors
-from mechwright_elliptic_gears.checks import findings, judged
-from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.gear import pair_of
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.proof import first_collision, prove
-from mechwright_elliptic_gears.strength_checks import strength_findings
-from mechwright_elliptic_gears.tip_reach import may_collide, that_clear, tip_depth
+from mechwright_elliptic_gears.kinematics.ellipse import Ellipse
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import pair_of
+from mechwright_elliptic_gears.parts.mesh_proof import first_collision, prove
+from mechwright_elliptic_gears.parts.tip_reach import may_collide, that_clear, tip_depth
+from mechwright_elliptic_gears.rules.checks import findings, judged
+from mechwright_elliptic_gears.rules.strength import strength_findings
 
 COLLIDES = EllipticGearParams(eccentricity=0.2369, dedendum=1.044)
 """Tips end 0.025 modules below the flanks of their mates."""

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mechwright.errors import DesignError
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.kinematics import (
+from mechwright_elliptic_gears.kinematics.equations import (
     Turning,
     coupler,
     driven,
@@ -17,9 +17,9 @@ from mechwright_elliptic_gears.kinematics import (
     shaft_pressure_angle,
     steepest_shaft_pressure_angle,
 )
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.point import point_of_coupler
-from mechwright_elliptic_gears.window import near_constant
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.kinematics.point import point_of_coupler
+from mechwright_elliptic_gears.kinematics.window import near_constant
 
 Params = EllipticGears.Params
 eccentricities = st.floats(0, 0.9)

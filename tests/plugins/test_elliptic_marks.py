@@ -9,9 +9,9 @@ import shapely
 from mechwright import Engraving, GeometryError
 from mechwright.contracts.marking import engraved_dots
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.fitting import meeting_teeth
-from mechwright_elliptic_gears.gear import ellipse_of, outline_of
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.fitting_marks import meeting_teeth
+from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of
 
 DESIGNS = [
     {},

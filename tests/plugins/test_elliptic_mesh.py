@@ -8,9 +8,9 @@ import shapely
 
 from mechwright.mechanics.gearing import mesh
 from mechwright.mechanics.gearing.mesh import EDGES_PER_PITCH
-from mechwright_elliptic_gears.gear import outline_of, pair_of, teeth_of
-from mechwright_elliptic_gears.params import EllipticGearParams as Params
-from mechwright_elliptic_gears.proof import prove, prove_outlines
+from mechwright_elliptic_gears.parameters import EllipticGearParams as Params
+from mechwright_elliptic_gears.parts.gear import outline_of, pair_of, teeth_of
+from mechwright_elliptic_gears.parts.mesh_proof import prove, prove_outlines
 
 REFERENCE = Params(eccentricity=0.4, teeth=39, module=2.0, bore=0.0, backlash=0.0)
 

@@ -14,9 +14,9 @@ from mechwright.pipeline import Build
 from mechwright.plugins.host import host
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figure_eight import page
-from mechwright_elliptic_gears.figures import coupled_gears, point_peaks, point_window
-from mechwright_elliptic_gears.kinematics import Turning, phase_offset
-from mechwright_elliptic_gears.point import place, point_of_coupler
+from mechwright_elliptic_gears.kinematics.equations import Turning, phase_offset
+from mechwright_elliptic_gears.kinematics.figures import coupled_gears, point_peaks, point_window
+from mechwright_elliptic_gears.kinematics.point import place, point_of_coupler
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = Path(page.__file__).with_name("train.js")

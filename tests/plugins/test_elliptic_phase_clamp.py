@@ -19,10 +19,10 @@ from mechwright_cad.interference import interference, smooth_motion
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
 from mechwright_cam.planning.prepare import prepare
-from mechwright_elliptic_gears.clamp import MARK, SETTING, Clamp, clamp_of
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.joint_load import greatest_torque
-from mechwright_elliptic_gears.layout import Layout
+from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
+from mechwright_elliptic_gears.parts.clamp import MARK, SETTING, Clamp, clamp_of
+from mechwright_elliptic_gears.parts.layout import Layout
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

@@ -18,15 +18,15 @@ from mechwright.contracts.holes import joined
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.interference import interference, interference_findings, smooth_motion
-from mechwright_elliptic_gears.dividing import PITCH, START, direction, phases_that_work, placed
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.figures import point_peaks, point_window
-from mechwright_elliptic_gears.gear_parts import gears_of
-from mechwright_elliptic_gears.joint_load import Masses, joint_torque
-from mechwright_elliptic_gears.kinematics import Turning, phase_offset, train
-from mechwright_elliptic_gears.layout import dividing_of
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.point import speed_of_q
+from mechwright_elliptic_gears.kinematics.equations import Turning, phase_offset, train
+from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_window
+from mechwright_elliptic_gears.kinematics.joint_load import Masses, joint_torque
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.kinematics.point import speed_of_q
+from mechwright_elliptic_gears.parts.dividing import PITCH, START, direction, phases_that_work, placed
+from mechwright_elliptic_gears.parts.gear_parts import gears_of
+from mechwright_elliptic_gears.parts.layout import dividing_of
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

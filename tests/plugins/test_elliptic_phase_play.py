@@ -9,14 +9,14 @@ from test_elliptic_phase_joint import FAMILY, PINS, VARIABLE, Params, at
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
-from mechwright_elliptic_gears.dividing import START
-from mechwright_elliptic_gears.figures import point_window
-from mechwright_elliptic_gears.joint_load import greatest_torque, joint_torque, masses_of
-from mechwright_elliptic_gears.joint_made import going_in, joint_figures, phase_sensitivity
-from mechwright_elliptic_gears.kinematics import Turning, coupler, train
-from mechwright_elliptic_gears.layout import Layout, dividing_of, keeper_of
-from mechwright_elliptic_gears.phase_checks import pin_play, shifted_window
-from mechwright_elliptic_gears.point import point_of_coupler, speed_of_q
+from mechwright_elliptic_gears.as_made.joint import going_in, joint_figures, phase_sensitivity
+from mechwright_elliptic_gears.kinematics.equations import Turning, coupler, train
+from mechwright_elliptic_gears.kinematics.figures import point_window
+from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque, joint_torque, masses_of
+from mechwright_elliptic_gears.kinematics.point import point_of_coupler, speed_of_q
+from mechwright_elliptic_gears.parts.dividing import START
+from mechwright_elliptic_gears.parts.layout import Layout, dividing_of, keeper_of
+from mechwright_elliptic_gears.rules.pins import pin_play, shifted_window
 
 
 def test_the_torque_of_the_joint_is_the_power_behind_it():

@@ -9,10 +9,8 @@ import pytest
 import shapely
 
 from mechwright.mechanics.gearing import SIDES, gear_loop
-from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.figures import point_peaks, point_window
-from mechwright_elliptic_gears.gear import outline_of, teeth_of
-from mechwright_elliptic_gears.kinematics import (
+from mechwright_elliptic_gears.kinematics.ellipse import Ellipse
+from mechwright_elliptic_gears.kinematics.equations import (
     Turning,
     coupler,
     driven,
@@ -21,10 +19,12 @@ from mechwright_elliptic_gears.kinematics import (
     steepest_shaft_pressure_angle,
     train,
 )
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.point import point_of_coupler
-from mechwright_elliptic_gears.window import near_constant
+from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_window
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.kinematics.point import point_of_coupler
+from mechwright_elliptic_gears.kinematics.window import near_constant
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import outline_of, teeth_of
 
 DATA = Path(__file__).parents[1] / "data"
 FACTS = json.loads((DATA / "elliptic-gears.json").read_text(encoding="utf-8"))["facts"]

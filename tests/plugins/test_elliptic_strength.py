@@ -13,10 +13,10 @@ from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure
 from mechwright.mechanics.strength.tooth_bending import FACTOR
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.joint_load import gear_inertia, greatest_torque
-from mechwright_elliptic_gears.mesh_load import meshes_of
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.strength_checks import (
+from mechwright_elliptic_gears.kinematics.joint_load import gear_inertia, greatest_torque
+from mechwright_elliptic_gears.kinematics.mesh_load import meshes_of
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.rules.strength import (
     dowel_stresses,
     flank_pressures,
     key_stresses,
@@ -95,7 +95,7 @@ def test_power_in_is_power_out(e, phase, load, coupled):
     theta = np.arange(2000) / 2000 * math.tau
     first = meshes_of(params)[0]
     driver = first.driver(theta)
-    from mechwright_elliptic_gears.kinematics import driven
+    from mechwright_elliptic_gears.kinematics.equations import driven
 
     input_torque = first.torque(theta) * np.abs(driven(driver, e).omega / driver.omega)
     assert np.mean(input_torque) == pytest.approx(load, rel=1e-6)

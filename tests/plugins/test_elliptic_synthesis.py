@@ -9,12 +9,19 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.figures import point_peaks, point_window
-from mechwright_elliptic_gears.gear import fillet_mill
+from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_window
+from mechwright_elliptic_gears.kinematics.window import near_constant
+from mechwright_elliptic_gears.parts.gear import fillet_mill
 from mechwright_elliptic_gears.requirements import BOUNDED, REQUIREMENTS
-from mechwright_elliptic_gears.search import SAMPLES, Designs, evolve, longest, peaks, window_lengths
-from mechwright_elliptic_gears.synthesis import Problem
-from mechwright_elliptic_gears.window import near_constant
+from mechwright_elliptic_gears.synthesis.search import (
+    SAMPLES,
+    Designs,
+    evolve,
+    longest,
+    peaks,
+    window_lengths,
+)
+from mechwright_elliptic_gears.synthesis.trains import Problem
 
 FAMILY = EllipticGears()
 PUBLISHED = 2.204

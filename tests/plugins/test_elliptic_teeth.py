@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.mechanics.gearing import FIT, SIDES, gear_loop
-from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.gear import outline_of, teeth_of
-from mechwright_elliptic_gears.offsets import OFFSET_SLACK, offset_miss, offsets_that_mesh
-from mechwright_elliptic_gears.params import EllipticGearParams as Params
+from mechwright_elliptic_gears.kinematics.ellipse import Ellipse
+from mechwright_elliptic_gears.parameters import EllipticGearParams as Params
+from mechwright_elliptic_gears.parts.gear import outline_of, teeth_of
+from mechwright_elliptic_gears.parts.tooth_offset import OFFSET_SLACK, offset_miss, offsets_that_mesh
 
 
 @given(st.floats(0, 0.9), st.floats(-30, 30))

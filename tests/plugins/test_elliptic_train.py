@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.kinematics import Turning, coupler, driven, phase_offset, train
-from mechwright_elliptic_gears.peak import peak
-from mechwright_elliptic_gears.point import place, point_of_coupler, speed_of_q
+from mechwright_elliptic_gears.kinematics.equations import Turning, coupler, driven, phase_offset, train
+from mechwright_elliptic_gears.kinematics.peak import peak
+from mechwright_elliptic_gears.kinematics.point import place, point_of_coupler, speed_of_q
 
 Params = EllipticGears.Params
 eccentricities, phases, angles = st.floats(0, 0.9), st.floats(0, math.tau), st.floats(-40, 40)

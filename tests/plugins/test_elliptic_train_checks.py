@@ -8,8 +8,8 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import Severity, errors
 from mechwright.errors import DesignError
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.params import TRAIN_ONLY
-from mechwright_elliptic_gears.undercut import greatest_eccentricity
+from mechwright_elliptic_gears.parameters import TRAIN_ONLY
+from mechwright_elliptic_gears.rules.undercut import greatest_eccentricity
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.gear_parts import gears_of
-from mechwright_elliptic_gears.kinematics import phase_offset
-from mechwright_elliptic_gears.layout import DOWELS, Layout
-from mechwright_elliptic_gears.plates import convex_hull, rounded_hull
+from mechwright_elliptic_gears.kinematics.equations import phase_offset
+from mechwright_elliptic_gears.parts.gear_parts import gears_of
+from mechwright_elliptic_gears.parts.layout import DOWELS, Layout
+from mechwright_elliptic_gears.parts.plates import convex_hull, rounded_hull
 
 FAMILY = EllipticGears()
 KEYED = EllipticGears.Params(stages=2, bore=12, keyway_width=4, keyway_relief=2)

@@ -15,8 +15,8 @@ from mechwright.mechanics.gearing.usual import face_width, teeth_without_undercu
 from mechwright.testing.evaluation import assert_same
 from mechwright_cam.shop.library import load_library
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.undercut import is_undercut as ellipse_undercut
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.rules.undercut import is_undercut as ellipse_undercut
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.rules.shape_rules import UNDERCUT
 from mechwright_noncircular_gears.sized import SizedParams

@@ -11,9 +11,9 @@ from noncircular import TABLES, design
 
 from mechwright import GeometryError
 from mechwright.mechanics.gearing import Primitive, RatioLaw, RolledPair, Rolling
-from mechwright_elliptic_gears.gear import outline_of
-from mechwright_elliptic_gears.kinematics import Turning, driven
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.kinematics.equations import Turning, driven
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import outline_of
 from mechwright_noncircular_gears.kinematics.law import law_of
 from mechwright_noncircular_gears.kinematics.laws.fourier import FourierLaw
 from mechwright_noncircular_gears.sized import SizedParams

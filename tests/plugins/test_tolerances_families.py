@@ -13,8 +13,8 @@ from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSetti
 from mechwright.mechanics.tolerance import analyse
 from mechwright.pipeline.tolerances.report import remarks
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.kinematics import Turning, driven, train
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.kinematics.equations import Turning, driven, train
+from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.as_made.play import Play, drawn_room

@@ -13,7 +13,7 @@ from mechwright.contracts.tolerances import CUT_VARIANCE
 from mechwright.mechanics.tolerance import analyse
 from mechwright.mechanics.tolerance.places import place_at
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_geneva.as_made.play import Play, drawn_room

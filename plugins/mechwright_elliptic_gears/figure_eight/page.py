@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mechwright import Build, Page
-from mechwright_elliptic_gears.params import REPORTED_PHASES, EllipticGearParams
+from mechwright_elliptic_gears.parameters import REPORTED_PHASES, EllipticGearParams
 
 NAME = "figure-eight.html"
 """The file."""
@@ -33,8 +33,8 @@ class FigureEightPage(Page):
 
 def data_of(params: EllipticGearParams) -> dict[str, Any]:
     """What the script computes from: mm, rad/s, mm/s, phases in degrees."""
-    from mechwright_elliptic_gears.figures import band_of
-    from mechwright_elliptic_gears.gear import ellipse_of
+    from mechwright_elliptic_gears.kinematics.figures import band_of
+    from mechwright_elliptic_gears.parts.gear import ellipse_of
 
     phases = params.set_phases if params.adjustable else {*REPORTED_PHASES, params.phase_degrees}
     return {

@@ -1,0 +1,1 @@
+"""How gears run as their programs leave them, and what tolerances do."""

@@ -1,0 +1,1 @@
+"""Positions, rates, figures and loads of gears, coupler and point Q."""

@@ -1,0 +1,1 @@
+"""Teeth, plates, joints, hardware, mounting."""

@@ -1,0 +1,227 @@
+"""How the parts of a train stand over each other, and the sizes that a design leaves open.
+
+From below: base plate, spacers, gears 2 and 3, spacer, gears 4 and 5, joint spacers, coupler, heads of the
+pins. Height 0 is the upper side of the base plate. Shafts and dowels end flush with the gears they carry:
+the next gear or the coupler sweeps over them.
+"""
+
+import math
+from dataclasses import dataclass
+
+from mechwright import kept
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.clamp import clamp_of
+from mechwright_elliptic_gears.parts.dividing import Dividing, circle_for, placed
+from mechwright_elliptic_gears.parts.gear import ellipse_of, rack_of
+from mechwright_elliptic_gears.parts.keeper import Keeper, keeper_for
+
+COUPLER_THICKNESS, BASE_THICKNESS = 6.0, 10.0
+"""Thickness of coupler and base plate, mm: stock sizes."""
+
+SPACER = 1.5
+"""Outside of spacers over their shaft: a wall of a quarter of the shaft."""
+
+HEAD, HEAD_HEIGHT = 1.5, 0.4
+"""Head of a joint pin over its shank, as flat heads of clevis pins (ISO 2341) have it."""
+
+EYE = 2.0
+"""Outside of the coupler's eyes over the pin: the usual edge distance, a diameter from the hole's middle."""
+
+AXIAL_PLAY = 0.1
+"""Between coupler and the heads of its pins, mm, so that it turns freely."""
+
+STUB = 2.0
+"""How far the input's shaft stands out below the base plate, in bores: room for a shaft coupling."""
+
+MARGIN = 2.0
+"""Of the base plate around the shafts' axes, in bores: one and a half bores of wall."""
+
+BEYOND = 8.0
+"""From the teeth to the screws of a frame, mm: half the head of an M5, and 3 mm of air."""
+
+OUTWARDS = (0.5, math.sqrt(0.75))
+"""Direction from the axes of gears 2 and 5 to those screws: a base plate about half as wide as it is long."""
+
+EDGE = 1.5
+"""From a screw's middle to the edge of the plate, in its holes."""
+
+FIXING = 0.55
+"""Holes that fix the base plate, in bores: 6.6 mm, M6, at a shaft of 12 mm."""
+
+DOWELS = {"dowel-1": 0.0, "dowel-2": math.pi / 2, "dowel-3": 7 * math.pi / 6}
+"""Bodies of the dowels and their directions on gear 3, rad. All three steps differ, so that gears 3 and 4 go
+together in one way only, and not turned over."""
+
+PHASE_PIN = "phase-pin"
+"""Part and body of the pin of a dividing circle. Its head lies on gear 4."""
+
+PIN_KEEPER = "pin-keeper"
+"""Part and body of what keeps that pin down."""
+
+PIN_HEAD = 0.5
+"""Height of its head in gaps: the coupler passes over it."""
+
+DOWEL_GAP = 0.5
+"""Between dowels and spacer, mm."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Sizes and heights of a train, mm.
+
+    Parameters
+    ----------
+    semi_major, eccentricity
+        Of the pitch ellipses.
+    thickness
+        Of the gears.
+    bore, gap, pin, coupler, tracer, base, dowel, dowel_circle
+        As the design says, or their defaults.
+    crown
+        From gears 4 and 5 to the coupler.
+    stub_diameter, stub
+        Of the input's shaft below the base plate, and its length.
+    """
+
+    semi_major: float
+    eccentricity: float
+    thickness: float
+    bore: float
+    gap: float
+    pin: float
+    coupler: float
+    tracer: float
+    base: float
+    dowel: float
+    dowel_circle: float
+    crown: float
+    stub_diameter: float
+    stub: float
+
+    @classmethod
+    def of(cls, params: EllipticGearParams) -> "Layout":
+        """The layout of a train."""
+        bore = params.bore
+        pin = _or(params.pin_diameter, _stock_size(bore / 2))
+        dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
+        gap = params.spacing
+        return cls(
+            ellipse_of(params).semi_major,
+            params.eccentricity,
+            params.thickness,
+            bore,
+            gap,
+            pin,
+            _or(params.coupler_thickness, COUPLER_THICKNESS),
+            _or(params.tracer_diameter, pin),
+            _or(params.base_thickness, BASE_THICKNESS),
+            dowel,
+            params.dowel_circle or _dowel_circle(params, dowel),
+            max(gap, _needed(params, dowel)),
+            _or(params.stub_diameter, bore),
+            _or(params.stub_length, STUB * bore),
+        )
+
+    @property
+    def lower(self) -> float:
+        """Underside of gears 2 and 3."""
+        return self.gap
+
+    @property
+    def upper(self) -> float:
+        """Underside of gears 4 and 5."""
+        return self.lower + self.thickness + self.gap
+
+    @property
+    def link(self) -> float:
+        """Underside of the coupler."""
+        return self.upper + self.thickness + self.crown
+
+    @property
+    def spacer(self) -> float:
+        """Outer diameter of the spacers on the shafts."""
+        return SPACER * self.bore
+
+    @property
+    def eye(self) -> float:
+        """Radius of the coupler's ends."""
+        return EYE * self.pin / 2
+
+    @property
+    def focus(self) -> float:
+        """From a gear's axis to its joint: 2 a e."""
+        return 2 * self.semi_major * self.eccentricity
+
+
+def screw_offset_of(params: EllipticGearParams) -> float:
+    """Of the screws of a frame from the axes of gears 2 and 5, mm."""
+    ellipse = ellipse_of(params)
+    reach = ellipse.semi_major * (1 + params.eccentricity) + rack_of(params).addendum
+    return _or(params.screw_offset, math.ceil(reach + BEYOND))
+
+
+def screw_places(params: EllipticGearParams) -> tuple[complex, ...]:
+    """Where screws of a frame go through the base plate, x + i y, mm; none without their holes."""
+    if params.screw_hole is None:
+        return ()
+    out, reach = screw_offset_of(params), 2 * ellipse_of(params).semi_major
+    x, y = reach + OUTWARDS[0] * out, OUTWARDS[1] * out
+    return tuple(complex(a * x, b * y) for a in (-1, 1) for b in (-1, 1))
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def _dowel_circle(params: EllipticGearParams, dowel: float) -> float:
+    """As small as the spacer allows, or the holes of a dividing circle."""
+    least = math.ceil(SPACER * params.bore + dowel + 2 * DOWEL_GAP)
+    return circle_for(params, dowel, least) if params.phase_joint == "pins" else least
+
+
+def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
+    """Bodies of the clamp's screws."""
+    return tuple(f"clamp-screw-{number}" for number in range(1, clamp_of(params).screws + 1))
+
+
+def _needed(params: EllipticGearParams, dowel: float) -> float:
+    """What stands on gear 4 under the coupler, mm."""
+    if params.phase_joint == "clamp":
+        return clamp_of(params).crown
+    keeper = _keeper(params, dowel)
+    return 0.0 if keeper is None else keeper.crown
+
+
+@kept
+def _keeper(params: EllipticGearParams, dowel: float) -> Keeper | None:
+    if params.phase_joint != "pins":
+        return None
+    circle = params.dowel_circle or _dowel_circle(params, dowel)
+    dividing = placed(params.set_phases, params.eccentricity, dowel, circle / 2)
+    return keeper_for(params, dividing, (HEAD * dowel, PIN_HEAD * params.spacing))
+
+
+def keeper_of(params: EllipticGearParams) -> Keeper | None:
+    """What keeps the pin of a dividing circle down; None without such a pin, or without room."""
+    return _keeper(params, Layout.of(params).dowel)
+
+
+def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
+    """Bodies that join gears 3 and 4, beside keys."""
+    if params.phase_joint == "pins":
+        return (PHASE_PIN,) if keeper_of(params) is None else (PHASE_PIN, PIN_KEEPER)
+    if params.phase_joint == "clamp":
+        return clamp_screws(params)
+    return tuple(DOWELS) if params.dowelled else ()
+
+
+@kept
+def dividing_of(params: EllipticGearParams) -> Dividing:
+    """The holes of a train whose phase a pin sets; what has no place is left out and named."""
+    layout = Layout.of(params)
+    return placed(params.set_phases, params.eccentricity, layout.dowel, layout.dowel_circle / 2)
+
+
+def _stock_size(diameter: float) -> float:
+    """Rounded to half a millimetre, at least that."""
+    return max(0.5, round(2 * diameter) / 2)

@@ -1,0 +1,69 @@
+"""Where the shafts of a pair stand and what loads them, and the base plate of a train."""
+
+import math
+
+from mechwright import GroundPlate, Hub, Mounting, MountingError, Spindle
+from mechwright.contracts.mounting import SCREW_HOLE
+from mechwright_elliptic_gears.parameters import EllipticGearParams
+from mechwright_elliptic_gears.parts.gear import ellipse_of
+from mechwright_elliptic_gears.parts.layout import OUTWARDS, Layout, screw_offset_of, screw_places
+
+
+def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
+    """Both shafts of a pair, or the base plate of a train.
+
+    At the pitch radii r2 and r4 a torque T on gear 2 is T r4/r2 on gear 4, and presses the teeth together
+    with T/(r2 cos α): both are greatest where r2 is least, a (1 - e), and r4 is a (1 + e).
+
+    Raises MountingError for gears without a bore, and for a base plate without holes in its corners.
+    """
+    if params.stages > 1:
+        return _base_of(params)
+    if params.bore == 0:
+        raise MountingError(
+            "parameters.bore: gears without a bore have no shafts; set bore = 10",
+            ({"parameters.bore": 10.0},),
+        )
+    ellipse = ellipse_of(params)
+    a, e = ellipse.semi_major, params.eccentricity
+    force = 1000 / (a * (1 - e) * math.cos(math.radians(params.pressure_angle)))
+    hub = Hub(0.0, params.thickness, params.bore, params.keyway_width, material=params.material)
+    return Mounting(
+        (
+            Spindle("2", "gear-2", (0.0, 0.0), hub, "parameters.bore", drives=True, force=force),
+            Spindle(
+                "4", "gear-4", (2 * a, 0.0), hub, "parameters.bore", torque=(1 + e) / (1 - e), force=force
+            ),
+        )
+    )
+
+
+def _base_of(params: EllipticGearParams) -> GroundPlate:
+    """The coupler of a train passes over all shafts, so they stand in one plate and are driven from below."""
+    if params.screw_hole is None:
+        raise MountingError(
+            "parameters.screw_hole: the base plate of a train is fixed by screws under its gears, and a "
+            f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}",
+            ({"parameters.screw_hole": SCREW_HOLE},),
+        )
+    layout = Layout.of(params)
+    corner = screw_places(params)[-1]
+    x, y = corner.real, corner.imag
+    return GroundPlate(
+        "base",
+        -layout.base,
+        0.0,
+        ((-x, -y), (x, -y), (x, y), (-x, y)),
+        params.screw_hole,
+        "gear-2",
+        (-2 * layout.semi_major, 0.0),
+        layout.stub_diameter,
+        -layout.base - layout.stub,
+        "parameters.screw_offset",
+        "parameters.screw_hole",
+        "parameters.stub_diameter",
+        "parameters.base_thickness",
+        offset=screw_offset_of(params),
+        outwards=OUTWARDS,
+        length_key="parameters.stub_length",
+    )

@@ -1,0 +1,1 @@
+"""What an engineer objects to, a file for each concern."""

@@ -1,0 +1,1 @@
+"""Trains for a requirement."""
