@@ -264,6 +264,8 @@ class Procedure(Generic[D]):
         Whether it finds an error of that stage in every design that is asked: tables are not inspected.
     warns
         Whether it finds no errors, and so forbids nothing.
+    quickly
+        Whether only tables and the quick judge ask it: a slow one finds the same, and more.
     """
 
     codes: Sequence[str]
@@ -274,6 +276,7 @@ class Procedure(Generic[D]):
     stage: Stage = Stage.MOTION
     certain: bool = False
     warns: bool = False
+    quickly: bool = False
 
     def forbids(self, table: D, stage: Stage) -> Bools | None:
         """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
@@ -300,7 +303,9 @@ class Procedure(Generic[D]):
 
     def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
         """Give what it finds of one design; see :class:`RuleLike`."""
-        if (self.when is None or np.any(self.when(m))) and not (quick and self.slow):
+        if self.slow if quick else self.quickly:
+            return
+        if self.when is None or np.any(self.when(m)):
             yield from self.inspect(m)
 
 

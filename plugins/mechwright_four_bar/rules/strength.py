@@ -12,9 +12,9 @@ from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.linkage.clamp_findings import clamped
 from mechwright.mechanics.linkage.kinematics.forces import MILLI, period_forces
 from mechwright.mechanics.linkage.rules import strength as of_linkages
-from mechwright.mechanics.linkage.rules.strength import RowStressRule, larger_bearings
+from mechwright.mechanics.linkage.rules.strength import larger_bearings
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE, bush_pressure
-from mechwright.mechanics.strength.judging import Stress, Way
+from mechwright.mechanics.strength.judging import RowStressRule, Stress, Way
 from mechwright.mechanics.strength.turning_pair import (
     TurningPair,
     bush_stresses,

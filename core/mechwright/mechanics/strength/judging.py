@@ -233,6 +233,24 @@ class StressRule(Generic[D]):
         )
 
 
+@dataclass(frozen=True)
+class RowStressRule(StressRule[D]):
+    """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
+
+    breaks: bool = False
+
+    def forbids(self, table: D, stage: Stage) -> NDArray[np.bool_] | None:
+        """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
+        return super().forbids(table, stage) if self.breaks else None
+
+    def _breaks(self, table: D) -> NDArray[np.bool_]:
+        return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
+
+    def _fails(self, m: D) -> bool:
+        found = self.stresses(m)
+        return bool(found) and worst(found).severity is Severity.ERROR
+
+
 def judged_between(
     code: str,
     params: P,

@@ -9,14 +9,12 @@ module forbid nothing, and cost a table nothing.
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright.contracts.design_rule import DesignRule, Failure, Note
-from mechwright.contracts.finding import Change, Severity, Stage
+from mechwright.contracts.finding import Change, Severity
 from mechwright.contracts.materials import material
 from mechwright.contracts.rule_list import Rules, all_of
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
@@ -27,7 +25,7 @@ from mechwright.mechanics.strength.allowed import PIN_BENDING, PIN_SHEAR, allowe
 from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE, bush_pressure
 from mechwright.mechanics.strength.fastening import pin_shear, stud_bending
 from mechwright.mechanics.strength.hertz import YIELD, contact_modulus, line_pressure
-from mechwright.mechanics.strength.judging import SLOWEST, Stress, StressRule, Way, worst
+from mechwright.mechanics.strength.judging import SLOWEST, RowStressRule, Stress, Way
 from mechwright.mechanics.strength.turning_pair import TurningPair, bush_stresses, eye_stresses
 
 MILLI = 1e-3
@@ -35,24 +33,6 @@ MILLI = 1e-3
 T = TypeVar("T", bound=AnyPlanarTable)
 Rule = DesignRule[AnyPlanarTable]
 Fails = Failure[AnyPlanarTable]
-
-
-@dataclass(frozen=True)
-class RowStressRule(StressRule[T]):
-    """A rule of stresses that are those of one design; ``breaks`` is whether one of them breaks a part."""
-
-    breaks: bool = False
-
-    def forbids(self, table: T, stage: Stage) -> NDArray[np.bool_] | None:
-        """Give the designs (n,) in which a stress breaks a part, found row by row; None where none can."""
-        return super().forbids(table, stage) if self.breaks else None
-
-    def _breaks(self, table: T) -> NDArray[np.bool_]:
-        return np.array([self._fails(table.row(place)) for place in range(table.size)], bool)
-
-    def _fails(self, m: T) -> bool:
-        found = self.stresses(m)
-        return bool(found) and worst(found).severity is Severity.ERROR
 
 
 def pairs_of(table: AnyPlanarTable) -> list[TurningPair]:
