@@ -13,14 +13,15 @@ import time
 import numpy as np
 import shapely
 
-from mechwright.contracts.finding import errors, until_error
+from mechwright.contracts.finding import errors
 from mechwright.errors import MechwrightError
 from mechwright.mechanics.gearing import mesh
 from mechwright.mechanics.gearing.mesh import EDGES_PER_PITCH
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.parts.gear import offsets_that_mesh, outline_of, pair_of, teeth_of
-from mechwright_elliptic_gears.rules import checks
-from mechwright_elliptic_gears.rules.undercut import undercut_findings
+from mechwright_elliptic_gears.parts.gear import outline_of, pair_of, teeth_of
+from mechwright_elliptic_gears.parts.tooth_offset import offsets_that_mesh
+from mechwright_elliptic_gears.rules.teeth import OUTLINE
+from mechwright_elliptic_gears.table import table_of
 
 POSITIONS = 8
 ALLOWANCE = 2e-4
@@ -44,7 +45,7 @@ def random_pair(rng: np.random.Generator) -> tuple[EllipticGearParams, np.ndarra
     )
     try:
         checked = params.model_copy(update={"tooth_offset": None})
-        if errors(until_error(checked, checks._rack, undercut_findings, checks._tip)):
+        if errors(OUTLINE.findings(table_of(checked))):
             return None
         polygon = shapely.Polygon(outline_of(params).outer.flatten(1e-4))
     except MechwrightError:

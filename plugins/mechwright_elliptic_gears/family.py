@@ -1,8 +1,8 @@
 """The family ``elliptic-gears``."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.parameters import EllipticGearParams
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from mechwright import (
         AsMade,
+        Channel,
         GroundPlate,
         MadePart,
         Motion,
@@ -25,7 +26,10 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure, PartMass
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_elliptic_gears.table import GearTable
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -38,17 +42,23 @@ class EllipticGears(Family[EllipticGearParams]):
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
     batch: ClassVar[int] = 100_000
 
-    def check(self, params: EllipticGearParams) -> Sequence[Finding]:
-        """Undercut, tips, roots, bore, phase, pressure angle at the shaft, and the mesh proof."""
-        from mechwright_elliptic_gears.rules.checks import findings
+    block: ClassVar[int] = 1 << 14
+    counts: ClassVar[frozenset[str]] = frozenset({"teeth"})
+    structure: ClassVar[frozenset[str]] = frozenset(
+        {"keyway_width", "keyway_depth", "keyway_relief", "tooth_offset", "clamp_screw"}
+    )
 
-        return findings(params)
+    def rules(self) -> "Rules[GearTable]":
+        """Rack, undercut, tips, bore, point Q, phase, pressure angle at the shaft, mesh proof, strength."""
+        from mechwright_elliptic_gears.rules.rule_table import RULES
 
-    def judge(self, params: EllipticGearParams) -> Sequence[Finding]:
-        """The same without the mesh proof."""
-        from mechwright_elliptic_gears.rules.checks import judged
+        return RULES
 
-        return judged(params)
+    def table(self, params: EllipticGearParams, size: int | None = None) -> "GearTable":
+        """The gears with their backlash."""
+        from mechwright_elliptic_gears.table import table_of
+
+        return table_of(params, size)
 
     def solve(self, params: EllipticGearParams, samples: int) -> "Motion":
         """One turn of gear 2 at constant speed."""
@@ -66,9 +76,8 @@ class EllipticGears(Family[EllipticGearParams]):
     def parts(self, params: EllipticGearParams) -> "Sequence[Part]":
         """The gears, and of a train all that carries and joins them."""
         from mechwright_elliptic_gears.parts.gear_parts import parts_of
-        from mechwright_elliptic_gears.rules.checks import findings
 
-        refuse(findings(params), Stage.PARTS)
+        refuse(self.check(params), Stage.PARTS)
         return parts_of(params)
 
     def mounting(self, params: EllipticGearParams) -> "Mounting | GroundPlate":
@@ -119,14 +128,23 @@ class EllipticGears(Family[EllipticGearParams]):
 
         return synthesise(kind, REQUIREMENTS[kind].model_validate(requirement.model_dump()), progress)
 
-    def evaluate(
-        self, batch: "Batch[EllipticGearParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Teeth, rims and figures of many pairs by formulas."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_elliptic_gears.evaluation import answer
+    def figures(self, table: "DesignTable[EllipticGearParams]") -> "Mapping[str, Figure]":
+        """Distance, speeds of the last gear, peaks of Q and its window, pressure angle."""
+        from mechwright_elliptic_gears.kinematics.figures import figures_of
 
-        return by_arrays(self, batch, columns, stage, answer, chunk=self.batch)
+        return figures_of(cast("GearTable", table))
+
+    def channels(self, table: "DesignTable[EllipticGearParams]", samples: int) -> "Mapping[str, Channel]":
+        """Angles and rates of gears and coupler, motion of Q, pressure angle."""
+        from mechwright_elliptic_gears.kinematics.motion import channels_of
+
+        return channels_of(cast("GearTable", table), samples)
+
+    def masses(self, table: "DesignTable[EllipticGearParams]") -> "Mapping[str, PartMass] | None":
+        """The two gears of pairs without keys."""
+        from mechwright_elliptic_gears.parts.masses import masses_of
+
+        return masses_of(cast("GearTable", table))
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
         """The end of the figure of eight."""

@@ -113,8 +113,7 @@ class EllipticGearParams(Parameters):
         ),
     )
     phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=MOST_PHASES)] | None = Field(
-        None,
-        description="Phase angles that the joint can be set to; left out, 0, 45, 90, 135, 180.",
+        None, description="Phase angles that the joint can be set to; left out, 0, 45, 90, 135, 180."
     )
     eccentricity: Ratio = Field(
         0.4,
@@ -277,7 +276,7 @@ class EllipticGearParams(Parameters):
         if self.module is None and self.semi_major is None:  # which is refused
             return {}
         found = following(partial(getattr, self), self.model_fields_set)
-        return {name: int(value) if name == "teeth" else float(value) for name, value in found.items()}
+        return {name: value if value.ndim else value.item() for name, value in found.items()}
 
     @field_validator("band", mode="before")
     @classmethod
@@ -383,4 +382,4 @@ class EllipticGearParams(Parameters):
         """Phase angle γ, rad; None for a single pair."""
         if self.stages == 1:
             return None
-        return math.radians(self.phase_degrees)
+        return self.phase_degrees * (math.pi / 180)

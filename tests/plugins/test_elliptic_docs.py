@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from mechwright.mechanics import openings
+from mechwright.mechanics import opening_rules
 from mechwright_elliptic_gears.family import EllipticGears
 
 ROOT = Path(__file__).parents[2]
@@ -13,7 +13,7 @@ PAGE = (ROOT / "docs" / "elliptic-gears.md").read_text(encoding="utf-8")
 def test_every_finding_is_on_the_page_and_no_other() -> None:
     gearing = ROOT / "core" / "mechwright" / "mechanics" / "gearing"
     own = ROOT / "plugins" / "mechwright_elliptic_gears"
-    sources = [*own.glob("*.py"), *gearing.glob("*.py"), Path(openings.__file__)]
+    sources = [*own.rglob("*.py"), *gearing.glob("*.py"), Path(opening_rules.__file__)]
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
     said = set(re.findall(r'"((?:gear|bore|point|train|synthesis)\.[a-z-]+)"', code))
     assert said

@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 
 from mechwright import Stage
-from mechwright.contracts.by_arrays import Designs
+from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.evaluation import Batch, one_by_one
+from mechwright.mechanics.gearing.checks import least_tip
 from mechwright.testing.evaluation import assert_same
-from mechwright_elliptic_gears.evaluation import Sizes, answer
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.areas import areas_of, by_mean, by_teeth
+from mechwright_elliptic_gears.parts.teeth import least_regularity
+from mechwright_elliptic_gears.table import table_of
 
 FAMILY = EllipticGears()
 
@@ -65,19 +67,49 @@ def test_what_moves_is_not_judged_for_its_parts():
     assert found.counts == {}
 
 
-def test_formulas_decide_pairs_of_the_usual_rack():
-    study = STUDIES["usual"]
-    said = answer(Designs(study.common, study.varied), (), Stage.PARTS)
-    assert said is not None
-    assert not said.undecided.any()
-    assert 0.2 < (said.forbidden == 0).mean() < 0.9
+TRAINS = {
+    "dowels": batch({"stages": 2}, 6, phase=(0, 360), eccentricity=(0.3, 0.6), teeth=(25, 40), bore=(6, 14)),
+    "pins": batch({"stages": 2, "phase_joint": "pins"}, 5, eccentricity=(0.3, 0.6), semi_major=(40, 70)),
+    "clamp": batch({"stages": 2, "phase_joint": "clamp"}, 5, eccentricity=(0.3, 0.6), semi_major=(40, 70)),
+    "keyed": batch({"keyway_width": 3.0}, 6, bore=(5, 14), keyway_relief=(0, 1), eccentricity=(0.1, 0.6)),
+    "offset": batch({"tooth_offset": 0.5}, 8, teeth=(22, 40), semi_major=(20, 60), eccentricity=(0.1, 0.6)),
+}
+
+
+@pytest.mark.parametrize("study", TRAINS)
+def test_trains_and_keyed_pairs_are_what_each_is_by_itself(study):
+    columns = (
+        "centre_distance",
+        "ratio_max",
+        "Q.speed.max",
+        "pressure_angle.greatest",
+        "Q.jerk.least",
+        "mass",
+    )
+    found = FAMILY.evaluate(TRAINS[study], columns)
+    alone = one_by_one(FAMILY.judge, FAMILY.solve, TRAINS[study], columns, Stage.PARTS, FAMILY.parts)
+    assert_same(found, alone)
+
+
+def test_flanks_of_a_table_are_those_of_the_teeth():
+    """Regularity and tips in columns, against the curves that outlines are made of."""
+    rng = np.random.default_rng(3)
+    many = {"teeth": rng.integers(9, 50, 40), "eccentricity": rng.uniform(0, 0.8, 40)}
+    table = table_of(with_columns(EllipticGearParams(), {k: v[:, None] + 0.0 for k, v in many.items()}), 40)
+    regularity = least_regularity(table.gears)
+    for place in range(40):
+        (teeth,) = table.row(place).teeth_with(table.row(place).backlash)
+        assert regularity[place].item() == pytest.approx(teeth.least_regularity.min(), abs=1e-9)
+        assert table.tips.width[place].item() == pytest.approx(least_tip([teeth]), abs=1e-9)
+        assert table.tips.depth[place].item() == pytest.approx(teeth.tip_height / teeth.rack.module, abs=1e-9)
 
 
 @pytest.mark.parametrize("eccentricity", [0.0, 0.2, 0.5, 0.7])
 def test_areas_by_their_mean_are_those_tooth_by_tooth(eccentricity):
     """Of odd and even numbers of teeth; and where teeth are few, each is followed."""
-    varied = {"eccentricity": np.full(4, eccentricity), "teeth": np.array([8, 24, 41, 61])}
-    gears = Sizes(Designs(EllipticGearParams(), varied)).gears()
+    teeth = np.array([[8.0], [24.0], [41.0], [61.0]])
+    varied = with_columns(EllipticGearParams(), {"eccentricity": eccentricity, "teeth": teeth})
+    gears = table_of(varied, 4).gears
     each = by_teeth(gears)
     np.testing.assert_allclose(areas_of(gears), each, rtol=1e-7)
     np.testing.assert_allclose(by_mean(gears, 32)[2:], each[2:], rtol=1e-7)

@@ -22,7 +22,7 @@ from mechwright_cam.planning.prepare import prepare
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
 from mechwright_elliptic_gears.parts.clamp import MARK, SETTING, Clamp, clamp_of
-from mechwright_elliptic_gears.parts.layout import Layout
+from mechwright_elliptic_gears.parts.layout import layout_of
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params
@@ -105,7 +105,7 @@ def test_the_plates_of_the_clamp_are_machined():
 
 
 def test_the_clamp_is_screwed_together():
-    clamp, parts, layout = clamp_of(TRAIN), parts_of(TRAIN), Layout.of(TRAIN)
+    clamp, parts, layout = clamp_of(TRAIN), parts_of(TRAIN), layout_of(TRAIN)
     assert (clamp.screw, clamp.screws, clamp.register, clamp.outside) == (4.0, 4, 15.0, 19.0)
     threads = [one for one in parts["gear-3"].details if isinstance(one, Thread)]
     assert [thread.designation for thread in threads] == ["M4x0.7"] * 4

@@ -15,7 +15,7 @@ from mechwright_elliptic_gears.kinematics.figures import point_window
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque, joint_torque, masses_of
 from mechwright_elliptic_gears.kinematics.point import point_of_coupler, speed_of_q
 from mechwright_elliptic_gears.parts.dividing import START
-from mechwright_elliptic_gears.parts.layout import Layout, dividing_of, keeper_of
+from mechwright_elliptic_gears.parts.layout import dividing_of, keeper_of, layout_of
 from mechwright_elliptic_gears.rules.pins import pin_play, shifted_window
 
 
@@ -124,7 +124,7 @@ def test_a_pin_that_does_not_go_in_is_told(diameter, severity):
 
 
 def test_the_pin_is_kept_down_below_the_coupler():
-    layout, keeper = Layout.of(VARIABLE), keeper_of(VARIABLE)
+    layout, keeper = layout_of(VARIABLE), keeper_of(VARIABLE)
     parts = {part.name: part for part in FAMILY.parts(VARIABLE)}
     pin, washer, bolt = (parts[name] for name in ("phase-pin", "pin-keeper", "keeper-screw"))
     box = pin.build().BoundingBox()

@@ -16,7 +16,8 @@ from mechwright.testing.evaluation import assert_same
 from mechwright_cam.shop.library import load_library
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.rules.undercut import is_undercut as ellipse_undercut
+from mechwright_elliptic_gears.rules.undercut import without_undercut
+from mechwright_elliptic_gears.table import table_of as ellipses
 from mechwright_noncircular_gears.family import NoncircularGears
 from mechwright_noncircular_gears.rules.shape_rules import UNDERCUT
 from mechwright_noncircular_gears.sized import SizedParams
@@ -40,9 +41,9 @@ def test_on_a_circle_the_least_teeth_are_those_of_a_rack(angle):
 def test_elliptic_teeth_are_free_of_undercut_and_few(eccentricity, angle):
     """As every flank tells; one tooth in ten fewer would be too few, for some flank ends near the vertex."""
     chosen = EllipticGearParams(eccentricity=eccentricity, pressure_angle=angle)
-    assert not ellipse_undercut(chosen)
+    assert without_undercut(ellipses(chosen)).size
     fewer = chosen.model_copy(update={"teeth": math.floor(0.9 * chosen.teeth)})
-    assert chosen.teeth == 25 or ellipse_undercut(fewer)
+    assert chosen.teeth == 25 or not without_undercut(ellipses(fewer)).size
 
 
 def test_what_is_usual_stays_where_it_can_be_cut():

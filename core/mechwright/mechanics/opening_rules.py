@@ -21,7 +21,7 @@ Rule = DesignRule[DesignTable[Any]]
 
 
 def size_rules(*names: str) -> tuple[Rule, ...]:
-    """Rules for the parameters, mm, that may be 0 but not so small that no end mill cuts them."""
+    """Rules for the parameters, mm, that may be 0 or left out but not too small to be milled."""
     return tuple(_size_rule(name, attrgetter(f"params.{name}")) for name in names)
 
 
@@ -34,7 +34,7 @@ def _size_rule(name: str, size: Callable[[Any], Any]) -> Rule:
         limit=LEAST_WIDTH,
         unit="mm",
         remedy=f"set {name} to 0 for none, or to {LEAST_WIDTH:g} or more",
-        when=lambda t: np.asarray(size(t)) > 0,
+        when=lambda t: size(t) is not None and np.asarray(size(t)) > 0,
     )
 
 

@@ -1,4 +1,4 @@
-// A train of elliptic gears in closed form, as mechwright_elliptic_gears.kinematics.equations has it. Angles in rad, lengths
+// A train of elliptic gears in closed form, as mechwright_elliptic_gears.kinematics has it. Angles in rad, lengths
 // in mm. A design is { a, e, gamma, omega, along, across }.
 
 // The gear that a gear drives: equations (5) to (7).

@@ -12,6 +12,7 @@ give the integral, for all u at once, to the last digit.
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -28,8 +29,26 @@ _ON_AXIS = 1e-12
 _ON_ELLIPSE, _FOOT_STEPS = 1e-14, 100
 """Residual of a foot: rounding; and steps, of which six or seven are the rule."""
 
+_MEANS = 5
+"""Steps of the mean: it doubles its digits with each, and has two of them after one at e = 0.9."""
+
 _SERIES_CUT = 1e-17
 """Terms below this share of the first are rounding."""
+
+
+def perimeter_of(eccentricity: Any) -> Any:
+    """The perimeter 4 E(e) of ellipses of semi-major axis 1, by the arithmetic-geometric mean.
+
+    >>> float(perimeter_of(0.6)) == Ellipse(1.0, 0.6).perimeter
+    True
+    """
+    mean, root = np.ones_like(eccentricity, dtype=float), np.sqrt(1 - np.square(eccentricity))
+    rest, power = 1 - np.square(eccentricity) / 2, 0.5
+    for _ in range(_MEANS):
+        half = (mean - root) / 2
+        mean, root, power = mean - half, np.sqrt(mean * root), 2 * power
+        rest = rest - power * half**2
+    return 2 * math.pi / mean * rest
 
 
 @dataclass(frozen=True)

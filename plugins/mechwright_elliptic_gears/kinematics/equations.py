@@ -20,6 +20,8 @@ In a train gear 2 drives gear 3 as above. Gear 4 is fixed to gear 3 and drives g
 * (18) to (20) gear 4 has the speed of gear 3, (21) to (23) gear 5 that of (5) to (7) with θ4 as the input.
 """
 
+from typing import Any
+
 import numpy as np
 
 from mechwright import Array
@@ -124,7 +126,7 @@ def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: flo
     return pressure_angle + np.abs(tilt(gear, eccentricity))
 
 
-def alpha_peak(eccentricity: Array) -> Array:
+def alpha_peak(eccentricity: Array | float) -> Array:
     """Greatest size of f' (...), rad/s² at 1 rad/s of gear 2: where 2 e cos² θ + (1 + e²) cos θ = 4 e."""
     e = np.asarray(eccentricity, dtype=float)
     one = 1 + e * e
@@ -134,7 +136,7 @@ def alpha_peak(eccentricity: Array) -> Array:
     return peak
 
 
-def jerk_peak(eccentricity: Array) -> Array:
+def jerk_peak(eccentricity: Array | float) -> Array:
     """Greatest size of the second derivative of f (...), rad/s³ at 1 rad/s of gear 2.
 
     With c = cos θ it is 2 e (1 - e²) (2 e c² + (1 + e²) c - 4 e)/D³, greatest at θ = 0, at π, or where
@@ -150,6 +152,6 @@ def jerk_peak(eccentricity: Array) -> Array:
     return peak
 
 
-def steepest_shaft_pressure_angle(eccentricity: float, pressure_angle: float) -> float:
+def steepest_shaft_pressure_angle(eccentricity: Any, pressure_angle: Any) -> Any:
     """Largest value of :func:`shaft_pressure_angle` over a turn, rad: pressure angle + asin e."""
-    return pressure_angle + float(np.arcsin(eccentricity))
+    return pressure_angle + np.arcsin(eccentricity)

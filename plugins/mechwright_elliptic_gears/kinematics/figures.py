@@ -2,14 +2,19 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Scalar, kept
+from mechwright import Array, kept
+from mechwright.contracts.figure import Figure
 from mechwright.mechanics.peak import Peak
 from mechwright_elliptic_gears.kinematics.equations import (
     Turning,
+    alpha_peak,
     driven,
+    jerk_peak,
     steepest_shaft_pressure_angle,
     train,
 )
@@ -18,6 +23,7 @@ from mechwright_elliptic_gears.kinematics.point import place, point_of_coupler, 
 from mechwright_elliptic_gears.kinematics.window import Window, near_constant
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import ellipse_of
+from mechwright_elliptic_gears.table import GearTable
 
 BAND = 0.02
 """Width of the band of near-constant speed over a ω2 where the design names none: the 10 mm/s at a = 50 mm
@@ -72,45 +78,87 @@ def coupled_gears(gear2: Turning, eccentricity: float, phase: float | None) -> t
     return train(gear2, eccentricity, phase)[1:]
 
 
+def figures_of(m: GearTable) -> dict[str, Figure]:
+    """The figures of one design, or of a table of designs."""
+    e, omega, last = m.given.eccentricity, m.omega, "4" if m.given.stages == 1 else "5"
+    swing = (1 + e) / (1 - e)
+    rates: dict[str, Callable[[], Any]] = {
+        "omega": lambda: swing * omega,
+        "alpha": lambda: alpha_peak(e) * omega**2,
+        "jerk": lambda: jerk_peak(e) * omega**3,
+    }
+    if m.given.stages == 2:
+        rates = {name: partial(_sought, m, f"{name}{last}_max") for name in rates}
+    found = {
+        "centre_distance": Figure(lambda: 2 * m.semi_major, "mm"),
+        "ratio_max": Figure(lambda: rates["omega"]() / omega),
+        "ratio_min": Figure((lambda: 1 / swing) if m.given.stages == 1 else partial(_sought, m, "ratio_min")),
+    }
+    for (name, rate), unit in zip(rates.items(), ("rad/s", "rad/s^2", "rad/s^3"), strict=True):
+        found[f"{name}{last}_max"] = Figure(rate, unit)
+    for name, unit in _POINT_FIGURES.items():
+        found[f"Q.{name}"] = Figure(partial(_sought, m, f"Q.{name}"), unit)
+    return found | {"pressure_angle_max": Figure(lambda: steepest_pressure_angle(m), "rad")}
+
+
+def steepest_pressure_angle(m: GearTable) -> Any:
+    """Largest pressure angle at the shaft over a turn, rad."""
+    return steepest_shaft_pressure_angle(m.given.eccentricity, np.radians(m.given.pressure_angle))
+
+
+_POINT_FIGURES = {
+    "speed.max": "mm/s",
+    "speed.max.theta2": "rad",
+    "acceleration.max": "mm/s^2",
+    "acceleration.max.theta2": "rad",
+    "jerk.max": "mm/s^3",
+    "jerk.max.theta2": "rad",
+    "constant_speed_window.start": "rad",
+    "constant_speed_window.end": "rad",
+    "constant_speed_window.length": "rad",
+    "constant_speed_window.band": "mm/s",
+    "constant_speed_window.least_speed": "mm/s",
+}
+"""Figures of Q, which are sought design by design."""
+
+
+def _sought(m: GearTable, name: str) -> Any:
+    """A figure that is sought, of one design or in a column."""
+    if m.single:
+        return _sought_of(m.given)[name]
+
+    def columns() -> dict[str, Array]:
+        each = [_sought_of(m.row(place).given) for place in range(m.size)]
+        return {key: np.array([[one[key]] for one in each]) for key in each[0]}
+
+    return m.once("sought figures", columns)[name]
+
+
 @kept
-def figures(params: EllipticGearParams) -> dict[str, Scalar]:
-    """Name to value and unit."""
-    a, e = ellipse_of(params).semi_major, params.eccentricity
+def _sought_of(params: EllipticGearParams) -> dict[str, float]:
+    """What is sought of one design: the figures of Q; of a train those of its last gear, too."""
+    window = point_window(params)
+    found = {
+        "Q.constant_speed_window.start": window.start,
+        "Q.constant_speed_window.end": window.start + window.length,
+        "Q.constant_speed_window.length": window.length,
+        "Q.constant_speed_window.band": band_of(params),
+        "Q.constant_speed_window.least_speed": window.low,
+    }
+    for name, top in point_peaks(params).items():
+        found |= {f"Q.{name}.max": top.value, f"Q.{name}.max.theta2": top.angle}
+    if params.stages == 1:
+        return found
     omega = params.speed * math.tau / 60
-    phase = params.phase_angle
-    last = "4" if phase is None else "5"
 
     def extreme(name: str, sign: float = 1.0) -> Callable[[Array], Array]:
         def values(theta2: Array) -> Array:
-            gear = coupled_gears(Turning.of(theta2, omega), e, phase)[1]
-            found: Array = sign * np.abs(getattr(gear, name))
-            return found
+            gear = coupled_gears(Turning.of(theta2, omega), params.eccentricity, params.phase_angle)[1]
+            sizes: Array = sign * np.abs(getattr(gear, name))
+            return sizes
 
         return values
 
-    fastest, slowest = peak(extreme("omega")).value, -peak(extreme("omega", -1.0)).value
-    window = point_window(params)
-    found = {
-        "centre_distance": Scalar(2 * a, "mm"),
-        "ratio_max": Scalar(fastest / omega, ""),
-        "ratio_min": Scalar(slowest / omega, ""),
-        f"omega{last}_max": Scalar(fastest, "rad/s"),
-        f"alpha{last}_max": Scalar(peak(extreme("alpha")).value, "rad/s^2"),
-        f"jerk{last}_max": Scalar(peak(extreme("jerk")).value, "rad/s^3"),
-    }
-    units = {"speed": "mm/s", "acceleration": "mm/s^2", "jerk": "mm/s^3"}
-    for name, top in point_peaks(params).items():
-        found |= {
-            f"Q.{name}.max": Scalar(top.value, units[name]),
-            f"Q.{name}.max.theta2": Scalar(top.angle, "rad"),
-        }
-    return found | {
-        "Q.constant_speed_window.start": Scalar(window.start, "rad"),
-        "Q.constant_speed_window.end": Scalar(window.start + window.length, "rad"),
-        "Q.constant_speed_window.length": Scalar(window.length, "rad"),
-        "Q.constant_speed_window.band": Scalar(band_of(params), "mm/s"),
-        "Q.constant_speed_window.least_speed": Scalar(window.low, "mm/s"),
-        "pressure_angle_max": Scalar(
-            steepest_shaft_pressure_angle(e, math.radians(params.pressure_angle)), "rad"
-        ),
-    }
+    for name in ("omega", "alpha", "jerk"):
+        found[f"{name}5_max"] = peak(extreme(name)).value
+    return found | {"ratio_min": -peak(extreme("omega", -1.0)).value / omega}

@@ -19,7 +19,7 @@ from mechwright_elliptic_gears.kinematics.peak import grid_of, peak
 from mechwright_elliptic_gears.kinematics.point import point_of_coupler
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of
-from mechwright_elliptic_gears.parts.layout import Layout
+from mechwright_elliptic_gears.parts.layout import layout_of
 from mechwright_elliptic_gears.parts.plates import coupler_part
 
 
@@ -48,7 +48,7 @@ class Masses:
 @kept
 def masses_of(params: EllipticGearParams) -> Masses:
     """Of full plates: bores are part of them, holes of gears are not looked at."""
-    layout = Layout.of(params)
+    layout = layout_of(params)
     link = coupler_part(params, layout)
     assert link.outline is not None  # noqa: S101 - it is a plate
     own, _ = body(link.outline, layout.coupler, params.material)

@@ -34,7 +34,4 @@ def held_by(params: EllipticGearParams) -> dict[str, Joint]:
 
 def _coupler(one: str, two: str, focus: tuple[float, float, float]) -> dict[str, Joint]:
     """The link between the free foci of two gears, 2a long."""
-    return {
-        "j": Joint("revolute", one, "coupler", focus),
-        "k": Joint("revolute", two, "coupler", focus),
-    }
+    return {"j": Joint("revolute", one, "coupler", focus), "k": Joint("revolute", two, "coupler", focus)}

@@ -59,24 +59,12 @@ class Mesh:
         behind = torque_behind(gear4, gear5, params, masses, driver=False)
         return gear4, gear5, np.sign(gear5.omega) * behind * gear4.omega / gear5.omega
 
-    def driver(self, theta2: Array) -> Turning:
-        """The driving gear at angles (n,) of gear 2, rad and rad/s."""
-        return self.turning(theta2)[0]
-
-    def contact(self, theta2: Array) -> EllipticMesh:
-        """The pitch point; angles of a driver that turns backwards count the other way."""
-        return self.loaded(theta2)[0]
-
     def torque(self, theta2: Array) -> Array:
         """On the driven gear, N m, as of :meth:`turning`."""
         return self.turning(theta2)[2]
 
-    def force(self, theta2: Array) -> Array:
-        """Along the pitch tangent, N, of the flank that has the shorter lever."""
-        return self.loaded(theta2)[1]
-
     def loaded(self, theta2: Array) -> tuple[EllipticMesh, Array]:
-        """The pitch point, and the force (n,), N, along the pitch tangent there."""
+        """The pitch point, and the force (n,), N, along the pitch tangent, of the shorter lever."""
         driver, _, torque = self.turning(theta2)
         point = EllipticMesh.at(driver.theta, ellipse_of(self.params).semi_major, self.params.eccentricity)
         alpha = math.radians(self.params.pressure_angle)

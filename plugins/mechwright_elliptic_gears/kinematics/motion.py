@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Mapping
+from functools import reduce
 from typing import Any
 
 import numpy as np
 
 from mechwright import Array, Channel, Curve, Load, Motion, Poses, Trace
+from mechwright.contracts.figure import scalars
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import along, turning_channels
@@ -18,7 +20,7 @@ from mechwright_elliptic_gears.kinematics.equations import (
     shaft_pressure_angle,
     train,
 )
-from mechwright_elliptic_gears.kinematics.figures import figures
+from mechwright_elliptic_gears.kinematics.figures import figures_of
 from mechwright_elliptic_gears.kinematics.joints import held_by
 from mechwright_elliptic_gears.kinematics.point import place, point_of_coupler
 from mechwright_elliptic_gears.parameters import EllipticGearParams
@@ -29,11 +31,12 @@ from mechwright_elliptic_gears.parts.layout import (
     DOWELS,
     PHASE_PIN,
     PIN_KEEPER,
-    Layout,
     clamp_screws,
     dividing_of,
     keeper_of,
+    layout_of,
 )
+from mechwright_elliptic_gears.table import GearTable, table_of
 
 
 def motion_of(params: EllipticGearParams, samples: Samples) -> Motion:
@@ -64,11 +67,20 @@ def driven_by(params: EllipticGearParams, gear2: Turning, time: Array) -> Motion
     )
     curves = {f"pitch-{name}": Curve.planar(name, pitch) for name in poses if name.startswith("gear-")}
     loads = {"load_torque": Load("gear-4" if phase is None else "gear-5", resisting=params.load_torque)}
-    return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves, loads)
+    return Motion(
+        "theta2",
+        channels,
+        poses,
+        scalars(figures_of(table_of(params))),
+        traces,
+        held_by(params),
+        curves,
+        loads,
+    )
 
 
-def _turning(gear2: Turning, e: Any, phase: float | None) -> dict[str, Turning]:
-    """The gears by their numbers, and the coupler last; many pairs are columns (m, 1)."""
+def _turning(gear2: Turning, e: Any, phase: Any) -> dict[str, Turning]:
+    """The gears by their numbers, and the coupler last; designs are columns (n, 1)."""
     if phase is None:
         gear4 = driven(gear2, e)
         return {"2": gear2, "4": gear4, "3": coupler(gear2, gear4)}
@@ -76,9 +88,13 @@ def _turning(gear2: Turning, e: Any, phase: float | None) -> dict[str, Turning]:
     return {"2": gear2, "3": gear3, "4": gear4, "5": gear5, "6": coupler(gear4, gear5)}
 
 
-def pair_channels(theta2: Array, a: Any, e: Any, omega: Any, alpha: Any, c: Any) -> dict[str, Channel]:
-    """The channels of pairs at angles (n,) of gear 2; all else are columns (m, 1), angles in rad."""
-    return _channels(_turning(Turning.of(theta2, omega), e, None), a, e, theta2 / omega, alpha, c)
+def channels_of(m: GearTable, samples: int) -> dict[str, Channel]:
+    """The channels (n, samples) of a table of designs over one turn of gear 2 at constant speed."""
+    given, theta2 = m.given, travelled(math.tau, samples)
+    e, phase = given.eccentricity, given.phase_angle
+    alpha, c = np.radians(given.pressure_angle), place(given.point_along, given.point_across, m.semi_major)
+    turning = _turning(Turning.of(theta2, m.omega), e, phase)
+    return _channels(turning, m.semi_major, e, theta2 / m.omega, alpha, c)
 
 
 def _channels(
@@ -102,7 +118,7 @@ def _channels(
         }
     channels |= _point_channels(q)
     inputs = [gear2] if pair else [gear2, first]
-    steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
+    steepest = reduce(np.maximum, [shaft_pressure_angle(one, e, alpha) for one in inputs])
     channels["pressure_angle"] = Channel(steepest, "rad", "pressure angle at the shaft")
     return channels
 
@@ -146,7 +162,7 @@ def _pair_poses(turning: Mapping[str, Turning], a: float, e: float) -> dict[str,
 
 def _train_poses(params: EllipticGearParams, turning: Mapping[str, Turning]) -> dict[str, Poses]:
     """Gears, coupler, joints (their pins turn with gears 4 and 5), dowels, and what stands still."""
-    layout = Layout.of(params)
+    layout = layout_of(params)
     a, e = layout.semi_major, layout.eccentricity
     theta4, theta5 = turning["4"].theta, turning["5"].theta
     j, k = _free_focus(theta4, a, e), _free_focus(theta5, a, e)
@@ -182,7 +198,7 @@ def _joining_poses(params: EllipticGearParams, theta3: Array, theta4: Array) -> 
             name: Poses.planar(clamp.circle * np.cos(theta3 + at), clamp.circle * np.sin(theta3 + at), theta3)
             for name, at in zip(clamp_screws(params), clamp.directions, strict=True)
         }
-    radius = Layout.of(params).dowel_circle / 2
+    radius = layout_of(params).dowel_circle / 2
     return {
         name: Poses.planar(radius * np.cos(theta3 + at), radius * np.sin(theta3 + at), theta3)
         for name, at in (DOWELS.items() if params.dowelled else ())

@@ -54,10 +54,7 @@ def point_of_coupler(
 
 
 def speed_of_q(
-    theta2: Array,
-    eccentricity: Array | float,
-    phase: Array | float | None,
-    c: Complex | complex = 0.5,
+    theta2: Array, eccentricity: Array | float, phase: Array | float | None, c: Complex | complex = 0.5
 ) -> Array:
     """Speed of Q over a ω2, and nothing else, for many designs at once.
 

@@ -178,11 +178,7 @@ class _Search:
         low, high = np.minimum(low, at_end), np.maximum(high, at_end)
         start = self._last(start, start - most, low, high, _FINE)
         ends, low, _ = self.reach(start, _FINE)
-        return max(
-            window,
-            Window(float(start[0]), float(ends[0] - start[0]), float(low[0])),
-            key=_length,
-        )
+        return max(window, Window(float(start[0]), float(ends[0] - start[0]), float(low[0])), key=_length)
 
     def reach(self, starts: Array, rounds: int = _COARSE) -> tuple[Array, Array, Array]:
         """End of the band for each start (k,), and the least and greatest speed before it."""

@@ -1,4 +1,4 @@
-"""Areas of the toothed outlines of many pairs at once, in squares of their semi-major axes.
+"""Areas of toothed outlines as columns over designs, in squares of their semi-major axes.
 
 Green's theorem in the moving frame r, t, n (outward), ρ at arc s of the pitch ellipse, origin in its centre,
 with p = r n, q = r t and what the rack's module says of the curves: 2 dA is
@@ -44,7 +44,7 @@ def areas_of(gears: Gears) -> Array:
         rows = rows[np.argsort(places[rows], kind="stable")]
         for start in range(0, rows.size, BLOCK):
             some = rows[start : start + BLOCK]
-            area[some] = of(gears.rows(some), int(min(places[some].max(initial=4), MOST_PLACES)))
+            area[some] = of(gears.rows(some, fall.size), int(min(places[some].max(initial=4), MOST_PLACES)))
     return area
 
 

@@ -13,18 +13,18 @@ axis is off:
     2 (D + c) / cos α
 """
 
-import math
+from typing import Any
 
 import numpy as np
 
-from mechwright import Array
+from mechwright.contracts.design_table import number
 from mechwright.mechanics.gearing.backlash import LEFT, PLANNED, pair_backlash, whole
 from mechwright.tolerances import OFF_CENTRE
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 
 
-def least_backlash(params: EllipticGearParams) -> float:
-    """Backlash, mm, of the pair or train.
+def least_backlash(params: EllipticGearParams) -> Any:
+    """Backlash, mm, of the pair or train; a column of a table.
 
     Examples
     --------
@@ -34,7 +34,7 @@ def least_backlash(params: EllipticGearParams) -> float:
     return _backlash(params, LEFT, OFF_CENTRE)
 
 
-def jamming_backlash(params: EllipticGearParams) -> float:
+def jamming_backlash(params: EllipticGearParams) -> Any:
     """Backlash, mm, below which walls as they are planned jam at the exact centre distance.
 
     >>> jamming_backlash(EllipticGearParams())
@@ -43,24 +43,16 @@ def jamming_backlash(params: EllipticGearParams) -> float:
     return _backlash(params, PLANNED, 0.0)
 
 
-def _backlash(params: EllipticGearParams, left: float, off_centre: float) -> float:
-    alpha = np.asarray(math.radians(params.pressure_angle))
+def _backlash(params: EllipticGearParams, left: float, off_centre: float) -> Any:
+    alpha = np.radians(params.pressure_angle)
     if params.stages == 1:
-        return float(_of_pairs(np.asarray(params.eccentricity), alpha, left, off_centre))
-    return float(whole(2 * (left + off_centre) / np.cos(alpha)))
+        # The common tangent of two equal ellipses tilts by arcsin e at the worst.
+        upright = np.sqrt(1 - np.square(params.eccentricity))
+        return number(pair_backlash(upright, alpha, left, off_centre))
+    return number(whole(2 * (left + off_centre) / np.cos(alpha)))
 
 
-def least_backlashes(eccentricity: Array, pressure_angle: Array) -> Array:
-    """As :func:`least_backlash` of many pairs (n,), their angles in rad."""
-    return _of_pairs(eccentricity, pressure_angle, LEFT, OFF_CENTRE)
-
-
-def _of_pairs(eccentricity: Array, alpha: Array, left: float, off_centre: float) -> Array:
-    # The common tangent of two equal ellipses tilts by arcsin e at the worst.
-    return pair_backlash(np.sqrt(1 - eccentricity**2), alpha, left, off_centre)
-
-
-def backlash_of(params: EllipticGearParams) -> float:
+def backlash_of(params: EllipticGearParams) -> Any:
     """The design's backlash, mm."""
     return least_backlash(params) if params.backlash is None else params.backlash
 

@@ -1,19 +1,10 @@
 """Sintered bronze bushes (ISO 2795) of a train: in the base plate and in gears, wherever something turns."""
 
-from collections.abc import Iterator
-
-import numpy as np
-
-from mechwright import DesignError, Finding, Instance, Part
+from mechwright import DesignError, Instance, Part
 from mechwright.contracts.fits import Fit, hole_fit
-from mechwright.mechanics.gearing.checks import LEAST_RIM
-from mechwright.standards.bushes import Bush, bush_for, bushes
+from mechwright.standards.bushes import Bush, bush_for
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.parts.gear import rack_of, room
-from mechwright_elliptic_gears.parts.layout import Layout, dividing_of
-
-WALL = 1.0
-"""Between a bush and the holes of the phase pin, mm: a bush is pressed in, and nothing more bears there."""
+from mechwright_elliptic_gears.parts.layout import Layout
 
 _BRONZE = (0.72, 0.56, 0.34)
 
@@ -49,9 +40,7 @@ def bush_seat(params: EllipticGearParams, length: float) -> Fit | None:
 def bush_parts(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]:
     """All bushes: flush with the upper face of the base plate, and with the lower ones of gears."""
     heights = {"gear-3": layout.lower, "gear-4": layout.upper, "gear-5": layout.upper}
-    places = {
-        layout.thickness: [(body, heights[body]) for body in idling(params)],
-    }
+    places = {layout.thickness: [(body, heights[body]) for body in idling(params)]}
     base = bush_of(params, layout.base)
     if base is not None:
         places.setdefault(layout.base, []).extend((body, -base.length) for body in turning_axes(params))
@@ -75,56 +64,3 @@ def bush_parts(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]:
         )
         for length, at in by_length.items()
     )
-
-
-def bush_findings(params: EllipticGearParams) -> Iterator[Finding]:
-    """A bore for which bushes are sold, plates that hold one, and a rim around those of the gears."""
-    if not params.bushes:
-        return
-    layout = Layout.of(params)
-    sizes = {one.bore: one for one in bushes()}
-    if params.bore not in sizes:
-        near = min(sizes, key=lambda bore: (abs(bore - params.bore), bore))
-        sold = ", ".join(f"{bore:g}" for bore in sizes)
-        yield Finding.error(
-            "train.bush",
-            "bore",
-            f"no bush is sold for a shaft of {params.bore:g} mm; one of: {sold}",
-            params.bore,
-            near,
-            "mm",
-            f"make it {near:g}, or leave bushes out",
-            proposed=({"parameters.bore": near}, {"parameters.bushes": None}),
-        )
-        return
-    size = sizes[params.bore]
-    for key, thickness in (("thickness", layout.thickness), ("base_thickness", layout.base)):
-        if thickness < size.lengths[0]:
-            yield Finding.error(
-                "train.bush",
-                key,
-                f"the shortest bush on a shaft of {params.bore:g} mm is {size.lengths[0]:g} mm long, and the "
-                f"plate {thickness:g} mm thick",
-                thickness,
-                size.lengths[0],
-                "mm",
-                f"make it {size.lengths[0]:g}, or leave bushes out",
-                proposed=({f"parameters.{key}": size.lengths[0]}, {"parameters.bushes": None}),
-            )
-    rim = room(params, np.array([[0.0, 0.0]])) - size.outside / 2
-    inner = dividing_of(params).rings[0] - layout.dowel / 2 if params.phase_joint == "pins" else np.inf
-    for wall, least, what in (
-        (rim, LEAST_RIM * rack_of(params).module, "the nearest root"),
-        (inner - size.outside / 2, WALL, "the holes of the phase pin"),
-    ):
-        if wall < least:
-            yield Finding.error(
-                "train.bush",
-                "bushes",
-                f"a bush of {size.outside:g} mm outside leaves {wall:.2f} mm to {what}",
-                wall,
-                least,
-                "mm",
-                "take a thinner bore, or leave bushes out",
-                proposed=({"parameters.bushes": None},),
-            )

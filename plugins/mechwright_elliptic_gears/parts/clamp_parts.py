@@ -38,11 +38,7 @@ def clamp_plates(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]
     return (
         _disc(params, "clamp-flange", clamp.outside, layout.gap, over),
         _disc(
-            params,
-            "clamp-register",
-            clamp.spigot.middle / 2,
-            layout.thickness - REGISTER_LOW,
-            layout.upper,
+            params, "clamp-register", clamp.spigot.middle / 2, layout.thickness - REGISTER_LOW, layout.upper
         ),
         _disc(params, "clamp-ring", clamp.outside, clamp.ring, top, (mark,)),
     )

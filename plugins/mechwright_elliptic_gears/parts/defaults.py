@@ -20,31 +20,26 @@ from mechwright.mechanics.gearing.usual import (
     teeth_without_undercut,
     tip_radius_beside,
 )
+from mechwright_elliptic_gears.kinematics.ellipse import perimeter_of
 from mechwright_elliptic_gears.parts.tooth_offset import offset_miss
 
 TEETH = 25
 """The default of the table."""
 
-USUAL = {
-    "dedendum": DEDENDUM,
-    "tip_radius": TIP_RADIUS,
-    "teeth": TEETH,
-    "thickness": FACE,
-    "bore": SHAFTS[0],
-}
+USUAL = {"dedendum": DEDENDUM, "tip_radius": TIP_RADIUS, "teeth": TEETH, "thickness": FACE, "bore": SHAFTS[0]}
 """Parameters that follow where they are left out, in the order in which they do, and what is usual."""
 
 TRAIN = 3.0
 """Of a train, semi-major axis over bore: beside its shafts it has dowels and the joints of its coupler."""
 
 Table = Callable[[str], Any]
-"""Parameters by their names: numbers, or arrays (n,) over designs."""
+"""Parameters by their names: numbers, or columns (n, 1) over designs."""
 
 
 def following(table: Table, given: Container[str]) -> dict[str, Any]:
     """What is left out, as it follows from what is ``given`` and from each other.
 
-    A value is an array (n,) where it follows from one.
+    A value is a column where it follows from one.
     """
     found: dict[str, Any] = {}
 
@@ -71,30 +66,20 @@ def _teeth(table: Table) -> Any:
     """
     e, angle, dedendum = np.asarray(table("eccentricity")), table("pressure_angle"), table("dedendum")
     # An ellipse of semi-major axis 1 is bent most at the ends of that axis, with a radius of 1 - e².
-    bend = _perimeter(e) / (1 - e * e)
+    bend = perimeter_of(e) / (1 - e * e)
     depth = straight_depth(dedendum, table("tip_radius"), angle)
     teeth = np.maximum(teeth_without_undercut(bend, depth, dedendum, angle), TEETH)
-    teeth = np.where(teeth > MOST_TEETH, TEETH, teeth)
+    teeth = np.where(teeth > MOST_TEETH, TEETH, teeth).astype(int)
     offset = table("tooth_offset")
-    if (
-        offset is not None
-        and offset_miss(offset, int(teeth)) > 0
-        and offset_miss(offset, int(teeth) + 1) == 0
-    ):
-        teeth = teeth + 1
-    return teeth
-
-
-def _perimeter(e: Any) -> Any:
-    """Of an ellipse of semi-major axis 1: Ramanujan's second formula, off by less than 1e-5 up to e = 0.9."""
-    b = np.sqrt(1 - e * e)
-    h = ((1 - b) / (1 + b)) ** 2
-    return math.pi * (1 + b) * (1 + 3 * h / (10 + np.sqrt(4 - 3 * h)))
+    if offset is None:
+        return teeth
+    missed = (offset_miss(offset, teeth) > 0) & (offset_miss(offset, teeth + 1) == 0)
+    return np.where(missed, teeth + 1, teeth)
 
 
 def _sizes(table: Table) -> tuple[Any, Any]:
     """Semi-major axis and module, mm."""
-    perimeter, teeth = _perimeter(np.asarray(table("eccentricity"))), table("teeth")
+    perimeter, teeth = perimeter_of(np.asarray(table("eccentricity"))), table("teeth")
     a, module = table("semi_major"), table("module")
     if a is None:
         return math.pi * module * teeth / perimeter, module

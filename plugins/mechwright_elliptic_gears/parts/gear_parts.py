@@ -23,7 +23,7 @@ from mechwright_elliptic_gears.parts.clamp_parts import (
 from mechwright_elliptic_gears.parts.dividing import START
 from mechwright_elliptic_gears.parts.fitting_marks import gear_marks
 from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of, teeth_of
-from mechwright_elliptic_gears.parts.layout import DOWELS, Layout, dividing_of, keeper_of
+from mechwright_elliptic_gears.parts.layout import DOWELS, Layout, dividing_of, keeper_of, layout_of
 from mechwright_elliptic_gears.parts.plates import base_part, coupler_part
 from mechwright_elliptic_gears.parts.turned import keeper_parts, round_parts
 
@@ -79,7 +79,7 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     phase = params.phase_angle
     if phase is None:
         return (Gear("gear", (("gear-2", 0.0), ("gear-4", 0.0)), key),)
-    layout = Layout.of(params)
+    layout = layout_of(params)
     low, high = layout.lower, layout.upper
     back = -phase_offset(phase, params.eccentricity) % math.tau
     joint = Bore("joint", (layout.focus, 0.0), layout.pin, 0, layout.thickness)
@@ -206,7 +206,7 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     gears = tuple(gear_part(params, gear) for gear in gears_of(params))
     if params.stages == 1:
         return gears
-    layout, opening = Layout.of(params), opening_of(params)
+    layout, opening = layout_of(params), opening_of(params)
     assert opening is not None  # noqa: S101 - a train has a bore
     plates: tuple[Part, ...] = (coupler_part(params, layout), base_part(params, layout))
     pin = dividing_of(params).pin_size if params.phase_joint == "pins" else None

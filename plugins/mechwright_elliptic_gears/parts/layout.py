@@ -6,9 +6,14 @@ the next gear or the coupler sweeps over them.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
 
 from mechwright import kept
+from mechwright.contracts.design_table import Rowwise
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.clamp import clamp_of
 from mechwright_elliptic_gears.parts.dividing import Dividing, circle_for, placed
@@ -66,7 +71,7 @@ DOWEL_GAP = 0.5
 
 
 @dataclass(frozen=True)
-class Layout:
+class Layout(Rowwise):
     """Sizes and heights of a train, mm.
 
     Parameters
@@ -99,28 +104,13 @@ class Layout:
     stub: float
 
     @classmethod
-    def of(cls, params: EllipticGearParams) -> "Layout":
-        """The layout of a train."""
-        bore = params.bore
-        pin = _or(params.pin_diameter, _stock_size(bore / 2))
-        dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
-        gap = params.spacing
-        return cls(
-            ellipse_of(params).semi_major,
-            params.eccentricity,
-            params.thickness,
-            bore,
-            gap,
-            pin,
-            _or(params.coupler_thickness, COUPLER_THICKNESS),
-            _or(params.tracer_diameter, pin),
-            _or(params.base_thickness, BASE_THICKNESS),
-            dowel,
-            params.dowel_circle or _dowel_circle(params, dowel),
-            max(gap, _needed(params, dowel)),
-            _or(params.stub_diameter, bore),
-            _or(params.stub_length, STUB * bore),
-        )
+    def columns(cls, layouts: Sequence["Layout"]) -> "Layout":
+        """The layouts of the designs of a table, as columns."""
+        columns: dict[str, Any] = {
+            name: np.array([[getattr(one, name)] for one in layouts])
+            for name in (one.name for one in fields(cls))
+        }
+        return cls(**columns)
 
     @property
     def lower(self) -> float:
@@ -151,6 +141,31 @@ class Layout:
     def focus(self) -> float:
         """From a gear's axis to its joint: 2 a e."""
         return 2 * self.semi_major * self.eccentricity
+
+
+@kept
+def layout_of(params: EllipticGearParams) -> Layout:
+    """The layout of a train."""
+    bore = params.bore
+    pin = _or(params.pin_diameter, _stock_size(bore / 2))
+    dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
+    gap = params.spacing
+    return Layout(
+        ellipse_of(params).semi_major,
+        params.eccentricity,
+        params.thickness,
+        bore,
+        gap,
+        pin,
+        _or(params.coupler_thickness, COUPLER_THICKNESS),
+        _or(params.tracer_diameter, pin),
+        _or(params.base_thickness, BASE_THICKNESS),
+        dowel,
+        params.dowel_circle or _dowel_circle(params, dowel),
+        max(gap, _needed(params, dowel)),
+        _or(params.stub_diameter, bore),
+        _or(params.stub_length, STUB * bore),
+    )
 
 
 def screw_offset_of(params: EllipticGearParams) -> float:
@@ -203,7 +218,7 @@ def _keeper(params: EllipticGearParams, dowel: float) -> Keeper | None:
 
 def keeper_of(params: EllipticGearParams) -> Keeper | None:
     """What keeps the pin of a dividing circle down; None without such a pin, or without room."""
-    return _keeper(params, Layout.of(params).dowel)
+    return _keeper(params, layout_of(params).dowel)
 
 
 def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
@@ -218,7 +233,7 @@ def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
 @kept
 def dividing_of(params: EllipticGearParams) -> Dividing:
     """The holes of a train whose phase a pin sets; what has no place is left out and named."""
-    layout = Layout.of(params)
+    layout = layout_of(params)
     return placed(params.set_phases, params.eccentricity, layout.dowel, layout.dowel_circle / 2)
 
 

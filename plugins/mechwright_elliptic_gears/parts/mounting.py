@@ -2,11 +2,12 @@
 
 import math
 
-from mechwright import GroundPlate, Hub, Mounting, MountingError, Spindle
+from mechwright import GroundPlate, Mounting, MountingError
 from mechwright.contracts.mounting import SCREW_HOLE
+from mechwright.mechanics.gearing.pair_parts import pair_mounting
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import ellipse_of
-from mechwright_elliptic_gears.parts.layout import OUTWARDS, Layout, screw_offset_of, screw_places
+from mechwright_elliptic_gears.parts.layout import OUTWARDS, layout_of, screw_offset_of, screw_places
 
 
 def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
@@ -19,23 +20,9 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
     """
     if params.stages > 1:
         return _base_of(params)
-    if params.bore == 0:
-        raise MountingError(
-            "parameters.bore: gears without a bore have no shafts; set bore = 10",
-            ({"parameters.bore": 10.0},),
-        )
-    ellipse = ellipse_of(params)
-    a, e = ellipse.semi_major, params.eccentricity
+    a, e = ellipse_of(params).semi_major, params.eccentricity
     force = 1000 / (a * (1 - e) * math.cos(math.radians(params.pressure_angle)))
-    hub = Hub(0.0, params.thickness, params.bore, params.keyway_width, material=params.material)
-    return Mounting(
-        (
-            Spindle("2", "gear-2", (0.0, 0.0), hub, "parameters.bore", drives=True, force=force),
-            Spindle(
-                "4", "gear-4", (2 * a, 0.0), hub, "parameters.bore", torque=(1 + e) / (1 - e), force=force
-            ),
-        )
-    )
+    return pair_mounting(params, 2 * a, force, (1 + e) / (1 - e), ("2", "4"))
 
 
 def _base_of(params: EllipticGearParams) -> GroundPlate:
@@ -46,7 +33,7 @@ def _base_of(params: EllipticGearParams) -> GroundPlate:
             f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}",
             ({"parameters.screw_hole": SCREW_HOLE},),
         )
-    layout = Layout.of(params)
+    layout = layout_of(params)
     corner = screw_places(params)[-1]
     x, y = corner.real, corner.imag
     return GroundPlate(

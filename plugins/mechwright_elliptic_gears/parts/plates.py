@@ -30,8 +30,7 @@ COUPLER, BASE = "coupler", "base"
 
 
 _FLAT = 1e-6
-"""mm. A point nearer than this to a line, or to another point, lies on it: a nanometre, ten times what two
-segments of a loop may be apart."""
+"""mm. A point Q nearer to the line J-K lies on it: ten times what two segments of a loop may be apart."""
 
 
 def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
@@ -42,8 +41,8 @@ def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
         Boss(complex(2 * layout.semi_major), layout.eye, layout.pin, "joint-k"),
         Boss(q, layout.eye, layout.tracer, "tracer"),
     ]
-    outer = rounded_hull([(eye.centre.real, eye.centre.imag) for eye in eyes], layout.eye)
-    outline, at = Outline(outer, bores(eyes)), Instance(COUPLER, layout.link)
+    outline = Outline(rounded_hull(corners_of(eyes), layout.eye), bores(eyes))
+    at = Instance(COUPLER, layout.link)
     return _plate(COUPLER, outline, layout.coupler, params.material, at, (0.72, 0.32, 0.27))
 
 
@@ -88,13 +87,22 @@ def _plate(
     return Part(name, outline, thickness, material, (at,), colour, tuple(features))
 
 
-def rounded_hull(points: Sequence[Point], radius: float) -> Loop:
-    """The convex hull of discs of one radius, mm, around the points: lines and arcs.
+def corners_of(eyes: Sequence[Boss]) -> list[Point]:
+    """Corners of the hull of J, K on +x, and Q: counter-clockwise from the first one on x."""
+    j, k, q = ((round(eye.centre.real, 6), round(eye.centre.imag, 6)) for eye in eyes)
+    if abs(q[1]) <= _FLAT:
+        return [j, k]
+    around = [j, k, q] if q[1] > 0 else [j, q, k]
+    first = around.index(min(around))
+    return around[first:] + around[:first]
+
+
+def rounded_hull(corners: Sequence[Point], radius: float) -> Loop:
+    """The convex hull of discs of one radius, mm, around its corners, counter-clockwise: lines and arcs.
 
     >>> round(rounded_hull([(0, 0), (10, 0)], 1.0).area, 9) == round(20 + math.pi, 9)
     True
     """
-    corners = convex_hull(points)
     segments: list[Segment] = []
     count = len(corners)
     for i, (x, y) in enumerate(corners):
@@ -107,25 +115,3 @@ def rounded_hull(points: Sequence[Point], radius: float) -> Loop:
         segments.append(arc)
     segments.append(Line(segments[-1].end, segments[0].start, "side"))
     return Loop(tuple(segments))
-
-
-def convex_hull(points: Sequence[Point]) -> list[Point]:
-    """Corners of the convex hull, counter-clockwise, without points on its sides (monotone chain)."""
-
-    def half(ordered: Sequence[Point]) -> list[Point]:
-        chain: list[Point] = []
-        for point in ordered:
-            while len(chain) > 1 and _left(chain[-2], chain[-1], point) <= _FLAT:
-                chain.pop()
-            chain.append(point)
-        return chain[:-1]
-
-    grain = -round(math.log10(_FLAT))
-    ordered = sorted({(round(x, grain), round(y, grain)) for x, y in points})
-    return half(ordered) + half(ordered[::-1])
-
-
-def _left(a: Point, b: Point, p: Point) -> float:
-    """How far p lies to the left of the line from a to b, mm."""
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    return (dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / math.hypot(dx, dy)

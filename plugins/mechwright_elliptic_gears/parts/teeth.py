@@ -1,4 +1,4 @@
-"""Teeth of many pairs at once, in units of their semi-major axes.
+"""Teeth of elliptic gears as columns over designs, in units of their semi-major axes.
 
 Glossary
 --------
@@ -11,12 +11,14 @@ half
 """
 
 import math
-from dataclasses import dataclass, fields
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array
+from mechwright.contracts.design_table import Rowwise
 from mechwright.mechanics.gearing.teeth import FACTOR_SAMPLES
 
 _ROUGH, _EXACT = 1, 9
@@ -38,8 +40,8 @@ Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Gears:
-    """Gears of many designs; lengths in semi-major axes, columns (m, 1), angles in rad.
+class Gears(Rowwise):
+    """Gears of designs; lengths in semi-major axes, columns (m, 1), angles in rad.
 
     Parameters
     ----------
@@ -60,10 +62,6 @@ class Gears:
     addendum: Array
     dedendum: Array
     tip_radius: Array
-
-    def rows(self, chosen: NDArray[np.intp]) -> "Gears":
-        """Some of them."""
-        return Gears(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     @property
     def pitch(self) -> Array:
@@ -145,26 +143,52 @@ ENDS = SHARES[-1:]
 """Their ends."""
 
 
+BLOCK = 256
+"""Gears whose teeth are followed at once: arrays of a tenth of a megabyte."""
+
+_TOGETHER = 4
+"""Numbers of teeth that are followed together; gears of fewer have idle places."""
+
+_AT_ONCE = 8192
+"""Places of flanks that are looked at together: their arrays stay in the cache."""
+
+
+def in_blocks(gears: Gears, function: Callable[[Gears], tuple[Array, ...]]) -> list[Array]:
+    """Columns (m, 1) of a function of gears, in blocks of about as many teeth and terms of their arcs."""
+    order = np.lexsort((gears.eccentricity[:, 0], gears.teeth[:, 0] // _TOGETHER))
+    blocks = np.array_split(order, max(1, math.ceil(order.size / BLOCK)))
+    parts = [function(gears.rows(some, order.size)) for some in blocks]
+    back = np.argsort(order)
+    return [np.concatenate(columns)[back] for columns in zip(*parts, strict=True)]
+
+
 def least_regularity(gears: Gears, shares: Array = SHARES) -> Array:
-    """As of :class:`mechwright.mechanics.gearing.Teeth`: the least (m, 1) of all flanks at some shares."""
+    """The least share (m, 1) of its regularity at the pitch curve that a flank keeps, looked at at shares."""
+    return in_blocks(gears, lambda some: (_least_regularity(some, shares),))[0]
+
+
+def _least_regularity(gears: Gears, shares: Array) -> Array:
     arcs, (middles, there) = Arcs(gears.eccentricity), gears.half
     reach = gears.straight_depth * gears.module / (np.sin(gears.angle) * np.cos(gears.angle))
     least = np.full(gears.module.shape, np.inf)
+    batches = np.array_split(shares, min(shares.size, math.ceil(shares.size * there.size / _AT_ONCE)))
     for side in (-1.0, 1.0):
         crossing = middles + side * (gears.pitch / 2 - gears.half_space)
-        for t in shares:
+        for some in batches:
+            t, shape = np.repeat(some, middles.shape[1]), (1, some.size)
             # a tooth's flank runs down towards its space
-            u = arcs.parameter(crossing + side * t * reach, _EXACT)
+            u = arcs.parameter(np.tile(crossing, shape) + side * t * reach, _EXACT)
             radius = np.sqrt(1 - (gears.eccentricity * np.cos(u)) ** 2) ** 3 / arcs.semi_minor
             factor = 1 - t * gears.straight_depth * gears.module / (radius * np.sin(gears.angle) ** 2)
-            least = np.minimum(least, np.where(there, factor, np.inf).min(axis=1, keepdims=True))
+            kept = np.where(np.tile(there, shape), factor, np.inf)
+            least = np.minimum(least, kept.min(axis=1, keepdims=True))
     regularity: Array = np.minimum(least, 1.0)
     return regularity
 
 
 @dataclass(frozen=True)
-class Tips:
-    """Ends of the flanks of many gears, (m, 1) each, in modules.
+class Tips(Rowwise):
+    """Ends of the flanks of gears, (m, 1) each, in modules.
 
     Parameters
     ----------
@@ -183,16 +207,21 @@ class Tips:
 
 def tips_of(gears: Gears) -> Tips:
     """Follow the flanks to their tips."""
+    width, depth, found = in_blocks(gears, _tips_of)
+    return Tips(width, depth, found > 0)
+
+
+def _tips_of(gears: Gears) -> tuple[Array, Array, Array]:
     arcs, (middles, there) = Arcs(gears.eccentricity), gears.half
     one, two = (flank_end(gears, arcs, middles, side) for side in (-1.0, 1.0))
     turn = np.angle(np.conj(one.tangent) * two.tangent)
     width = (two.foot - one.foot + gears.addendum * gears.module * turn) / gears.module
     deep = np.maximum(one.way, two.way) * np.sin(gears.angle) * np.cos(gears.angle) / gears.module
     ends: Bools = np.logical_and(one.off < _TRIMMED, two.off < _TRIMMED)
-    return Tips(
+    return (
         np.where(there, width, np.inf).min(axis=1, keepdims=True),
         np.where(there, deep, 0.0).max(axis=1, keepdims=True),
-        np.asarray((ends | ~there).all(axis=1, keepdims=True)),
+        np.where((ends | ~there).all(axis=1, keepdims=True), 1.0, 0.0),
     )
 
 

@@ -1,4 +1,4 @@
-"""How far tips reach into their mates, in closed form: whether they can collide, and what keeps them out.
+"""How far tips reach into their mates, in closed form: what keeps them from colliding.
 
 A tooth's tip meets the mate's flank when the pitch point has gone the arc u from where that flank crosses the
 pitch curve, and the contact lies u sin α cos α below the pitch line of the rack. The rack's straight flank
@@ -9,16 +9,9 @@ and with too little room at the root it meets that as well.
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
-from mechwright import GeometryError
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.gearing.checks import LEAST_CLEARANCE
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.parts.gear import teeth_of
-
-DOUBT = 0.03
-"""Modules of flank left below a tip from which no tip was seen to collide, if it clears the root as well."""
 
 _SPARE = 0.005
 """Modules of flank that a cure leaves below the tips."""
@@ -27,36 +20,12 @@ _STEP = 1e-3
 """Modules: of a value that is named."""
 
 
-def tip_depth(params: EllipticGearParams) -> float:
-    """Depth, modules, below the mate's pitch curve of the rack at which the deepest tip ends its contact.
+def that_clear(params: EllipticGearParams, depth: float) -> Iterator[Change]:
+    """Changes that end the flanks below the tips and leave room at the roots, those of one key first.
 
-    Raises
-    ------
-    GeometryError
-        A flank does not reach its tip.
+    ``depth``, modules below the mate's pitch curve, is where the deepest tip ends its contact.
     """
-    teeth = teeth_of(params)
-    alpha = teeth.rack.pressure_angle
-    arcs = np.abs(teeth.curve.arc(teeth.tip_trim[0]) - teeth.flank_arcs)
-    return float(arcs.max()) * math.sin(alpha) * math.cos(alpha) / teeth.rack.module
-
-
-def may_collide(params: EllipticGearParams) -> bool:
-    """Whether only the mesh proof can tell: tips reach the fillets or roots of their mates, or nearly so."""
-    rack = teeth_of(params).rack
-    try:
-        left = rack.straight_depth / rack.module - tip_depth(params)
-    except GeometryError:
-        return False
-    return left < DOUBT or params.dedendum - params.addendum < LEAST_CLEARANCE
-
-
-def that_clear(params: EllipticGearParams) -> Iterator[Change]:
-    """Changes that end the flanks below the tips and leave room at the roots, those of one key first."""
-    try:
-        needed = tip_depth(params) + _SPARE
-    except GeometryError:
-        return
+    needed = depth + _SPARE
     blunt = 1 - math.sin(math.radians(params.pressure_angle))
     radius = _down((params.dedendum - needed) / blunt)
     deep = _up(max(needed + params.tip_radius * blunt, params.addendum + LEAST_CLEARANCE))

@@ -30,12 +30,7 @@ _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.4
 
 
 def round_parts(
-    layout: Layout,
-    opening: Opening,
-    *,
-    keyed: bool,
-    dowelled: bool,
-    phase_pin: Fit | None = None,
+    layout: Layout, opening: Opening, *, keyed: bool, dowelled: bool, phase_pin: Fit | None = None
 ) -> tuple[Part, ...]:
     """Everything that is no plate.
 
@@ -58,12 +53,7 @@ def round_parts(
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
-        _part(
-            "shaft-5",
-            _standing(layout, high + t),
-            (Instance("axis-5", -layout.base),),
-            _STEEL,
-        ),
+        _part("shaft-5", _standing(layout, high + t), (Instance("axis-5", -layout.base),), _STEEL),
         _part(
             "hub-spacer",
             tube(layout.bore, layout.spacer, layout.gap),

@@ -1,12 +1,14 @@
-"""Checks of the clamp that sets the phase: its room, what it holds, and how well its scale is set."""
+"""Rules of the clamp that sets the phase: its room, what it holds, and how well its scale is set."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from mechwright import Finding
-from mechwright.contracts.finding import errors
+from mechwright import Finding, Stage, at_stage
+from mechwright.contracts.design_rule import DesignRule, Note, Procedure
+from mechwright.contracts.design_table import by_row
+from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.mechanics.strength.bolts import CLAMP_SAFETY
 from mechwright.standards.screws import lengths
@@ -14,58 +16,22 @@ from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.kinematics.equations import phase_offset
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
 from mechwright_elliptic_gears.parameters import EllipticGearParams, cap_screws
-from mechwright_elliptic_gears.parts.clamp import (
-    HEAD_GAP,
-    LETTER,
-    SETTING,
-    clamp_of,
-    least_thread,
-    mark_of,
-)
+from mechwright_elliptic_gears.parts.clamp import HEAD_GAP, LETTER, SETTING, clamp_of, least_thread, mark_of
 from mechwright_elliptic_gears.parts.clamp_parts import scale_reach
 from mechwright_elliptic_gears.parts.gear import rack_of, room
-from mechwright_elliptic_gears.parts.layout import SPACER, Layout
-from mechwright_elliptic_gears.rules.pins import rounded_down, window_note
+from mechwright_elliptic_gears.parts.layout import SPACER, layout_of
+from mechwright_elliptic_gears.rules.pins import ahead, slower, window_note
+from mechwright_elliptic_gears.table import GearTable
 
 
-def clamp_findings(params: EllipticGearParams) -> Iterator[Finding]:
-    """Room for the clamp, room for its scale, torque, and the setting."""
-    layout = Layout.of(params)
-    found = list(_room(params, layout)) or list(_length(params))
-    yield from found
-    if errors(found):
-        return
-    yield from _torque(params)
-    clamp, phase = clamp_of(params), params.phase_degrees
-    turn = math.degrees(phase_offset(params.phase_angle or 0.0, params.eccentricity)) % 360
-    table = ", ".join(
-        f"{one:g} at {math.degrees(phase_offset(math.radians(one), params.eccentricity)):.3f}"
-        for one in params.set_phases
-    )
-    yield Finding.note(
-        "train.phase",
-        f"{clamp.screws} screws M{clamp.screw:g} clamp gear 4 {turn:.3f} degrees ahead of gear 3, for a "
-        f"phase of {phase:g}; marks of the scale, in degrees of the joint: {table}",
-        turn,
-        "deg",
-    )
-
-
-def setting_note(params: EllipticGearParams) -> Finding:
-    """What a mark that is set wrong does to the window."""
-    return window_note(params, SETTING / clamp_of(params).scale, f"a mark that is set {SETTING:g} mm wrong")
-
-
-def _length(params: EllipticGearParams) -> Iterator[Finding]:
+def _no_length(params: EllipticGearParams) -> Iterator[Finding]:
     """A screw that is sold goes through the clamp and finds enough thread in gear 3."""
     clamp, t = clamp_of(params), params.thickness
     if clamp.length is not None:
         return
     others = [params.model_copy(update={"clamp_screw": size}) for size in cap_screws()]
     fitting = [
-        clamp_of(one).screw
-        for one in others
-        if clamp_of(one).length is not None and not any(_room(one, Layout.of(one)))
+        clamp_of(one).screw for one in others if clamp_of(one).length is not None and not any(_room(one))
     ]
     better = min(fitting, key=lambda size: abs(size - clamp.screw), default=None)
     bites, grip = least_thread(params, clamp.screw), clamp.ring + t + params.spacing
@@ -93,9 +59,9 @@ def _length(params: EllipticGearParams) -> Iterator[Finding]:
     )
 
 
-def _room(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
+def _room(params: EllipticGearParams) -> Iterator[Finding]:
     """Rim of gear 4 round its register, the joint beside it, and a face for the scale."""
-    clamp, module = clamp_of(params), rack_of(params).module
+    clamp, module, layout = clamp_of(params), rack_of(params).module, layout_of(params)
     rim = room(params, np.zeros((1, 2))) - clamp.register
     beside = layout.focus - SPACER * layout.pin / 2 - clamp.outside
     for left, due, what in (
@@ -132,29 +98,73 @@ def _room(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
             return
 
 
-def _torque(params: EllipticGearParams) -> Iterator[Finding]:
-    """Friction against inertia at the worst of all phases."""
-    clamp = clamp_of(params)
-    holds = clamp.torque(params.material)
-    phases = {*params.set_phases, params.phase_degrees}
-    worst = max(sorted(phases), key=lambda phase: greatest_torque(params, phase).value)
-    needed = CLAMP_SAFETY * greatest_torque(params, worst).value
-    words = (
-        f"{clamp.screws} screws M{clamp.screw:g}, tightened with {clamp.tightening(params.material):.2g} N m "
-        f"to {clamp.preload(params.material):.0f} N, hold {holds:.3g} N m; at a phase of "
-        f"{worst:g} degrees inertia takes {needed / CLAMP_SAFETY:.3g} N m"
+def _needed(params: EllipticGearParams) -> tuple[float, float]:
+    """The worst of all phases, degrees, and the torque that inertia takes there with a margin, N m."""
+    phases = sorted({*params.set_phases, params.phase_degrees})
+    worst = max(phases, key=lambda phase: greatest_torque(params, phase).value)
+    return worst, CLAMP_SAFETY * greatest_torque(params, worst).value
+
+
+def _holds(m: GearTable) -> float:
+    """By friction, N m."""
+    return clamp_of(m.given).torque(m.given.material)
+
+
+def _torques(m: GearTable) -> str:
+    clamp, own = clamp_of(m.given), m.given.material
+    worst, needed = _needed(m.given)
+    return (
+        f"{clamp.screws} screws M{clamp.screw:g}, tightened with {clamp.tightening(own):.2g} N m to "
+        f"{clamp.preload(own):.0f} N, hold {_holds(m):.3g} N m; at a phase of {worst:g} degrees inertia "
+        f"takes {needed / CLAMP_SAFETY:.3g} N m"
     )
-    if needed <= holds:
-        yield Finding.note("train.clamp-torque", words, holds, "N m")
-        return
-    most = rounded_down(params.speed * math.sqrt(holds / needed))
-    yield Finding.error(
-        "train.clamp-torque",
-        "speed",
-        f"{words}, and a margin of {CLAMP_SAFETY:g} is due",
-        params.speed,
-        most,
-        "rev/min",
-        f"make speed at most {most:g}, or clamp_screw or clamp_screws larger",
-        proposed=({"parameters.speed": most},),
+
+
+def _used(m: GearTable) -> float:
+    """Share of what the clamp holds."""
+    return _needed(m.given)[1] / _holds(m)
+
+
+TORQUE = DesignRule[GearTable](
+    "train.clamp-torque",
+    "speed",
+    lambda f: f"{_torques(f.m)}, and a margin of {CLAMP_SAFETY:g} is due",
+    value=by_row(_used),
+    limit=1.0,
+    unit="rev/min",
+    remedy=lambda f: f"make speed at most {slower(f):g}, or clamp_screw or clamp_screws larger",
+    must_be="at most",
+    reported=lambda f: (f.m.given.speed, slower(f)),
+    proposed=lambda f: ({"parameters.speed": slower(f)},),
+)
+
+
+def _marks(m: GearTable) -> str:
+    params, clamp = m.given, clamp_of(m.given)
+    table = ", ".join(
+        f"{one:g} at {math.degrees(phase_offset(math.radians(one), params.eccentricity)):.3f}"
+        for one in params.set_phases
     )
+    return (
+        f"{clamp.screws} screws M{clamp.screw:g} clamp gear 4 {ahead(m):.3f} degrees ahead of gear 3, for a "
+        f"phase of {params.phase_degrees:g}; marks of the scale, in degrees of the joint: {table}"
+    )
+
+
+def _procedure(code: str, find: Callable[[EllipticGearParams], Iterator[Finding]]) -> Procedure[GearTable]:
+    return Procedure((code,), lambda m: at_stage(Stage.PARTS, find(m.given)), stage=Stage.PARTS)
+
+
+CLAMP = in_turn(
+    _procedure("train.clamp", _room),
+    _procedure("train.clamp-length", _no_length),
+    all_of(
+        TORQUE,
+        Note[GearTable]("train.clamp-torque", _torques, _holds, "N m", when=lambda m: _used(m) <= 1),
+        Note[GearTable]("train.phase", _marks, ahead, "deg"),
+    ),
+    window_note(
+        lambda m: SETTING / clamp_of(m.given).scale, lambda _: f"a mark that is set {SETTING:g} mm wrong"
+    ),
+)
+"""Room for the clamp and for its scale, torque, and the setting."""

@@ -1,12 +1,14 @@
 """Strength of teeth, shafts, keys and dowels under inertia and load, at the worst angle of a turn."""
 
 import math
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Finding, kept, material
+from mechwright import Array, Stage, kept, material
+from mechwright.contracts.rule_list import all_of, by_design, in_turn
+from mechwright.mechanics.gearing import driven_torque
 from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import (
     PIN_SHEAR,
@@ -15,48 +17,31 @@ from mechwright.mechanics.strength.allowed import (
     ROOT_SAFETY,
     allowed,
 )
-from mechwright.mechanics.strength.fastening import (
-    LONGEST_KEY,
-    key_pressure,
-    key_shear,
-    pin_pressure,
-    pin_shear,
-    ring_force,
-)
-from mechwright.mechanics.strength.hertz import (
-    contact_modulus,
-    flank_radius,
-    line_pressure,
-    relative_radius,
-)
-from mechwright.mechanics.strength.judging import STUD_SHARE, Stress, Way, judged
+from mechwright.mechanics.strength.fastening import pin_pressure, pin_shear, ring_force
+from mechwright.mechanics.strength.gear_stresses import loaded_key
+from mechwright.mechanics.strength.hertz import contact_modulus, flank_radius, line_pressure, relative_radius
+from mechwright.mechanics.strength.judging import STUD_SHARE, RowStressRule, Stress, Way
 from mechwright.mechanics.strength.shaft import von_mises
-from mechwright.mechanics.strength.tooth_bending import EllipticMesh, Rack, root_stress, virtual_teeth
+from mechwright.mechanics.strength.tooth_bending import (
+    FACTOR,
+    STRAIGHT,
+    EllipticMesh,
+    Rack,
+    form_factors,
+    root_stress,
+    virtual_teeth,
+)
+from mechwright.tolerances import exceeds
+from mechwright_elliptic_gears.kinematics.equations import alpha_peak
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
 from mechwright_elliptic_gears.kinematics.mesh_load import meshes_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import rack_of
-from mechwright_elliptic_gears.parts.layout import DOWELS, Layout
+from mechwright_elliptic_gears.parts.layout import DOWELS, layout_of
 from mechwright_elliptic_gears.parts.turned import MATERIAL
+from mechwright_elliptic_gears.table import GearTable, table_of
 
-
-def strength_findings(params: EllipticGearParams, *, advise: bool = True) -> Iterator[Finding]:
-    """Teeth, their flanks, then what joins gears and carries them; values that help only to ``advise``."""
-    told = partial(judged, advise=advise)
-    most = max(meshes_of(params), key=lambda mesh: mesh.greatest_force.value).greatest_force
-    load = f"{most.value:.4g} N on a tooth at {math.degrees(most.angle):.1f} degrees of gear 2"
-    wider = Way("thickness", params.thickness)
-    size = "module" if params.module is not None else "semi_major"
-    larger = Way(size, params.module or params.semi_major or 0.0)
-    less = [Way("load_torque", params.load_torque, up=False), Way("speed", params.speed, up=False)]
-    yield from told("gear.root", params, root_stresses, [wider, larger, *less], load)
-    yield from told("gear.flank", params, flank_pressures, [wider, larger, *less], load)
-    thicker = Way("bore", params.bore)
-    yield from told("gear.key", params, key_stresses, [wider, thicker, *less])
-    if params.stages == 2:
-        yield from told("train.shaft", params, shaft_stresses, [thicker, *less], load)
-        dowel = Way("dowel_diameter", Layout.of(params).dowel)
-        yield from told("train.dowel-load", params, dowel_stresses, [dowel, wider, *less])
+Stresses = Callable[[EllipticGearParams], Sequence[Stress]]
 
 
 @kept
@@ -114,19 +99,8 @@ def key_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
         torques["4"] = first.greatest_torque
     elif params.keyed_phase:
         torques["3"] = torques["4"] = greatest_torque(params, params.phase_degrees).value
-    bore, bears = opening.bore, min(params.thickness, LONGEST_KEY * opening.bore)
-    turned = REVERSING_KEY if first.reverses else 1.0
-    shear = PIN_SHEAR["alternating" if first.reverses else "swelling"]
     gear, torque = max(torques.items(), key=lambda item: item[1])
-    pressure = key_pressure(torque, bore, opening.key_top - bore / 2, bears)
-    limit = turned * allowed(params.material).key
-    sheared = key_shear(torque, bore, opening.width, bears)
-    return (
-        Stress(
-            f"the key of gear {gear} presses on it with", pressure, limit, material(params.material).strength
-        ),
-        Stress(f"the key of gear {gear} is sheared with", sheared, shear, material(MATERIAL).strength / 2),
-    )
+    return loaded_key(params, opening, torque, reverses=first.reverses, gear=gear)
 
 
 @kept
@@ -135,7 +109,7 @@ def shaft_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
 
     The greatest forces of both pairs are taken to act at once and in one direction.
     """
-    layout = Layout.of(params)
+    layout = layout_of(params)
     first, second = (mesh.greatest_force.value for mesh in meshes_of(params))
     low, high = layout.lower + layout.thickness / 2, layout.upper + layout.thickness / 2
     moments = {"2": first * low, "4": first * low + second * high, "5": second * high}  # N mm
@@ -157,7 +131,7 @@ def dowel_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
     """Shear of the dowels that join gears 3 and 4, and pressure on their holes; none where others do."""
     if not params.dowelled:
         return ()
-    layout, d = Layout.of(params), Layout.of(params).dowel
+    layout, d = layout_of(params), layout_of(params).dowel
     torque = greatest_torque(params, params.phase_degrees).value
     # Of milled holes all but one carry.
     force = ring_force(torque, len(DOWELS) - 1, layout.dowel_circle)
@@ -172,3 +146,100 @@ def dowel_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
             own.strength,
         ),
     )
+
+
+def _load(m: GearTable) -> str:
+    most = max(meshes_of(m.given), key=lambda mesh: mesh.greatest_force.value).greatest_force
+    return f"{most.value:.4g} N on a tooth at {math.degrees(most.angle):.1f} degrees of gear 2"
+
+
+def _ways(m: GearTable, *keys: str) -> list[Way]:
+    """What helps: larger parts, then less load."""
+    given = m.given
+    now = {key: getattr(given, key, None) for key in keys}
+    if "size" in now:
+        now["semi_major" if given.module is None else "module"] = given.module or given.semi_major
+    if "dowel_diameter" in now:
+        now["dowel_diameter"] = m.layout.dowel
+    larger = [Way(key, value) for key, value in now.items() if value is not None]
+    return [*larger, *(Way(key, getattr(given, key), up=False) for key in ("load_torque", "speed"))]
+
+
+def _bear(m: GearTable) -> Any:
+    """Pairs whose teeth bear the greatest of all that goes into the stress of a root at once.
+
+    A gear is within its pitch ellipse grown in proportion; it has no bore, and no play of the load.
+    """
+    given, a, e = m.given, m.semi_major, np.asarray(m.given.eccentricity)
+    if given.stages == 2:
+        return False
+    b, own, alpha = a * np.sqrt(1 - e * e), material(given.material), np.radians(given.pressure_angle)
+    grown = 1 + given.addendum * m.module / b
+    polar = math.pi * a * b * (grown**4 * (a * a + b * b) / 4 + grown**2 * (a * e) ** 2)
+    inertia = polar * given.thickness * own.density * 1e-6
+    torque = driven_torque(inertia, m.omega**2 * alpha_peak(e), given.load_torque)
+    slant = np.arcsin(e)
+    force = torque * 1000 * np.cos(alpha) / (a * (1 - e) * np.cos(alpha + slant))
+    least, most = 2 * (1 - e * e) * a / m.module, 2 / np.sqrt(1 - e * e) * a / m.module
+    rack = Rack(alpha, given.addendum, given.dedendum, given.tip_radius)
+    stress = force / (given.thickness * m.module) * _SPARE * _greatest_form(least, most, rack) * FACTOR
+    breaks = ROOT_SAFETY * allowed(given.material).root
+    return np.isfinite(stress) & (alpha + slant < math.pi / 2) & ~np.asarray(exceeds(stress, breaks))
+
+
+_LOOKS, _SPARE = 9, 1.1
+"""Numbers of virtual teeth that are looked at, and by how much form factors between them may be greater."""
+
+
+def _greatest_form(least: Any, most: Any, rack: Rack) -> Any:
+    """What form and stress factors together are at most between two numbers of virtual teeth."""
+    if max(map(np.ndim, (rack.angle, rack.addendum, rack.dedendum, rack.tip_radius))) == 0:
+        teeth = np.geomspace(np.min(least), STRAIGHT, _LOOKS**2)
+        factors = np.maximum.accumulate(_form(teeth, rack)[::-1])[::-1]
+        return factors[np.maximum(np.searchsorted(teeth, least) - 1, 0)]
+    ratio = np.minimum(most, STRAIGHT) / least
+    return np.maximum.reduce([_form(least * ratio**share, rack) for share in np.linspace(0, 1, _LOOKS)])
+
+
+def _form(teeth: Any, rack: Rack) -> Array:
+    one, two = form_factors(teeth, rack)
+    return np.where(np.isfinite(one * two), one * two, np.inf)
+
+
+def _rule(
+    code: str, stresses: Stresses, *ways: str, load: bool = False, breaks: bool = True
+) -> RowStressRule[GearTable]:
+    return RowStressRule[GearTable](
+        code,
+        lambda m: stresses(m.given),
+        lambda m: _ways(m, *ways),
+        table_of,
+        _load if load else None,
+        bears=_bear if code == "gear.root" else None,
+        breaks=breaks,
+    )
+
+
+ROOT = _rule("gear.root", root_stresses, "thickness", "size", load=True)
+FLANK = _rule("gear.flank", flank_pressures, "thickness", "size", load=True, breaks=False)
+KEY = _rule("gear.key", key_stresses, "thickness", "bore")
+SHAFT = _rule("train.shaft", shaft_stresses, "bore", load=True)
+DOWEL = _rule("train.dowel-load", dowel_stresses, "dowel_diameter", "thickness")
+
+
+def _bounded(m: GearTable) -> bool:
+    """Whether a bound decides most designs: of pairs without keys."""
+    return m.given.stages == 1 and not np.any(np.asarray(m.given.keyway_width) > 0)
+
+
+STRENGTH = all_of(
+    all_of(ROOT, FLANK, when=_bounded),
+    in_turn(
+        by_design(
+            all_of(ROOT, FLANK, KEY, all_of(SHAFT, DOWEL, when=lambda m: m.given.stages == 2)),
+            stage=Stage.PARTS,
+        ),
+        when=lambda m: not _bounded(m),
+    ),
+)
+"""What teeth and keys bear, and the shafts and dowels of trains."""

@@ -1,22 +1,25 @@
-"""Checks of what a train has beside its gears: point Q, joints, keyways or dowels, spacers."""
+"""Rules of what a train has beside its gears: point Q, joints, keyways or dowels, spacers."""
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Bore, Finding
-from mechwright.contracts.finding import errors
+from mechwright import Array, Bore, Finding, Stage, at_stage
+from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_table import by_row
+from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import LEAST_RIM
-from mechwright.tolerances import exceeds, falls_short
-from mechwright_elliptic_gears.kinematics.equations import phase_offset
+from mechwright.tolerances import falls_short
+from mechwright_elliptic_gears.kinematics.ellipse import perimeter_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.parts.bushes import bush_findings
-from mechwright_elliptic_gears.parts.gear import ellipse_of, rack_of, room
+from mechwright_elliptic_gears.parts.gear import rack_of, room
 from mechwright_elliptic_gears.parts.gear_parts import Gear, gear_opening, gears_of
-from mechwright_elliptic_gears.parts.layout import DOWEL_GAP, Layout
-from mechwright_elliptic_gears.rules.clamp import clamp_findings, setting_note
-from mechwright_elliptic_gears.rules.pins import pin_findings, play_note
+from mechwright_elliptic_gears.rules.bushings import BUSHES
+from mechwright_elliptic_gears.rules.clamp import CLAMP
+from mechwright_elliptic_gears.rules.pins import DOWEL_SPACER, PINS, ahead
+from mechwright_elliptic_gears.table import GearTable
 
 WALL = 0.5
 """Least wall between two openings, in diameters of the larger round one: the usual edge distance of a hole, a
@@ -28,193 +31,166 @@ SWEEP_GAP = 0.5
 PHASE_STEP = 1
 """Step, in degrees, in which a phase angle that works is sought."""
 
-
-def train_findings(params: EllipticGearParams, *, noted: bool = True) -> Iterator[Finding]:
-    """Point Q, then the train's own parts; ``noted`` with what the play of its joint does to the window."""
-    off = list(_on_coupler(params))
-    yield from off
-    if params.stages == 1 or errors(off):
-        return
-    layout = Layout.of(params)
-    found = [*_tracer(params, layout), *_joint(params, layout), *_sweep(params, layout)]
-    found += _dowel_circle(params, layout) if params.dowelled else ()
-    found += bush_findings(params)
-    yield from found
-    if errors(found):
-        return
-    if params.adjustable:
-        pins = params.phase_joint == "pins"
-        joint = list((pin_findings if pins else clamp_findings)(params))
-        yield from joint
-        if noted and not errors(joint):
-            yield (play_note if pins else setting_note)(params)
-        return
-    turned = list(_turned_openings(params))
-    yield from turned
-    if not errors(turned):
-        yield _phase_note(params)
+Rule = DesignRule[GearTable]
+Fails = Failure[GearTable]
 
 
-def _on_coupler(params: EllipticGearParams) -> Iterator[Finding]:
-    """Q within the coupler's length, and not farther beside it than half of that."""
-    layout = Layout.of(params)
-    most = layout.semi_major
-    margin = _joint_margin(params, layout) if params.stages == 2 else 0.0
-    for name, value, low, high, unit, inset in (
-        ("point_along", params.point_along, 0.0, 1.0, "", margin if margin < 0.5 else 0.0),
-        ("point_across", params.point_across, -most, most, "mm", 0.0),
-    ):
-        if not low <= value <= high:
-            nearest = low + inset if value < low else high - inset
-            yield Finding.error(
-                "point.off-coupler",
-                name,
-                f"point Q is off the coupler, which reaches from {low:g} to {high:g} {unit}".rstrip(),
-                value,
-                nearest,
-                unit,
-                f"the nearest value that works is {nearest:g}",
-            )
-
-
-def _joint_margin(params: EllipticGearParams, layout: Layout) -> float:
+def _joint_margin(m: GearTable) -> Any:
     """How far from J or K, in lengths of the coupler, the hole at Q has a wall to the joint."""
-    if layout.tracer == 0:
+    if m.given.stages == 1:
         return 0.0
-    wanted = (layout.tracer + layout.pin) / 2 + WALL * max(layout.tracer, layout.pin)
-    beside = math.sqrt(max(0.0, wanted**2 - params.point_across**2))
-    return math.ceil(beside / (2 * layout.semi_major) * 1e4) / 1e4
+    layout = m.layout
+    due = (layout.tracer + layout.pin) / 2 + WALL * np.maximum(layout.tracer, layout.pin)
+    beside = np.sqrt(np.maximum(0.0, due**2 - m.given.point_across**2))
+    return np.where(layout.tracer == 0, 0.0, np.ceil(beside / (2 * layout.semi_major) * 1e4) / 1e4)
 
 
-def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
-    if layout.tracer == 0:
-        return
-    if exceeds(layout.tracer, layout.pin):
-        yield Finding.error(
-            "train.tracer",
-            "tracer_diameter",
-            f"a hole of {layout.tracer:g} mm at Q leaves too little of the coupler, whose eyes are made for "
-            f"pins of {layout.pin:g} mm",
-            layout.tracer,
-            layout.pin,
-            "mm",
-            f"make tracer_diameter at most {layout.pin:g}, or pin_diameter larger",
-        )
-        return
-    margin = _joint_margin(params, layout)
-    if margin >= 0.5:
-        yield Finding.error(
-            "train.tracer",
-            "tracer_diameter",
-            "there is no room for a hole between the joints",
-            layout.tracer,
-            0.0,
-            "mm",
-            "set tracer_diameter = 0, or make pin_diameter smaller",
-        )
-        return
-    nearest = min(max(params.point_along, margin), 1 - margin)
-    if nearest != params.point_along:
-        yield Finding.error(
-            "train.tracer",
-            "point_along",
-            f"the hole at Q runs into the joint {'J' if nearest == margin else 'K'}",
-            params.point_along,
-            nearest,
-            remedy=f"the nearest value with a wall is {nearest:g}; or set tracer_diameter = 0",
-        )
+def _on_coupler(key: str, unit: str) -> Rule:
+    """Q within the coupler's length, and not farther beside it than half of that."""
 
+    def ends(m: GearTable) -> tuple[Any, Any]:
+        return (0.0, 1.0) if key == "point_along" else (-m.semi_major, m.semi_major)
 
-def _outwards(value: float, direction: float) -> float:
-    """Rounded to four decimals, up, or down where ``direction`` is below 0."""
-    return (math.floor if direction < 0 else math.ceil)(value * 1e4) / 1e4
+    def outside(m: GearTable) -> Any:
+        (low, high), value = ends(m), getattr(m.given, key)
+        return np.maximum(low - value, value - high)
 
+    def nearest(f: Fails) -> tuple[float, float]:
+        (low, high), value = ends(f.m), getattr(f.m.given, key)
+        margin = float(_joint_margin(f.m))
+        inset = margin if key == "point_along" and margin < 0.5 else 0.0
+        return value, low + inset if value < low else high - inset
 
-def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
-    """The joint at the free focus: a wall to the bore, and a rim to the roots."""
-    wanted = (layout.bore + layout.pin) / 2 + WALL * max(layout.pin, layout.bore)
-    if falls_short(layout.focus, wanted):
-        nearest = _outwards(wanted / (2 * layout.semi_major), 1)
-        yield Finding.error(
-            "train.joint",
-            "eccentricity",
-            f"the joint stands {layout.focus:.2f} mm from the shaft, and both holes need {wanted:.2f} mm",
-            params.eccentricity,
-            nearest,
-            remedy=f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter "
-            "smaller",
-        )
-    module = rack_of(params).module
-    free = room(params, np.array([[layout.focus, 0.0]]))
-    most = 2 * (free - LEAST_RIM * module)
-    if exceeds(layout.pin, most):
-        yield Finding.error(
-            "train.joint-rim",
-            "pin_diameter",
-            f"{free - layout.pin / 2:.2f} mm stay between a joint of {layout.pin:g} mm and the nearest root",
-            layout.pin,
-            most,
-            "mm",
-            f"make pin_diameter at most {max(0.0, math.floor(most * 100) / 100):g}, or the gears larger",
-        )
+    def message(f: Fails) -> str:
+        low, high = ends(f.m)
+        return f"point Q is off the coupler, which reaches from {low:g} to {high:g} {unit}".rstrip()
 
-
-def _sweep(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
-    """The far vertex of gear 3 passes the tall spacer of gear 5."""
-    gap = _sweep_gap(params, layout)
-    if not falls_short(gap, SWEEP_GAP):
-        return
-    nearest = next(
-        (
-            e / 1000
-            for e in range(math.ceil(params.eccentricity * 1000) - 1, -1, -1)
-            if _sweep_gap(params.model_copy(update={"eccentricity": e / 1000}), layout) >= SWEEP_GAP
-        ),
-        None,
-    )
-    yield Finding.error(
-        "train.sweep",
-        "eccentricity",
-        f"the tips of gear 3 come within {gap:.2f} mm of the spacer below gear 5",
-        params.eccentricity,
-        nearest,
-        remedy="make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
+    return Rule(
+        "point.off-coupler",
+        key,
+        message,
+        value=outside,
+        limit=0.0,
+        unit=unit,
+        remedy=lambda f: f"the nearest value that works is {nearest(f)[1]:g}",
+        must_be="at most",
+        reported=nearest,
     )
 
 
-def _sweep_gap(params: EllipticGearParams, layout: Layout) -> float:
-    """From the tip at the far vertex to the spacer, mm; a smaller eccentricity has larger teeth."""
-    tip = rack_of(params).addendum
-    return ellipse_of(params).semi_major * (1 - params.eccentricity) - tip - layout.spacer / 2
+POINT = all_of(_on_coupler("point_along", ""), _on_coupler("point_across", "mm"))
+"""Point Q, of pairs too."""
 
 
-def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
-    """The dowels stand outside the spacer, and inside the rim."""
-    least = layout.spacer + layout.dowel + 2 * DOWEL_GAP
-    if falls_short(layout.dowel_circle, least):
-        yield Finding.error(
-            "train.dowels",
-            "dowel_circle",
-            f"dowels of {layout.dowel:g} mm on a circle of {layout.dowel_circle:g} mm run into the spacer",
-            layout.dowel_circle,
-            least,
-            "mm",
-            f"make dowel_circle at least {least:g}",
-        )
-        return
-    gear3 = next(gear for gear in gears_of(params) if gear.name == "gear-3")
-    rim = _least_rim(params, gear3)
-    module = rack_of(params).module
-    if falls_short(rim, LEAST_RIM * module):
-        yield Finding.error(
-            "train.dowel-rim",
-            "dowel_circle",
-            f"{rim:.2f} mm stay between the dowels and the nearest root of gear 3, below a module",
-            rim,
-            LEAST_RIM * module,
-            "mm",
-            "make dowel_circle or dowel_diameter smaller, or the gears larger",
-        )
+def _bored(m: GearTable) -> Any:
+    return np.asarray(m.layout.tracer) != 0
+
+
+def _off_joints(m: GearTable) -> Any:
+    """The nearest place along the coupler at which the hole at Q has a wall to the joints."""
+    margin = _joint_margin(m)
+    return np.minimum(np.maximum(m.given.point_along, margin), 1 - margin)
+
+
+TRACER = in_turn(
+    Rule(
+        "train.tracer",
+        "tracer_diameter",
+        "a hole of {value:g} mm at Q leaves too little of the coupler, whose eyes are made for pins of "
+        "{limit:g} mm",
+        value=lambda m: m.layout.tracer,
+        limit=lambda m: m.layout.pin,
+        unit="mm",
+        remedy="make tracer_diameter at most {limit:g}, or pin_diameter larger",
+        must_be="at most",
+        when=_bored,
+    ),
+    Rule(
+        "train.tracer",
+        "tracer_diameter",
+        "there is no room for a hole between the joints",
+        value=_joint_margin,
+        limit=0.5,
+        unit="mm",
+        remedy="set tracer_diameter = 0, or make pin_diameter smaller",
+        must_be="below",
+        when=_bored,
+        reported=lambda f: (f.m.layout.tracer, 0.0),
+    ),
+    Rule(
+        "train.tracer",
+        "point_along",
+        lambda f: f"the hole at Q runs into the joint {'J' if f.m.given.point_along < 0.5 else 'K'}",
+        value=lambda m: np.abs(_off_joints(m) - m.given.point_along),
+        limit=0.0,
+        remedy=lambda f: f"the nearest value with a wall is {_off_joints(f.m):g}; or set tracer_diameter = 0",
+        must_be="at most",
+        when=_bored,
+        reported=lambda f: (f.m.given.point_along, float(_off_joints(f.m))),
+    ),
+)
+
+
+def _walled(f: Fails) -> float:
+    """The least eccentricity with a wall between the holes of shaft and joint."""
+    return math.ceil(f.limit / (2 * f.m.layout.semi_major) * 1e4) / 1e4
+
+
+JOINT = Rule(
+    "train.joint",
+    "eccentricity",
+    "the joint stands {value:.2f} mm from the shaft, and both holes need {limit:.2f} mm",
+    value=lambda m: m.layout.focus,
+    limit=lambda m: (m.layout.bore + m.layout.pin) / 2 + WALL * np.maximum(m.layout.pin, m.layout.bore),
+    remedy=lambda f: (
+        f"the nearest eccentricity with a wall is {_walled(f):g}; or make bore or pin_diameter smaller"
+    ),
+    reported=lambda f: (f.m.given.eccentricity, _walled(f)),
+)
+JOINT_RIM = Rule(
+    "train.joint-rim",
+    "pin_diameter",
+    lambda f: (
+        f"{f.m.root_distance - f.value / 2:.2f} mm stay between a joint of {f.value:g} mm and the nearest "
+        "root"
+    ),
+    value=lambda m: m.layout.pin,
+    # The free focus is as far from its vertex as the axis is from the other.
+    limit=lambda m: 2 * (m.root_distance - LEAST_RIM * m.module),
+    unit="mm",
+    remedy=lambda f: (
+        f"make pin_diameter at most {max(0.0, math.floor(f.limit * 100) / 100):g}, or the gears larger"
+    ),
+    must_be="at most",
+)
+
+
+def _sweep_gap(m: GearTable, e: Any) -> Any:
+    """From the tip at the far vertex of gear 3 to the tall spacer of gear 5, mm, at an eccentricity."""
+    given, share = m.given, perimeter_of(e) / (math.pi * m.given.teeth)
+    a = m.module / share if given.semi_major is None else given.semi_major
+    tip = given.addendum * a * share
+    return a * (1 - e) - tip - m.layout.spacer / 2
+
+
+def _rounder(m: GearTable) -> float | None:
+    """The greatest smaller eccentricity, to 0.001, with which the tips pass the spacer."""
+    tried = np.arange(math.ceil(m.given.eccentricity * 1000) - 1, -1, -1) / 1000
+    works = np.flatnonzero(_sweep_gap(m, tried) >= SWEEP_GAP)
+    return float(tried[works[0]]) if works.size else None
+
+
+SWEEP = Rule(
+    "train.sweep",
+    "eccentricity",
+    "the tips of gear 3 come within {value:.2f} mm of the spacer below gear 5",
+    value=lambda m: _sweep_gap(m, m.given.eccentricity),
+    limit=SWEEP_GAP,
+    remedy=lambda f: (
+        "make bore smaller" + ("" if (e := _rounder(f.m)) is None else f", or eccentricity at most {e:g}")
+    ),
+    reported=lambda f: (f.m.given.eccentricity, _rounder(f.m)),
+)
 
 
 def _least_rim(params: EllipticGearParams, gear: Gear) -> float:
@@ -225,9 +201,24 @@ def _least_rim(params: EllipticGearParams, gear: Gear) -> float:
     )
 
 
-def _turned_openings(params: EllipticGearParams) -> Iterator[Finding]:
+def _gear(params: EllipticGearParams, name: str) -> Gear:
+    return next(gear for gear in gears_of(params) if gear.name == name)
+
+
+DOWEL_RIM = Rule(
+    "train.dowel-rim",
+    "dowel_circle",
+    "{value:.2f} mm stay between the dowels and the nearest root of gear 3, below a module",
+    value=by_row(lambda m: _least_rim(m.given, _gear(m.given, "gear-3"))),
+    limit=lambda m: LEAST_RIM * m.module,
+    unit="mm",
+    remedy="make dowel_circle or dowel_diameter smaller, or the gears larger",
+)
+
+
+def _turned_openings(m: GearTable) -> Iterator[Finding]:
     """Keyway or dowel holes of gear 4, which the phase angle turns: rim, and wall to the joint."""
-    fault = _phase_fault(params)
+    params, fault = m.given, _phase_fault(m.given)
     if fault is None:
         return
     given = math.degrees(params.phase_angle or 0.0)
@@ -253,7 +244,7 @@ def _turned_openings(params: EllipticGearParams) -> Iterator[Finding]:
 
 def _phase_fault(params: EllipticGearParams) -> str | None:
     """What stands in the way of gear 4's keyway or dowels at this phase angle."""
-    gear = next(gear for gear in gears_of(params) if gear.name == "gear-4")
+    gear = _gear(params, "gear-4")
     joint = next(hole for hole in gear.holes if hole.name == "joint")
     module = rack_of(params).module
     what = "keyway" if gear.key is not None else "dowels"
@@ -289,15 +280,33 @@ def _key_corners(params: EllipticGearParams, gear: Gear) -> Array:
     return out
 
 
-def _phase_note(params: EllipticGearParams) -> Finding:
+def _phase_message(m: GearTable) -> str:
     """How gears 3 and 4 stand on their shaft, for the bench."""
-    phase = params.phase_angle or 0.0
-    turn = math.degrees(phase_offset(phase, params.eccentricity)) % 360
-    what = "keyway" if params.keyway_width > 0 else "first dowel hole"
-    return Finding.note(
-        "train.phase",
+    what, turn = "keyway" if m.given.keyway_width > 0 else "first dowel hole", ahead(m)
+    return (
         f"gear 4 stands {turn:.3f} degrees ahead of gear 3 on their shaft: its {what} lies "
-        f"{-turn % 360:.3f} degrees counter-clockwise from its far vertex, seen from the coupler's side",
-        turn,
-        "deg",
+        f"{-turn % 360:.3f} degrees counter-clockwise from its far vertex, seen from the coupler's side"
     )
+
+
+TRAIN = in_turn(
+    all_of(
+        TRACER,
+        JOINT,
+        JOINT_RIM,
+        SWEEP,
+        in_turn(DOWEL_SPACER, DOWEL_RIM, when=lambda m: m.given.dowelled),
+        BUSHES,
+    ),
+    in_turn(PINS, when=lambda m: m.given.phase_joint == "pins"),
+    in_turn(CLAMP, when=lambda m: m.given.phase_joint == "clamp"),
+    in_turn(
+        Procedure[GearTable](
+            ("train.phase",), lambda m: at_stage(Stage.PARTS, _turned_openings(m)), stage=Stage.PARTS
+        ),
+        Note[GearTable]("train.phase", _phase_message, ahead, "deg"),
+        when=lambda m: not m.given.adjustable,
+    ),
+    when=lambda m: m.given.stages == 2,
+)
+"""A train's own parts, joints, and how its phase is set."""

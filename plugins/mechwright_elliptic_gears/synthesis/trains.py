@@ -14,7 +14,7 @@ from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_wind
 from mechwright_elliptic_gears.parameters import LEAST_TEETH, EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import fillet_mill
 from mechwright_elliptic_gears.requirements import BOUNDED, TrainRequirement
-from mechwright_elliptic_gears.rules.checks import findings
+from mechwright_elliptic_gears.rules.rule_table import RULES
 from mechwright_elliptic_gears.rules.undercut import least_teeth
 from mechwright_elliptic_gears.synthesis.search import (
     MISSED,
@@ -25,6 +25,7 @@ from mechwright_elliptic_gears.synthesis.search import (
     shortfall,
     window_lengths,
 )
+from mechwright_elliptic_gears.table import table_of
 
 GRAIN = {
     "eccentricity": 1e-4,
@@ -281,17 +282,17 @@ def _with_teeth(params: EllipticGearParams, cutter: float) -> tuple[EllipticGear
     fewest = params.model_copy(update={"teeth": LEAST_TEETH})
     first = least_teeth(fewest)
     if first is None:
-        return None, errors(findings(fewest))
+        return None, errors(RULES.findings(table_of(fewest)))
     second_best: EllipticGearParams | None = None
     objections: list[Finding] = []
-    start = first.teeth + (first.teeth + 1) % 2
+    start = first + (first + 1) % 2
     for teeth in range(start, start + 2 * MOST_TRIES, 2):
         tried = params.model_copy(update={"teeth": teeth})
         mill = fillet_mill(tried)
         if mill < cutter:
             objections = objections or [_no_cutter(tried, mill, cutter)]
             break
-        said = findings(tried)
+        said = RULES.findings(table_of(tried))
         if errors(said):
             objections = errors(said)
         elif any(finding.severity is Severity.WARNING for finding in said):

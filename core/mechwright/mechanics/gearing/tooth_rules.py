@@ -12,7 +12,7 @@ import numpy as np
 
 from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
 from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
-from mechwright.contracts.rule_list import all_of, in_turn
+from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing.checks import (
     FULL_RIM,
@@ -136,7 +136,7 @@ def _tip_remedy(f: Fails) -> str:
     return "make backlash smaller"
 
 
-TIP = in_turn(
+TIP: Rules[Any] = in_turn(
     Procedure[Pair](("gear.tip",), _no_tip, when=lambda m: m.single, stage=Stage.PARTS),
     Rule(
         "gear.tip",
@@ -171,7 +171,7 @@ _RIM = Rule(
     remedy=lambda f: _rim_remedy(f, LEAST_RIM),
     reported=lambda f: (f.value, LEAST_RIM),
 )
-RIM = in_turn(
+RIM: Rules[Any] = in_turn(
     _RIM,
     _RIM.but(
         severity=Severity.WARNING,
@@ -215,7 +215,7 @@ _BACKLASH = Rule(
     when=lambda m: ~_jams(m),
     proposed=lambda f: ({"parameters.backlash": f.limit},),
 )
-BACKLASH = all_of(
+BACKLASH: Rules[Any] = all_of(
     _BACKLASH.but(
         severity=Severity.ERROR,
         message=lambda f: (
