@@ -1,21 +1,12 @@
-"""What forbids teeth of any pitch curve: the rack's own shape, its land, and tips that are too thin."""
+"""Limits of teeth of any pitch curve, and what the mesh proof of a pair says."""
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from typing import Protocol
 
-import numpy as np
-
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Change, Finding, Severity
-from mechwright.contracts.keyed import Keyed
-from mechwright.errors import GeometryError
+from mechwright.contracts.finding import Change, Finding
 from mechwright.mechanics.gearing.proof import MeshProof
-from mechwright.mechanics.gearing.rack import Rack
 from mechwright.mechanics.gearing.teeth import Teeth
-from mechwright.mechanics.openings import opening_of
-from mechwright.tolerances import exceeds, falls_short
+from mechwright.tolerances import exceeds
 
 LEAST_TIP = 0.2
 """Narrowest tip land in modules: the usual least of gear standards for teeth that are not case-hardened;
@@ -62,151 +53,9 @@ class Profile(Protocol):
         """mm; None where the design leaves it to the family."""
 
 
-def profile_findings(profile: Profile) -> Iterator[Finding]:
-    """What must hold of the rack by itself."""
-    if profile.tip_radius >= profile.dedendum:
-        yield Finding.error(
-            "gear.rack",
-            "tip_radius",
-            "the tip arc of the rack is deeper than its tooth",
-            profile.tip_radius,
-            profile.dedendum,
-            remedy="make tip_radius smaller than dedendum",
-        )
-    clearance = profile.dedendum - profile.addendum
-    if falls_short(clearance, LEAST_CLEARANCE):
-        yield Finding(
-            "gear.clearance",
-            Severity.ERROR if clearance <= 0 else Severity.WARNING,
-            "dedendum",
-            f"tips run {clearance:.3g} modules from the mating roots, below {LEAST_CLEARANCE:g}",
-            profile.dedendum,
-            profile.addendum + LEAST_CLEARANCE,
-            "",
-            f"make dedendum at least {profile.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
-        )
-
-
-def land_findings(profile: Profile, rack: Rack) -> Iterator[Finding]:
-    """Whether a tooth of the rack has an end between its two tip arcs."""
-    if rack.half_land < 0:
-        yield _land(profile, rack)
-
-
-def _land(profile: Profile, rack: Rack) -> Finding:
-    sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
-    # The half land is half_space - h_f tan α - r_f (1 - sin α) / cos α.
-    most = (rack.half_space - rack.dedendum * sin / cos) * cos / (1 - sin) / rack.module
-    if most >= 0:
-        return Finding.error(
-            "gear.root-land",
-            "tip_radius",
-            "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
-            profile.tip_radius,
-            most,
-            remedy=f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
-        )
-    deepest = rack.half_space * cos / sin / rack.module
-    return Finding.error(
-        "gear.root-land",
-        "dedendum",
-        "the flanks of a rack tooth meet before its tip: there is no root",
-        profile.dedendum,
-        deepest,
-        remedy=f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
-    )
-
-
 def least_tip(teeth: Sequence[Teeth]) -> float:
     """Width of the thinnest tip of some gears, modules; GeometryError where flanks do not reach their tip."""
     return min(float(one.tip_widths.min()) / one.rack.module for one in teeth)
-
-
-def tip_findings(
-    profile: Profile, backlash: float, teeth_of: Callable[[float], Sequence[Teeth]], size: str
-) -> Iterator[Finding]:
-    """Whether every tooth is thick enough at its tip.
-
-    ``backlash`` is that of the design, mm, ``teeth_of`` its gears with any, and ``size`` names the keys that
-    make teeth larger.
-    """
-    try:
-        width = least_tip(teeth_of(backlash))
-    except GeometryError as error:
-        yield Finding.error(
-            "gear.tip",
-            "addendum",
-            str(error),
-            profile.addendum,
-            remedy="make addendum smaller",
-        )
-        return
-    if not falls_short(width, LEAST_TIP):
-        return
-    blame = "backlash" if backlash and least_tip(teeth_of(0.0)) >= LEAST_TIP else "addendum"
-    what = "pointed" if width <= 0 else f"{width:.3f} modules wide at the tip"
-    yield Finding.error(
-        "gear.tip",
-        blame,
-        f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
-        width,
-        LEAST_TIP,
-        remedy=f"make {size} larger: as made, these teeth need all their backlash"
-        if blame == "backlash" and profile.backlash is None
-        else f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
-    )
-
-
-def rim_findings(
-    table: Keyed, rack: Rack, room: Callable[[Array], float], *, bare: str, roomier: str
-) -> Iterator[Finding]:
-    """Whether enough stays between the shaft opening of a gear and its nearest root.
-
-    Parameters
-    ----------
-    table
-        What the design says of the opening.
-    rack
-        Of the gear.
-    room
-        Least distance, mm, of points (n, 2) from the root curve; below 0 beyond it.
-    bare
-        Key that is to blame where there is no bore.
-    roomier
-        What makes a gear larger inside, where it has no room for any bore.
-    """
-    opening = opening_of(table)
-    reach = room(np.zeros((1, 2)))
-    rim = plain = reach - table.bore / 2
-    blame = "bore" if opening else bare
-    if opening and opening.has_keyway:
-        rim = min(plain, room(opening.loop().flatten()))
-        if falls_short(rim, plain):
-            sharp = room(replace(opening, relief=0.0).loop().flatten())
-            blame = "keyway_relief" if opening.relief and rim < sharp else "keyway_depth"
-    m = rack.module
-    full = FULL_RIM * (rack.addendum + rack.dedendum) / m
-    rim /= m
-    if not falls_short(rim, full):
-        return
-    too_thin = rim < LEAST_RIM
-    if blame == "bore":
-        wanted = max(0.0, 2 * (plain + table.bore / 2 - (LEAST_RIM if too_thin else full) * m))
-        remedy = f"make bore at most {math.floor(wanted * 100) / 100:g}, or the gear larger"
-        if math.floor(wanted * 100) == 0:
-            remedy = f"make the gear larger, or {roomier}"
-    else:
-        remedy = f"make {blame} smaller, or the gear larger"
-    yield Finding(
-        "bore.rim",
-        Severity.ERROR if too_thin else Severity.WARNING,
-        blame,
-        f"{rim:.2f} modules stay between the shaft opening and the nearest root",
-        rim,
-        LEAST_RIM if too_thin else full,
-        "",
-        remedy,
-    )
 
 
 def mesh_findings(
@@ -256,35 +105,4 @@ def collision(depth: float, allowance: float, said: str, clearing: Callable[[], 
         "mm",
         "make addendum or tip_radius smaller, dedendum larger, or use more teeth",
         proposed=tuple(clearing()),
-    )
-
-
-def backlash_findings(
-    given: float, least: float, jamming: float, teeth: Sequence[Teeth], larger: str
-) -> Iterator[Finding]:
-    """Whether the backlash of a design, mm, is at least that with which gears as made turn.
-
-    With less than ``jamming`` they are sure to jam. ``teeth`` are those with the least backlash, and
-    ``larger`` says what makes them thick enough for it.
-    """
-    if not falls_short(given, least):
-        return
-    jams = given < jamming
-    does = (
-        "gears as made jam: walls as they are planned"
-        if jams
-        else "gears as made may jam: walls and axes within tolerance"
-    )
-    yield Finding(
-        "gear.backlash",
-        Severity.ERROR if jams else Severity.WARNING,
-        "backlash",
-        f"{does} take up to {jamming if jams else least:g} mm of the backlash",
-        given,
-        least,
-        "mm",
-        f"make backlash at least {least:g}, or leave it out"
-        if least_tip(teeth) >= LEAST_TIP
-        else f"make {larger} larger: with a backlash of {least:g} the teeth are too thin",
-        proposed=({"parameters.backlash": least},),
     )
