@@ -251,24 +251,6 @@ class RowStressRule(StressRule[D]):
         return bool(found) and worst(found).severity is Severity.ERROR
 
 
-def judged_between(
-    code: str,
-    params: P,
-    either: Sequence[Sequence[Stress]],
-    stresses_of: Callable[[P], Sequence[Stress]],
-    ways: Sequence[Way],
-) -> Iterator[Finding]:
-    """The same without advice and notes, of stresses that take long: they lie between ``either``.
-
-    Where all of those are as grave, the first are told of in their place.
-    """
-    graves = {worst(some).severity if some else Severity.NOTE for some in either}
-    if graves == {Severity.NOTE}:
-        return
-    said = (lambda _: either[0]) if len(graves) == 1 else stresses_of
-    yield from judged(code, params, said, ways, advise=False)
-
-
 def _tried(params: P, stresses_of: Callable[[P], Sequence[Stress]], way: Way) -> float | None:
     """The value of a key nearest to what it is with which all stresses are allowed; None without one."""
     if way.now == 0:
