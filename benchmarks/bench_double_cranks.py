@@ -24,10 +24,10 @@ from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
 from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
-from mechwright_spherical.checks import weakest
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.mobility import input_ways, kind
-from mechwright_spherical.params import FourBarTable, SphericalParams
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.mobility import input_ways, kind
+from mechwright_spherical.parameters import FourBarTable, SphericalParams
+from mechwright_spherical.rules.checks import weakest
 
 LEAST = math.radians(20)
 """Least transmission angle, rad."""

@@ -12,11 +12,11 @@ import numpy as np
 from harness import race, report, require
 
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical import printed
-from mechwright_spherical.fivebar import projected
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.projection import project
-from mechwright_spherical.refine import Freedom, Path, refine
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.kinematics.five_bar import projected
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.kinematics.projection import project
+from mechwright_spherical.synthesis.refine import Freedom, Path, refine
 
 POSES = 100_000
 PER_POSE = 1e-6
@@ -27,9 +27,11 @@ PER_START = 2.0
 
 STARTS = 12
 
-ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
-MECHANISM = projected(printed.PINS, printed.TABLE_2[0], printed.LENGTH, printed.RATIO)
-PATH = Path(ANGLES, ANGLES_N, project(printed.TABLE_2, printed.LENGTH).T)
+ANGLES, ANGLES_N = np.radians(published_example.ANGLES), np.radians(published_example.ANGLES_N)
+MECHANISM = projected(
+    published_example.PINS, published_example.TABLE_2[0], published_example.LENGTH, published_example.RATIO
+)
+PATH = Path(ANGLES, ANGLES_N, project(published_example.TABLE_2, published_example.LENGTH).T)
 THETA = np.linspace(-0.5, 0.0, POSES)
 
 

@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 from mechwright.mechanics.tracing.search import ROUND, search
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
 from mechwright_slider_crank.paths.room import Limits, SliderRoom
-from mechwright_spherical.fivebar_room import ARCS, FiveBarRoom
-from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
-from mechwright_spherical.mobility import mobility
+from mechwright_spherical.kinematics.mobility import mobility
 from mechwright_spherical.requirements import FourBarPathRequirement
+from mechwright_spherical.synthesis.five_bar_limits import ARCS, FiveBarRoom
+from mechwright_spherical.synthesis.four_bar_limits import Bounds, FourBarRoom
 
 ROOM = 1.01
 """By how much limits are wider than what the linkage needs."""

@@ -15,7 +15,7 @@ from mechwright_five_bar.kinematics.phases import in_phase
 from mechwright_five_bar.kinematics.train import gear_outlines
 from mechwright_five_bar.parts.frames import frames_of
 from mechwright_five_bar.table import FiveBarTable
-from mechwright_spherical import printed
+from mechwright_spherical.defaults import published_example
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "five-bar-published.toml"
 UNIT = 100.0
@@ -37,7 +37,7 @@ def machine(phase: int) -> CompleteParams:
 def reached() -> Array:
     """The seven points (7, 2) of Table 2 as the machine has them, in lengths of the source."""
     found = []
-    for phase, turns in ((1, printed.ANGLES), (2, printed.ANGLES_N)):
+    for phase, turns in ((1, published_example.ANGLES), (2, published_example.ANGLES_N)):
         shown = machine(phase)
         solution = bar_of(shown).at(np.radians((shown.setting_angle or 0.0) + np.array(turns)))
         place = solution.bodies["coupler"].point(shown.coupler_point).position

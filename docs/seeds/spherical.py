@@ -19,30 +19,30 @@ from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 from mechwright.arrays import Array
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_spherical import printed
-from mechwright_spherical.drive import external, internal
-from mechwright_spherical.fivebar import AdjustableFiveBar, projected
-from mechwright_spherical.planar_synthesis import CouplerPoses, Dyad, crank_dyad, points, rocker_dyad
-from mechwright_spherical.planar_synthesis import arm_pins as pins_of_arm
-from mechwright_spherical.projection import project
-from mechwright_spherical.refine import Fit, Freedom, errors, refine
-from mechwright_spherical.refine import Path as Wanted
-from mechwright_spherical.structural import (
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.kinematics.drive import external, internal
+from mechwright_spherical.kinematics.five_bar import AdjustableFiveBar, projected
+from mechwright_spherical.kinematics.projection import project
+from mechwright_spherical.kinematics.vectors import arc
+from mechwright_spherical.synthesis.planar import CouplerPoses, Dyad, crank_dyad, points, rocker_dyad
+from mechwright_spherical.synthesis.planar import arm_pins as pins_of_arm
+from mechwright_spherical.synthesis.refine import Fit, Freedom, errors, refine
+from mechwright_spherical.synthesis.refine import Path as Wanted
+from mechwright_spherical.synthesis.structural import (
     PlanarDesign,
     best_centre,
     scaled_error,
     smallest_length,
 )
-from mechwright_spherical.structural import errors as structural_errors
-from mechwright_spherical.vectors import arc
+from mechwright_spherical.synthesis.structural import errors as structural_errors
 
 HERE = Path(__file__).parent
 PAGE = HERE / "spherical.md"
 IMAGES = HERE.parent / "images"
 
-ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
-TABLE_2 = np.array(printed.TABLE_2)
-DESIGN = PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, TABLE_2)
+ANGLES, ANGLES_N = np.radians(published_example.ANGLES), np.radians(published_example.ANGLES_N)
+TABLE_2 = np.array(published_example.TABLE_2)
+DESIGN = PlanarDesign(published_example.PINS, published_example.RATIO, ANGLES, ANGLES_N, TABLE_2)
 
 PICTURES = pictures(DESIGN)
 """By file name: figures of the source, and the structural error of all positions."""
@@ -74,10 +74,10 @@ def numbers(values: Iterable[float], digits: int = 4) -> str:
 @cache
 def planar() -> tuple[Array, Array]:
     """Path points (7,), complex, and coupler angles (7,) of the printed planar mechanism."""
-    pin = {name: complex(points(at)) for name, at in printed.PINS.items()}
-    p1 = complex(points(printed.TABLE_2[0]))
+    pin = {name: complex(points(at)) for name, at in published_example.PINS.items()}
+    p1 = complex(points(published_example.TABLE_2[0]))
     found = [
-        PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, printed.RATIO).at(angles)
+        PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, published_example.RATIO).at(angles)
         for a, c, angles in (("a1", "c1", ANGLES), ("a1n", "c1n", ANGLES_N))
     ]
     return np.concatenate([one[0] for one in found]), np.concatenate([one[1] for one in found])
@@ -90,7 +90,7 @@ def matches(found: Array, wanted: Array) -> int:
 
 def mechanism(length: float) -> AdjustableFiveBar:
     """The printed mechanism, projected."""
-    return projected(printed.PINS, printed.TABLE_2[0], length, printed.RATIO)
+    return projected(published_example.PINS, published_example.TABLE_2[0], length, published_example.RATIO)
 
 
 def wanted(length: float) -> Wanted:
@@ -113,11 +113,11 @@ def poses(path: Array) -> CouplerPoses:
 def dyads(path: Array, equations: str) -> tuple[Dyad, Dyad]:
     """Both dyads, from the source's first guesses."""
     data = poses(path)
-    b0, b1 = (complex(points(printed.PINS[name])) for name in ("b0", "b1"))
-    arms = [pins_of_arm(b0, b1, printed.RATIO, angles) for angles in (ANGLES, ANGLES_N)]
+    b0, b1 = (complex(points(published_example.PINS[name])) for name in ("b0", "b1"))
+    arms = [pins_of_arm(b0, b1, published_example.RATIO, angles) for angles in (ANGLES, ANGLES_N)]
     return (
-        crank_dyad(data, 0.0, 1.0, printed.CRANK_GUESS, equations),
-        rocker_dyad(data, arms[0], arms[1], printed.DRIVEN_GUESS, equations),
+        crank_dyad(data, 0.0, 1.0, published_example.CRANK_GUESS, equations),
+        rocker_dyad(data, arms[0], arms[1], published_example.DRIVEN_GUESS, equations),
     )
 
 
@@ -125,7 +125,7 @@ def path_tables() -> list[str]:
     """Tables 2 to 4, value by value."""
     built, second = reached(), load(EXAMPLE, host()).params.phases[0]
     found, turns = planar()[0].view(float).reshape(-1, 2), np.degrees(planar()[1])
-    count = matches(found, printed.TABLE_2)
+    count = matches(found, published_example.TABLE_2)
     lines = [
         "## Table 2: path points of the planar mechanism",
         "",
@@ -152,10 +152,10 @@ def path_tables() -> list[str]:
                 [
                     str(n + 1),
                     "1" if n < 4 else "2",
-                    f"{(*printed.ANGLES, *printed.ANGLES_N)[n]:g}°",
-                    numbers(printed.TABLE_2[n]),
+                    f"{(*published_example.ANGLES, *published_example.ANGLES_N)[n]:g}°",
+                    numbers(published_example.TABLE_2[n]),
                     numbers(found[n], 6),
-                    f"{np.abs(found[n] - printed.TABLE_2[n]).max():.6f}",
+                    f"{np.abs(found[n] - published_example.TABLE_2[n]).max():.6f}",
                     f"{round(turns[n], 4) + 0.0:.4f}°",
                     numbers(built[n], 4),
                 ]
@@ -163,8 +163,8 @@ def path_tables() -> list[str]:
             ],
         ),
     ]
-    path, machine = project(TABLE_2, printed.LENGTH), spherical_machine.reached()
-    pins = {name: project(at, printed.LENGTH) for name, at in printed.PINS.items()}
+    path, machine = project(TABLE_2, published_example.LENGTH), spherical_machine.reached()
+    pins = {name: project(at, published_example.LENGTH) for name, at in published_example.PINS.items()}
     on_path = matches(path, TABLE_3)
     on_pins = sum(matches(pins[name], TABLE_4[name]) for name in pins)
     lines += [
@@ -289,13 +289,14 @@ def error_tables() -> list[str]:
 
 def lost_arcs() -> list[str]:
     """What the projection does to the lengths."""
-    at = mechanism(printed.LENGTH)
+    at = mechanism(published_example.LENGTH)
     (r1, r1n), (r3, r3n) = (
         [math.degrees(float(x)) for x in pair] for pair in (at.crank_arcs, at.rocker_arcs)
     )
     shafts = float(arc(at.a0, at.b0))
-    cones = [math.degrees(x) for x in (*internal(shafts, printed.RATIO), *external(shafts, printed.RATIO))]
-    target, mean = wanted(printed.LENGTH), at.equalised()
+    ratio = published_example.RATIO
+    cones = [math.degrees(x) for x in (*internal(shafts, ratio), *external(shafts, ratio))]
+    target, mean = wanted(published_example.LENGTH), at.equalised()
     own, equal = (Fit(one, errors(one, target)).rms for one in (at, mean))
     slots = [math.degrees(float(x)) for x in (at.crank_setting, at.rocker_setting)]
     return [
@@ -325,11 +326,11 @@ def fits() -> list[str]:
         twelve = float(fit(d, Freedom.TWELVE).errors.max()) if d >= 3 else math.nan
         said = "" if math.isnan(twelve) else "below 1e-12" if twelve < EXACT else f"{twelve:.2e}"
         rows.append([f"{d:g}", f"{before:.3e}", f"{six:.3e}", f"{before / six:.0f}", said])
-    best = fit(printed.LENGTH, Freedom.SIX)
+    best = fit(published_example.LENGTH, Freedom.SIX)
     pins = [
         [
             name,
-            numbers(getattr(mechanism(printed.LENGTH), name), 6),
+            numbers(getattr(mechanism(published_example.LENGTH), name), 6),
             numbers(getattr(best.mechanism, name), 6),
         ]
         for name in ("a1", "a1n", "c1", "c1n")

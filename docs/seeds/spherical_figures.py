@@ -12,9 +12,9 @@ from spherical_machine import figure
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable import Pins, PlaneSpace, follow, settings_of
 from mechwright.output.svg import path as polyline
-from mechwright_spherical import printed
-from mechwright_spherical.planar_synthesis import points
-from mechwright_spherical.structural import PlanarDesign, errors
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.synthesis.planar import points
+from mechwright_spherical.synthesis.structural import PlanarDesign, errors
 
 ROOT = Path(__file__).parents[2]
 PLANE = PlaneSpace(0j)
@@ -47,13 +47,13 @@ def four_bar() -> tuple[Pins, float, list[Array], list[Array]]:
 
 def five_bar() -> tuple[Pins, float, list[Array], list[Array]]:
     """The published five-bar of figures 2 (b) and 10, from the printed pins."""
-    pin = {name: complex(points(at)) for name, at in printed.PINS.items()}
+    pin = {name: complex(points(at)) for name, at in published_example.PINS.items()}
     both = [(pin["a0"], pin["a0"]), (pin["a1"], pin["a1n"]), (pin["b0"], pin["b0"]), (pin["b1"], pin["b1"])]
-    first = complex(points(printed.TABLE_2[0]))
+    first = complex(points(published_example.TABLE_2[0]))
     pins = Pins(*(np.array(pair) for pair in (*both, (pin["c1"], pin["c1n"]), (first, first))))
-    wanted = points(np.array(printed.TABLE_2))
-    theta = [np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)]
-    return pins, printed.RATIO, theta, [wanted[:4], wanted[4:]]
+    wanted = points(np.array(published_example.TABLE_2))
+    theta = [np.radians(published_example.ANGLES), np.radians(published_example.ANGLES_N)]
+    return pins, published_example.RATIO, theta, [wanted[:4], wanted[4:]]
 
 
 def overlay(pins: Pins, ratio: float, theta: Sequence[Array], wanted: Sequence[Array], turn: bool) -> str:

@@ -9,11 +9,11 @@ from mechwright.arrays import Array
 from mechwright.designs.design import load
 from mechwright.output.svg import path as polyline
 from mechwright.plugins.host import host
-from mechwright_spherical import printed
-from mechwright_spherical.linkage import Linkage, linkage_of
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.seats import clamp_of, seats_of, slotted_of
-from mechwright_spherical.vectors import cross, vector
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
+from mechwright_spherical.kinematics.vectors import cross, vector
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts.seats import clamp_of, seats_of, slotted_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "spherical-five-bar-refined.toml"
 COLOURS = ("#2456a6", "#b3261e")
@@ -37,7 +37,7 @@ def machine() -> Linkage:
 
 def reached() -> Array:
     """Points (7, 3) of the unit sphere that the machine passes at the printed crank angles."""
-    both = zip(machine().phases, (printed.ANGLES, printed.ANGLES_N), strict=True)
+    both = zip(machine().phases, (published_example.ANGLES, published_example.ANGLES_N), strict=True)
     return np.concatenate([phase.loop.position(np.radians(angles)).T for phase, angles in both])
 
 
@@ -70,7 +70,7 @@ def figure() -> str:
 
     number = 0
     for phase, colour, angles in zip(
-        linkage.phases, COLOURS, (printed.ANGLES, printed.ANGLES_N), strict=True
+        linkage.phases, COLOURS, (published_example.ANGLES, published_example.ANGLES_N), strict=True
     ):
         state = phase.at_reference
         a, b, c, p = (getattr(state, name)[0][:, 0] for name in "abcp")

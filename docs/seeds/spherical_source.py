@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from mechwright.arrays import Array
-from mechwright_spherical.planar_synthesis import Complex
-from mechwright_spherical.structural import PlanarDesign, errors, grid, scaled_error
+from mechwright_spherical.synthesis.planar import Complex
+from mechwright_spherical.synthesis.structural import PlanarDesign, errors, grid, scaled_error
 
 FIRST_LENGTH, DOUBLINGS = 8.0, 4
 """Lengths of the extrapolation: 8 to 64, where rounding grows from 1e-13 to 1e-9 of the result."""

@@ -5,14 +5,14 @@ from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import DesignError, Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.requirements import (
     AdjustablePathRequirement,
     FiveBarPathRequirement,
     FourBarPathRequirement,
     PosesRequirement,
 )
-from mechwright_spherical.sized import SizedParams
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -46,34 +46,34 @@ class Spherical(Family[SphericalParams]):
 
     def check(self, params: SphericalParams) -> Sequence[Finding]:
         """Assembly, transmission angle, mobility, path, and room for the links."""
-        from mechwright_spherical.checks import findings
+        from mechwright_spherical.rules.checks import findings
 
         return findings(params)
 
     def solve(self, params: SphericalParams, samples: int) -> "Motion":
         """The travel of the phase that is shown, at constant speed."""
-        from mechwright_spherical.motion import motion_of
+        from mechwright_spherical.kinematics.motion import motion_of
 
         return motion_of(params, samples)
 
     def stretches(self, params: SphericalParams, samples: int) -> "Iterator[Motion]":
         """The same, a stretch after the other."""
         from mechwright.contracts.stretch import in_stretches
-        from mechwright_spherical.motion import motion_of
+        from mechwright_spherical.kinematics.motion import motion_of
 
         return in_stretches(partial(motion_of, params), samples)
 
     def parts(self, params: SphericalParams) -> "Sequence[Part]":
         """Links, pins, drive, base plate and flat strips."""
-        from mechwright_spherical.checks import findings
-        from mechwright_spherical.parts import parts_of
+        from mechwright_spherical.parts.parts import parts_of
+        from mechwright_spherical.rules.checks import findings
 
         refuse(findings(params))
         return parts_of(params)
 
     def mounting(self, params: SphericalParams) -> "Flange":
         """The flange of the ground link about the input axis, and the base."""
-        from mechwright_spherical.mount import mounting_of
+        from mechwright_spherical.parts.mount import mounting_of
 
         return mounting_of(params)
 
@@ -100,13 +100,13 @@ class Spherical(Family[SphericalParams]):
 
     def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the output, in angles, from the bores of flat strips."""
-        from mechwright_spherical.as_made import as_made
+        from mechwright_spherical.as_made.bores import as_made
 
         return as_made(params, made)
 
     def tolerances(self, params: SphericalParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the output angle and of the path point, from arcs and pins."""
-        from mechwright_spherical.tolerances import SphericalTolerances
+        from mechwright_spherical.as_made.tolerances import SphericalTolerances
 
         return SphericalTolerances(params, tolerances)
 
@@ -115,7 +115,7 @@ class Spherical(Family[SphericalParams]):
     ) -> "Columns":
         """Many at once, where they are four-bars with the ground outside; the path point one by one."""
         from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_spherical.evaluation import answer
+        from mechwright_spherical.rules.evaluation import answer
 
         return by_arrays(self, batch, columns, stage, answer)
 
@@ -126,27 +126,27 @@ class Spherical(Family[SphericalParams]):
         if kind == "adjustable-path":
             wanted = AdjustablePathRequirement.model_validate(requirement)
             if wanted.phases:
-                from mechwright_spherical.phased_synthesis import from_phases
+                from mechwright_spherical.synthesis.phased import from_phases
 
                 return from_phases(wanted, progress)
-            from mechwright_spherical.adjustable_synthesis import from_poses
+            from mechwright_spherical.synthesis.adjustable import from_poses
 
             return from_poses(wanted, progress)
         if kind == "poses":
-            from mechwright_spherical.poses_synthesis import from_five
+            from mechwright_spherical.synthesis.poses import from_five
 
             return from_five(PosesRequirement.model_validate(requirement), progress)
         if kind == "five-bar-path":
-            from mechwright_spherical.fivebar_synthesis import from_points as five_bars
+            from mechwright_spherical.synthesis.five_bar_path import from_points as five_bars
 
             return five_bars(FiveBarPathRequirement.model_validate(requirement), progress)
-        from mechwright_spherical.fourbar_synthesis import from_points
+        from mechwright_spherical.synthesis.four_bar_path import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)
 
     def targets(self, kind: str, requirement: Parameters) -> "Sequence[Target]":
         """The points of the path, or of each phase's, on the sphere."""
-        from mechwright_spherical.targets import targets_of
+        from mechwright_spherical.synthesis.targets import targets_of
 
         if not isinstance(requirement, (AdjustablePathRequirement, FourBarPathRequirement)):
             return super().targets(kind, requirement)

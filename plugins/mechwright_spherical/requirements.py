@@ -8,9 +8,9 @@ from pydantic import Field, model_validator
 from mechwright import Array, GeometryError, Parameters
 from mechwright.mechanics.tracing.requirement import MOST_POINTS, check_one_way
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_spherical import printed
-from mechwright_spherical.params import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length
-from mechwright_spherical.vectors import rotation_about, vector
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.kinematics.vectors import rotation_about, vector
+from mechwright_spherical.parameters import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length
 
 Guess = tuple[
     Annotated[float, Field(ge=-100, le=100), Unit("")],
@@ -94,20 +94,22 @@ class AdjustablePathRequirement(Parameters):
     )
     crank_axis_x: Ratio = Field(0.0, ge=-100, le=100, description="x of the crank's axis a0.")
     crank_length: Ratio = Field(1.0, gt=0, le=100, description="Length R1 of the crank.")
-    arm_axis: Point = Field(printed.PINS["b0"], description="Axis b0 of the arm.")
+    arm_axis: Point = Field(published_example.PINS["b0"], description="Axis b0 of the arm.")
     arm_length: Ratio = Field(1.0, gt=0, le=100, description="Length R4 of the arm.")
     arm_angle: Degrees = Field(
         45.0, ge=-360, le=360, description="Angle of the arm in the position of adjustment."
     )
-    ratio: Ratio = Field(printed.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
-    crank_guess: Guess = Field(printed.CRANK_GUESS, description="First guess of a0y, a1, a1n.")
-    rocker_guess: Guess = Field(printed.DRIVEN_GUESS, description="First guess of c1, c1n, R3.")
+    ratio: Ratio = Field(
+        published_example.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank."
+    )
+    crank_guess: Guess = Field(published_example.CRANK_GUESS, description="First guess of a0y, a1, a1n.")
+    rocker_guess: Guess = Field(published_example.DRIVEN_GUESS, description="First guess of c1, c1n, R3.")
     equations: Literal["seven", "five"] = Field(
         "seven",
         description="seven counts the positions of adjustment, five leaves them out as the source does.",
     )
     projection_length: Ratio = Field(
-        printed.LENGTH,
+        published_example.LENGTH,
         gt=0,
         le=1000,
         description="Distance of the plane from the centre, in the plane's unit.",

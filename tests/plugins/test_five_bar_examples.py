@@ -18,7 +18,7 @@ from mechwright.plugins.host import host
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.kinematics.dimensions import bar_of
 from mechwright_five_bar.kinematics.phases import in_phase
-from mechwright_spherical import printed
+from mechwright_spherical.defaults import published_example
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 DESIGNS = ("five-bar-published", "five-bar-slots", "five-bar-three-phases")
@@ -34,11 +34,11 @@ def points_of(params, angles):
 def test_the_published_five_bar_passes_the_printed_points():
     params = load(EXAMPLES / "five-bar-published.toml", host()).params
     found = []
-    for phase, turns in ((1, printed.ANGLES), (2, printed.ANGLES_N)):
+    for phase, turns in ((1, published_example.ANGLES), (2, published_example.ANGLES_N)):
         of_phase = params.model_copy(update={"phase": phase})
         start = in_phase(of_phase).setting_angle
         found += list(points_of(of_phase, np.radians(start + np.array(turns))))
-    wanted = [complex(x, y) for x, y in printed.TABLE_2]
+    wanted = [complex(x, y) for x, y in published_example.TABLE_2]
     np.testing.assert_allclose(np.array(found) / 100, wanted, rtol=0, atol=1.2e-4)
 
 

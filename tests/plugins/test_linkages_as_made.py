@@ -21,8 +21,8 @@ from mechwright_slider_crank.as_made.plates import as_made as slider_as_made
 from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.table import SliderCrankTable
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.tolerances import SphericalTolerances
+from mechwright_spherical.as_made.tolerances import SphericalTolerances
+from mechwright_spherical.parameters import SphericalParams
 
 TURN = np.linspace(0, 2 * np.pi, 36001)
 LINKS = ("crank", "coupler", "follower", "ground")

@@ -9,13 +9,13 @@ import pytest
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.errors import MechwrightError
-from mechwright_spherical.checks import findings, weakest
-from mechwright_spherical.clearances import approaches, arcs_apart, point_to_arc
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.frame import AIR, shells_of
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.vectors import rotate, vector
+from mechwright_spherical.kinematics.clearances import approaches, arcs_apart, point_to_arc
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.vectors import rotate, vector
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts.frame import AIR, shells_of
+from mechwright_spherical.rules.checks import findings, weakest
 
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
@@ -132,10 +132,10 @@ def test_finding(code, table, parameter):
 
 
 def test_every_error_and_warning_is_caused_above():
-    folder = Path(findings.__wrapped__.__code__.co_filename).parent
+    folder = Path(findings.__wrapped__.__code__.co_filename).parent.parent
     text = "".join(
         (folder / f"{name}.py").read_text(encoding="utf-8")
-        for name in ("checks", "hardware_checks", "setting_checks", "strips")
+        for name in ("rules/checks", "rules/hardware_checks", "rules/setting_checks", "parts/strips")
     )
     notes = {"spherical.mobility", "spherical.arcs"}
     assert set(re.findall(r'"(spherical\.[a-z-]+)"', text)) - notes == {case[0] for case in CASES}

@@ -3,7 +3,7 @@ import re
 import sys
 from pathlib import Path
 
-from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
+from mechwright_spherical.parameters import FiveBarTable, FourBarTable, SphericalParams
 
 ROOT = Path(__file__).parents[2]
 DOCS = (ROOT / "docs" / "spherical.md").read_text(encoding="utf-8")
@@ -21,7 +21,7 @@ SEED = script(ROOT / "docs" / "seeds" / "spherical.py")
 
 
 def test_every_finding_is_documented():
-    sources = (ROOT / "plugins" / "mechwright_spherical").glob("*.py")
+    sources = (ROOT / "plugins" / "mechwright_spherical").rglob("*.py")
     codes = {
         code
         for file in sources

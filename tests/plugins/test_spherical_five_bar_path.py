@@ -11,12 +11,12 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical import checks
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.fivebar_room import FiveBarRoom
-from mechwright_spherical.fourbar_room import Bounds
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.loop import Loop
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.loop import Loop
+from mechwright_spherical.rules import checks
+from mechwright_spherical.synthesis.five_bar_limits import FiveBarRoom
+from mechwright_spherical.synthesis.four_bar_limits import Bounds
 
 FAMILY = Spherical()
 ARCS = np.radians([50, 25, 60, 55, 30])

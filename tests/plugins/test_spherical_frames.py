@@ -16,14 +16,14 @@ from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
 from mechwright.contracts.finding import errors
-from mechwright_spherical.as_made import as_made
-from mechwright_spherical.bodies import link_frames
-from mechwright_spherical.clearances import links_apart, pin_apart, point_to_arc
+from mechwright_spherical.as_made.bores import as_made
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.flat import strip
-from mechwright_spherical.frame import AIR, frame_of, ground_arcs, shells_of
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.kinematics.bodies import link_frames
+from mechwright_spherical.kinematics.clearances import links_apart, pin_apart, point_to_arc
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts.flat import strip
+from mechwright_spherical.parts.frame import AIR, frame_of, ground_arcs, shells_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "spherical-double-crank.toml"
 ARCS = ("ground", "input", "coupler", "output")

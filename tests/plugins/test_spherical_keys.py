@@ -3,9 +3,9 @@
 import pytest
 
 from mechwright.contracts.finding import errors
-from mechwright_spherical.checks import findings
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.rules.checks import findings
 
 
 def params(**table):

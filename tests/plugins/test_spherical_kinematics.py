@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical.bodies import quaternions
-from mechwright_spherical.chain import third_position
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import turning_about
-from mechwright_spherical.loop import Loop
-from mechwright_spherical.mobility import input_range, kind, mobility
-from mechwright_spherical.vectors import arc, column, cross, dot, norm, rotate, vector
+from mechwright_spherical.kinematics.bodies import quaternions
+from mechwright_spherical.kinematics.chain import third_position
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.kinematics.jets import turning_about
+from mechwright_spherical.kinematics.loop import Loop
+from mechwright_spherical.kinematics.mobility import input_range, kind, mobility
+from mechwright_spherical.kinematics.vectors import arc, column, cross, dot, norm, rotate, vector
 
 BATCH, EXAMPLES = 500, 12
 """6,000 linkages of each kind."""

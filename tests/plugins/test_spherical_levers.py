@@ -14,8 +14,8 @@ from mechwright.testing.compare import assert_derivative
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.rules import motion_faults
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.mobility import input_range
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.mobility import input_range
 
 ARCS = ("ground", "input", "coupler", "output")
 LEVERS = {

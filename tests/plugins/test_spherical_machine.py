@@ -16,14 +16,14 @@ from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import design_of
 from mechwright.remedies import Limits, tried
-from mechwright_spherical.drive import train_of
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.frame import shells_of
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.mount import bracket_of, hubs_of, least_height, shaft_end, shaft_form, sizes
-from mechwright_spherical.mount_checks import mount_findings
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.places import gear_span
+from mechwright_spherical.kinematics.drive import train_of
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts.frame import shells_of
+from mechwright_spherical.parts.mount import bracket_of, hubs_of, least_height, shaft_end, shaft_form, sizes
+from mechwright_spherical.parts.places import gear_span
+from mechwright_spherical.rules.mount_checks import mount_findings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 EXAMPLE = EXAMPLES / "spherical-machine.toml"

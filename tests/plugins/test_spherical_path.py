@@ -9,10 +9,10 @@ from pydantic import ValidationError
 
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.fourbar_room import Bounds, FourBarRoom
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.kinematics.vectors import arc
 from mechwright_spherical.requirements import FourBarPathRequirement
-from mechwright_spherical.vectors import arc
+from mechwright_spherical.synthesis.four_bar_limits import Bounds, FourBarRoom
 
 
 def quiet(done, what):

@@ -12,11 +12,11 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.projection import project
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.projection import project
+from mechwright_spherical.kinematics.vectors import arc
+from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement
-from mechwright_spherical.vectors import arc
 
 FACTS = {
     fact["name"]: fact

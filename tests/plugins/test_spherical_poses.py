@@ -10,13 +10,13 @@ from pydantic import ValidationError
 from synthesis_reference import fact, facts
 
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical.dyads import of_five, turns
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.poses_synthesis import Carrying, carrying
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.vectors import rotation_about, vector
 from mechwright_spherical.requirements import PosesRequirement
-from mechwright_spherical.vectors import rotation_about, vector
+from mechwright_spherical.synthesis.dyads import of_five, turns
+from mechwright_spherical.synthesis.poses import Carrying, carrying
 
 
 def quiet(done, what):

@@ -9,9 +9,9 @@ import pytest
 
 from mechwright.mechanics.adjustable import Limits, Pins, PlaneSpace, Unknowns, fit, settings_of
 from mechwright.mechanics.adjustable import Path as Paths
-from mechwright_spherical.projection import project, unproject
-from mechwright_spherical.space import SphereSpace
-from mechwright_spherical.structural import (
+from mechwright_spherical.kinematics.projection import project, unproject
+from mechwright_spherical.synthesis.space import SphereSpace
+from mechwright_spherical.synthesis.structural import (
     PhasedDesign,
     best_centre,
     errors,

@@ -11,39 +11,39 @@ import pytest
 from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical import printed
-from mechwright_spherical.drive import external, internal
-from mechwright_spherical.fivebar import on_circle, projected
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.hardware_checks import clear_radius
-from mechwright_spherical.jets import turning_about
-from mechwright_spherical.mobility import mobility
-from mechwright_spherical.planar_synthesis import CouplerPoses, arm_pins, crank_dyad, points, rocker_dyad
-from mechwright_spherical.projection import project, unproject
-from mechwright_spherical.refine import Fit, Freedom, Path, errors, refine
-from mechwright_spherical.structural import (
+from mechwright_spherical.defaults import published_example
+from mechwright_spherical.kinematics.drive import external, internal
+from mechwright_spherical.kinematics.five_bar import on_circle, projected
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.kinematics.jets import turning_about
+from mechwright_spherical.kinematics.mobility import mobility
+from mechwright_spherical.kinematics.projection import project, unproject
+from mechwright_spherical.kinematics.vectors import arc
+from mechwright_spherical.rules.hardware_checks import clear_radius
+from mechwright_spherical.synthesis.planar import CouplerPoses, arm_pins, crank_dyad, points, rocker_dyad
+from mechwright_spherical.synthesis.refine import Fit, Freedom, Path, errors, refine
+from mechwright_spherical.synthesis.structural import (
     PlanarDesign,
     best_centre,
     scaled_error,
     smallest_length,
 )
-from mechwright_spherical.structural import errors as structural_errors
-from mechwright_spherical.vectors import arc
+from mechwright_spherical.synthesis.structural import errors as structural_errors
 
 DATA = json.loads((File(__file__).parents[1] / "data" / "spherical.json").read_text(encoding="utf-8"))
 FACTS = DATA["facts"]
 NAMED = {fact["name"]: fact for fact in FACTS}
 
-ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
-TABLE_2 = np.array(printed.TABLE_2)
-PRINTED = PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, TABLE_2)
+ANGLES, ANGLES_N = np.radians(published_example.ANGLES), np.radians(published_example.ANGLES_N)
+TABLE_2 = np.array(published_example.TABLE_2)
+PRINTED = PlanarDesign(published_example.PINS, published_example.RATIO, ANGLES, ANGLES_N, TABLE_2)
 
 
 def planar_phases():
-    pin = {name: complex(points(at)) for name, at in printed.PINS.items()}
-    p1 = complex(points(printed.TABLE_2[0]))
+    pin = {name: complex(points(at)) for name, at in published_example.PINS.items()}
+    p1 = complex(points(published_example.TABLE_2[0]))
     for a, c, angles in (("a1", "c1", ANGLES), ("a1n", "c1n", ANGLES_N)):
-        five_bar = PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, printed.RATIO)
+        five_bar = PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, published_example.RATIO)
         yield five_bar.at(angles)
 
 
@@ -60,8 +60,10 @@ def poses():
 
 
 EXACT = replace(PRINTED, targets=planar()[0].view(float).reshape(-1, 2))
-MECHANISM = projected(printed.PINS, printed.TABLE_2[0], printed.LENGTH, printed.RATIO)
-PATH = Path(ANGLES, ANGLES_N, project(TABLE_2, printed.LENGTH).T)
+MECHANISM = projected(
+    published_example.PINS, published_example.TABLE_2[0], published_example.LENGTH, published_example.RATIO
+)
+PATH = Path(ANGLES, ANGLES_N, project(TABLE_2, published_example.LENGTH).T)
 
 
 @cache
@@ -90,16 +92,19 @@ def exact_member():
 
 
 def printed_matches():
-    found = [project(TABLE_2, printed.LENGTH), project(list(printed.PINS.values()), printed.LENGTH)]
-    wanted = [TABLE_3, [TABLE_4[name] for name in printed.PINS]]
+    found = [
+        project(TABLE_2, published_example.LENGTH),
+        project(list(published_example.PINS.values()), published_example.LENGTH),
+    ]
+    wanted = [TABLE_3, [TABLE_4[name] for name in published_example.PINS]]
     return sum(int((np.round(f, 4) == np.array(w)).sum()) for f, w in zip(found, wanted, strict=True))
 
 
 def printed_fit(radius_free):
     from scipy.optimize import least_squares
 
-    flat = np.concatenate([TABLE_2, list(printed.PINS.values())])
-    wanted = np.concatenate([TABLE_3, [TABLE_4[name] for name in printed.PINS]])
+    flat = np.concatenate([TABLE_2, list(published_example.PINS.values())])
+    wanted = np.concatenate([TABLE_3, [TABLE_4[name] for name in published_example.PINS]])
 
     def residuals(x):
         return (project(flat, x[0], x[1] if radius_free else 1.0) - wanted).ravel()
@@ -110,7 +115,7 @@ def printed_fit(radius_free):
 
 
 def length_between(one, two):
-    return math.dist(printed.PINS[one], printed.PINS[two])
+    return math.dist(published_example.PINS[one], published_example.PINS[two])
 
 
 PLANAR_LENGTHS = {
@@ -124,7 +129,7 @@ PLANAR_LENGTHS = {
 
 
 def crank_angle(pin):
-    x, y = np.subtract(printed.PINS[pin], printed.PINS["a0"])
+    x, y = np.subtract(published_example.PINS[pin], published_example.PINS["a0"])
     return math.degrees(math.atan2(y, x))
 
 
@@ -132,7 +137,7 @@ def planar_fact(name):
     kind, *rest = name.split(".")[1:]
     match kind:
         case "b1":
-            return printed.PINS["b1"]
+            return published_example.PINS["b1"]
         case "length":
             return length_between(*PLANAR_LENGTHS[rest[0]])
         case "theta1_deg" | "theta1n_deg":
@@ -145,10 +150,10 @@ def planar_fact(name):
 
 def synthesis_fact(name):
     if "crank" in name:
-        return crank_dyad(poses(), 0.0, 1.0, printed.CRANK_GUESS, "five").unknowns
-    b0, b1 = (complex(points(printed.PINS[pin])) for pin in ("b0", "b1"))
-    arms = [arm_pins(b0, b1, printed.RATIO, angles) for angles in (ANGLES, ANGLES_N)]
-    return rocker_dyad(poses(), *arms, printed.DRIVEN_GUESS, "five").unknowns
+        return crank_dyad(poses(), 0.0, 1.0, published_example.CRANK_GUESS, "five").unknowns
+    b0, b1 = (complex(points(published_example.PINS[pin])) for pin in ("b0", "b1"))
+    arms = [arm_pins(b0, b1, published_example.RATIO, angles) for angles in (ANGLES, ANGLES_N)]
+    return rocker_dyad(poses(), *arms, published_example.DRIVEN_GUESS, "five").unknowns
 
 
 def printed_fact(name):
@@ -263,7 +268,7 @@ def grashof_fact(inputs):
 
 
 def cad_fact(name, inputs):
-    from mechwright_spherical import solids
+    from mechwright_spherical.parts import solids
 
     def between(angle):
         return np.array([0.0, 0.0, 1.0]), np.array([math.sin(angle), 0.0, math.cos(angle)])
@@ -294,7 +299,7 @@ def cad_fact(name, inputs):
         case "slot_volume":
             given = NAMED["cad.slot_wedge_volume"]["inputs"]
             axis, start = between(math.radians(given["R1_deg"]))
-            from mechwright_spherical.vectors import rotate
+            from mechwright_spherical.kinematics.vectors import rotate
 
             slot = solids.Slot(axis, start, rotate(axis, math.radians(given["sweep_deg"]), start))
             return solids.fused(slot.swept((given["r0"], given["r1"]), given["Dp"])).Volume()
@@ -331,7 +336,7 @@ def other_fact(name, inputs):
 
 
 def separation(linkage):
-    from mechwright_spherical.clearances import arcs_apart
+    from mechwright_spherical.kinematics.clearances import arcs_apart
 
     theta = np.radians(np.arange(360.0))
     state = linkage.at(Turning.of(theta), 0)
@@ -371,12 +376,12 @@ def found(fact):
 
 def test_the_inputs_are_the_printed_ones():
     common = DATA["common"]
-    assert common["planar"].keys() == printed.PINS.keys()
+    assert common["planar"].keys() == published_example.PINS.keys()
     for name, at in common["planar"].items():
-        assert printed.PINS[name] == pytest.approx(at, abs=1e-15)
-    assert tuple(common["p1"]) == printed.TABLE_2[0]
-    assert common["gear_ratio"] == printed.RATIO
-    assert tuple(common["dtheta_deg"].values()) == (*printed.ANGLES, *printed.ANGLES_N)
+        assert published_example.PINS[name] == pytest.approx(at, abs=1e-15)
+    assert tuple(common["p1"]) == published_example.TABLE_2[0]
+    assert common["gear_ratio"] == published_example.RATIO
+    assert tuple(common["dtheta_deg"].values()) == (*published_example.ANGLES, *published_example.ANGLES_N)
     assert len(FACTS) == 295
 
 

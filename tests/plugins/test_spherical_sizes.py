@@ -4,9 +4,9 @@ import pytest
 
 from mechwright import Stage
 from mechwright.contracts.finding import errors
+from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.preferred_sizes import NAMES, USUAL, least_boss
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.sized import SizedParams
-from mechwright_spherical.usual import NAMES, USUAL, least_boss
 
 FAMILY = Spherical()
 

@@ -12,15 +12,15 @@ from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
-from mechwright_spherical import links
-from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.frame import shells_of
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.seats import clamp_of, seats_of, slotted_of
-from mechwright_spherical.solids import cylinder
-from mechwright_spherical.vectors import arc, azimuth, rotate
+from mechwright_spherical.kinematics.bodies import pins_of_phase
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.vectors import arc, azimuth, rotate
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts import links
+from mechwright_spherical.parts.frame import shells_of
+from mechwright_spherical.parts.seats import clamp_of, seats_of, slotted_of
+from mechwright_spherical.parts.solids import cylinder
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FAMILY = Spherical()

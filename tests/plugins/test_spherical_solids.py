@@ -11,19 +11,19 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright_cad.solids.tessellate import mesh_of
-from mechwright_spherical import links, solids
-from mechwright_spherical.bodies import pins_of_phase
-from mechwright_spherical.drive import external, internal, train_of
+from mechwright_spherical.defaults.complete_parameters import SizedParams
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.flat import strip, strip_outline
-from mechwright_spherical.frame import shells_of
-from mechwright_spherical.hardware import FlatTable
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
-from mechwright_spherical.seats import clamp_of
-from mechwright_spherical.sized import SizedParams
-from mechwright_spherical.vectors import arc, dot, rotate, vector
+from mechwright_spherical.kinematics.bodies import pins_of_phase
+from mechwright_spherical.kinematics.drive import external, internal, train_of
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.vectors import arc, dot, rotate, vector
+from mechwright_spherical.parameters import SphericalParams
+from mechwright_spherical.parts import links, solids
+from mechwright_spherical.parts.flat import strip, strip_outline
+from mechwright_spherical.parts.frame import shells_of
+from mechwright_spherical.parts.hardware import FlatTable
+from mechwright_spherical.parts.places import gear_cones, gear_span, link_arcs, pin_places
+from mechwright_spherical.parts.seats import clamp_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = ("spherical-five-bar-projected", "spherical-five-bar-refined", "spherical-crank-rocker")

@@ -12,19 +12,22 @@ from spherical_source import PlanarFiveBar
 from mechwright.contracts.finding import errors as faults
 from mechwright.errors import GeometryError, KinematicsError
 from mechwright.mechanics.planar import Turning
-from mechwright_spherical import printed, structural
+from mechwright_spherical.defaults import published_example
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.fivebar import projected
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.planar_synthesis import CouplerPoses, crank_dyad, points, synthesise
-from mechwright_spherical.projection import project, unproject
-from mechwright_spherical.refine import Freedom, Path, refine
+from mechwright_spherical.kinematics.five_bar import projected
+from mechwright_spherical.kinematics.linkage import linkage_of
+from mechwright_spherical.kinematics.projection import project, unproject
 from mechwright_spherical.requirements import AdjustablePathRequirement
+from mechwright_spherical.synthesis import structural
+from mechwright_spherical.synthesis.planar import CouplerPoses, crank_dyad, points, synthesise
+from mechwright_spherical.synthesis.refine import Freedom, Path, refine
 
-ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
-DESIGN = structural.PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, np.array(printed.TABLE_2))
-MECHANISM = projected(printed.PINS, printed.TABLE_2[0], 5.0, printed.RATIO)
-PATH = Path(ANGLES, ANGLES_N, project(printed.TABLE_2, 5.0).T)
+ANGLES, ANGLES_N = np.radians(published_example.ANGLES), np.radians(published_example.ANGLES_N)
+DESIGN = structural.PlanarDesign(
+    published_example.PINS, published_example.RATIO, ANGLES, ANGLES_N, np.array(published_example.TABLE_2)
+)
+MECHANISM = projected(published_example.PINS, published_example.TABLE_2[0], 5.0, published_example.RATIO)
+PATH = Path(ANGLES, ANGLES_N, project(published_example.TABLE_2, 5.0).T)
 COORDINATE = st.floats(-50, 50)
 
 
@@ -111,12 +114,12 @@ def test_a_tolerance_that_no_length_meets_is_refused():
 def test_dyads_find_the_mechanism_that_made_the_poses(seed):
     """A mechanism near the published one, with common lengths; its own poses, and a guess that is off."""
     generator = np.random.default_rng(seed)
-    pin = {name: complex(points(at)) for name, at in printed.PINS.items()}
+    pin = {name: complex(points(at)) for name, at in published_example.PINS.items()}
     pin = {name: z + 0.05 * complex(*generator.normal(size=2)) for name, z in pin.items()}
     r1, r3 = abs(pin["a1"] - pin["a0"]), abs(pin["c1"] - pin["b1"])
     pin["a1n"] = pin["a0"] + r1 * (pin["a1n"] - pin["a0"]) / abs(pin["a1n"] - pin["a0"])
     pin["c1n"] = pin["b1"] + r3 * (pin["c1n"] - pin["b1"]) / abs(pin["c1n"] - pin["b1"])
-    p1 = complex(points(printed.TABLE_2[0]))
+    p1 = complex(points(published_example.TABLE_2[0]))
     found = [
         PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, 0.5).at(angles)
         for a, c, angles in (("a1", "c1", ANGLES), ("a1n", "c1n", ANGLES_N))
@@ -146,7 +149,9 @@ def test_dyads_find_the_mechanism_that_made_the_poses(seed):
 def test_dyads_that_the_poses_do_not_determine_are_refused():
     still = np.zeros(3, dtype=complex)
     with pytest.raises(KinematicsError, match="do not converge"):
-        crank_dyad(CouplerPoses(still, still.real, still, still.real), 0.0, 1.0, printed.CRANK_GUESS)
+        crank_dyad(
+            CouplerPoses(still, still.real, still, still.real), 0.0, 1.0, published_example.CRANK_GUESS
+        )
 
 
 # Direct synthesis

@@ -10,8 +10,8 @@ from test_double_cranks import free_orders
 from mechwright.mechanics.planar import Turning
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_spherical.clearances import point_to_arc
-from mechwright_spherical.fourbar import FourBar as SphericalFourBar
+from mechwright_spherical.kinematics.clearances import point_to_arc
+from mechwright_spherical.kinematics.four_bar import FourBar as SphericalFourBar
 
 TURN = np.linspace(0, 2 * np.pi, 3601)
 

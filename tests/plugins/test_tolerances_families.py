@@ -23,8 +23,8 @@ from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.kinematics.four_bar import FourBar
+from mechwright_spherical.parameters import SphericalParams
 
 TURN = np.linspace(0.1, 6.2, 23)
 slow = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])

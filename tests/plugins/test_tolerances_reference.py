@@ -23,7 +23,7 @@ from mechwright_geneva.parameters import GenevaParams
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.parameters import SphericalParams
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "as-made.json").read_text(encoding="utf-8"))["facts"]
 

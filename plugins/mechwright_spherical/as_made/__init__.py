@@ -1,0 +1,1 @@
+"""Spherical linkages with tolerances, and with their bores as made."""

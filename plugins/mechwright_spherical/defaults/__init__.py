@@ -1,0 +1,1 @@
+"""Dimensions that a design leaves out."""

@@ -1,0 +1,1 @@
+"""Positions, rates and rooms of spherical linkages."""

@@ -1,0 +1,1 @@
+"""Links, pins, frame and foot of a spherical linkage."""

@@ -1,0 +1,1 @@
+"""What an engineer objects to in a spherical linkage."""

@@ -1,0 +1,1 @@
+"""Spherical linkages for a requirement."""
