@@ -31,7 +31,7 @@ def leaves(rules: Rules[Any]) -> Iterator[Any]:
     for one in rules.every:
         if isinstance(one, Rules):
             yield from leaves(one)
-        else:
+        elif one.codes:
             yield one
 
 
@@ -47,7 +47,8 @@ def row(rule: Any) -> tuple[str, str, str, str, str]:
     plain = not callable(rule.limit) and rule.reported is None
     limit = f" {rule.limit:g}" if plain else " its limit"
     key = "" if callable(rule.parameter) else f"`{rule.parameter}`"
-    return code, f"{rule.severity}: {rule.stage}", f"{rule.must_be}{limit}", rule.unit, key
+    unit = "" if callable(rule.unit) else rule.unit
+    return code, f"{rule.severity}: {rule.stage}", f"{rule.must_be}{limit}", unit, key
 
 
 def page() -> str:

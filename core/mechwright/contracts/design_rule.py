@@ -134,7 +134,7 @@ class DesignRule(Generic[D]):
     message: Text[D]
     value: Callable[[D], Any]
     limit: "Callable[[D], Any] | float"
-    unit: str = ""
+    unit: Text[D] = ""
     remedy: Text[D] = ""
     must_be: Comparison = "at least"
     stage: Stage = Stage.PARTS
@@ -235,7 +235,7 @@ class DesignRule(Generic[D]):
             _filled(self.message, failure),
             value,
             limit,
-            self.unit,
+            _filled(self.unit, failure),
             _filled(self.remedy, failure) if advises else "",
             self.stage,
             tuple(self.proposed(failure)) if self.proposed is not None and advises else (),

@@ -15,7 +15,7 @@ row
 """
 
 import copy
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, Generic, Self, TypeVar
 
@@ -202,6 +202,15 @@ def column(value: Any, size: int) -> Array:
     [2.5, 2.5, 2.5]
     """
     return np.broadcast_to(np.asarray(value, dtype=float), (size, 1))
+
+
+def items(values: Sequence[Any], size: int) -> Array:
+    """Give numbers or columns of k items as one array (n, k).
+
+    >>> items([1, np.array([[2], [3]])], 2).tolist()
+    [[1.0, 2.0], [1.0, 3.0]]
+    """
+    return np.concatenate([column(one, size) for one in values], axis=1)
 
 
 def by_row(function: Callable[[T], float]) -> Callable[[T], Any]:

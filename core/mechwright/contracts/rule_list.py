@@ -8,6 +8,8 @@ in turn
     Rules of which each is asked if none before it found an error.
 by design
     Rules that are asked of one design of a table after the other: all of them of each.
+one by one
+    Designs for which the later rules, and the figures, have no formula over a table.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -22,6 +24,35 @@ from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 
 D = TypeVar("D", bound=DesignTable[Any])
+
+
+@dataclass(frozen=True)
+class OneByOne(Generic[D]):
+    """Takes designs out of a table for which no later formula holds: each is checked and solved by itself.
+
+    Parameters
+    ----------
+    when
+        Which designs, a truth value or a column.
+    stage
+        The earliest stage of the later rules that lack a formula.
+    """
+
+    when: Callable[[D], Any]
+    stage: Stage = Stage.MOTION
+    codes: tuple[str, ...] = ()
+
+    def forbids(self, table: D, stage: Stage) -> None:
+        """Give None: it forbids nothing."""
+
+    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:  # noqa: ARG002 - it says nothing
+        """Give nothing."""
+        return iter(())
+
+    def asked(self, table: D, stage: Stage) -> NDArray[np.bool_]:
+        """Give which designs (n,) these are."""
+        which = not self.stage.is_after(stage) and self.when(table)
+        return np.broadcast_to(np.ravel(np.asarray(which, bool)), (table.size,))
 
 
 @dataclass(frozen=True)
@@ -83,6 +114,7 @@ class Rules(Generic[D]):
         stage: Stage,
         forbid: Callable[[str, NDArray[np.intp]], None],
         fail: Callable[[str, int, Exception], None] | None = None,
+        leave: Callable[[NDArray[np.intp]], None] | None = None,
     ) -> tuple[D, NDArray[np.intp]]:
         """Sort out the designs of a table that have an error of a stage or an earlier one.
 
@@ -97,6 +129,8 @@ class Rules(Generic[D]):
         fail
             Takes the code of a rule, the place of a design for which its formulas fail, and what they raise;
             without it they raise.
+        leave
+            Takes the places (k,) of designs that are asked one by one; without it they stay in the table.
 
         Returns
         -------
@@ -105,6 +139,13 @@ class Rules(Generic[D]):
         """
         places = np.arange(table.size)
         for rule in self.of(table):
+            if not places.size:
+                break
+            if isinstance(rule, OneByOne):
+                if leave is not None and (alone := rule.asked(table, stage)).any():
+                    leave(places[alone])
+                    places, table = places[~alone], table.rows(np.flatnonzero(~alone))
+                continue
             try:
                 wrong = rule.forbids(table, stage)
             except Exception as error:
@@ -121,8 +162,6 @@ class Rules(Generic[D]):
             forbid(code, places[wrong])
             left = np.flatnonzero(~wrong)
             places, table = places[left], table.rows(left)
-            if not left.size:
-                break
         return table, places
 
 

@@ -178,9 +178,13 @@ class _Judge:
             said = f"{type(reason).__name__}: {reason}".removeprefix("RuleError: ")
             warnings.warn(f"{code} fails for the design {design} (row {row + 1}): {said}", stacklevel=2)
 
+    def leave(self, which: NDArray[np.intp]) -> None:
+        """Leave some of them to be asked one by one."""
+        self.found.doubt(np.ones(which.size, bool), self.places[which])
+
     def take(self, table: DesignTable[Any], columns: Collection[str], stage: Stage) -> None:
         """Take what rules forbid, and the columns of the rest."""
-        table, left = self.family.rules().allowed(table, stage, self.forbid, self.fail)
+        table, left = self.family.rules().allowed(table, stage, self.forbid, self.fail, self.leave)
         if left.size:
             self._give(table, left, columns, stage)
 
