@@ -27,7 +27,7 @@ from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.mobility import input_ways, kind
 from mechwright_spherical.parameters import FourBarTable, SphericalParams
-from mechwright_spherical.rules.checks import weakest
+from mechwright_spherical.rules.assembly import weakest
 
 LEAST = math.radians(20)
 """Least transmission angle, rad."""

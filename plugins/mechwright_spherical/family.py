@@ -2,10 +2,10 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import DesignError, Family, Finding, Parameters, Progress, Stage, Synthesis, refuse
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright import DesignError, Family, Parameters, Progress, Synthesis, refuse
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.requirements import (
     AdjustablePathRequirement,
@@ -16,6 +16,7 @@ from mechwright_spherical.requirements import (
 
 if TYPE_CHECKING:
     from mechwright import (
+        Array,
         AsMade,
         Flange,
         MadePart,
@@ -26,7 +27,10 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
-    from mechwright.contracts.evaluation import Batch, Columns
+    from mechwright.contracts.design_table import DesignTable
+    from mechwright.contracts.figure import Figure
+    from mechwright.contracts.rule_list import Rules
+    from mechwright_spherical.table import SphericalTable
 
 
 class Spherical(Family[SphericalParams]):
@@ -35,7 +39,7 @@ class Spherical(Family[SphericalParams]):
     name = "spherical"
     title = "Spherical linkages"
     summary = "Spherical four-bars, and geared five-bars, set to another path on the sphere in each phase."
-    Params = SizedParams
+    Params = CompleteParams
     batch = 1 << 16
     requirements: ClassVar = {
         "adjustable-path": AdjustablePathRequirement,
@@ -44,11 +48,18 @@ class Spherical(Family[SphericalParams]):
         "poses": PosesRequirement,
     }
 
-    def check(self, params: SphericalParams) -> Sequence[Finding]:
-        """Assembly, transmission angle, mobility, path, and room for the links."""
-        from mechwright_spherical.rules.checks import findings
+    def rules(self) -> "Rules[SphericalTable]":
+        """Pins, setting, assembly, transmission angle, path, room for links, drive, stand and strips."""
+        from mechwright_spherical.rules.rule_table import RULES
 
-        return findings(params)
+        return RULES
+
+    def table(self, params: SphericalParams, size: int | None = None) -> "SphericalTable":
+        """A linkage; a table holds four-bars of one phase that go as far as they can."""
+        from mechwright_spherical.defaults.complete_parameters import complete
+        from mechwright_spherical.table import SphericalTable
+
+        return SphericalTable.of(params) if size is None else SphericalTable(params, size, complete)
 
     def solve(self, params: SphericalParams, samples: int) -> "Motion":
         """The travel of the phase that is shown, at constant speed."""
@@ -66,9 +77,8 @@ class Spherical(Family[SphericalParams]):
     def parts(self, params: SphericalParams) -> "Sequence[Part]":
         """Links, pins, drive, base plate and flat strips."""
         from mechwright_spherical.parts.parts import parts_of
-        from mechwright_spherical.rules.checks import findings
 
-        refuse(findings(params))
+        refuse(self.check(params))
         return parts_of(params)
 
     def mounting(self, params: SphericalParams) -> "Flange":
@@ -110,14 +120,19 @@ class Spherical(Family[SphericalParams]):
 
         return SphericalTolerances(params, tolerances)
 
-    def evaluate(
-        self, batch: "Batch[SphericalParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Many at once, where they are four-bars with the ground outside; the path point one by one."""
-        from mechwright.contracts.by_arrays import by_arrays
-        from mechwright_spherical.rules.evaluation import answer
+    def figures(self, table: "DesignTable[SphericalParams]") -> "Mapping[str, Figure]":
+        """Transmission angles and sums of arcs."""
+        from mechwright_spherical.kinematics.figures import figures_of
 
-        return by_arrays(self, batch, columns, stage, answer)
+        return figures_of(cast("SphericalTable", table))
+
+    def extremes(
+        self, table: "DesignTable[SphericalParams]", names: Collection[str]
+    ) -> "Mapping[str, tuple[Array, Array, str]]":
+        """Input, output and transmission angle; the path point and the coupler one by one."""
+        from mechwright_spherical.kinematics.figures import extremes_of
+
+        return extremes_of(cast("SphericalTable", table), names)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress

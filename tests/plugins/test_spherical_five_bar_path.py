@@ -14,7 +14,7 @@ from mechwright.mechanics.planar import Turning
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.loop import Loop
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis.five_bar_limits import FiveBarRoom
 from mechwright_spherical.synthesis.four_bar_limits import Bounds
 
@@ -146,7 +146,7 @@ def test_a_design_of_one_path_has_nothing_to_be_set():
     result, _ = ask(known(np.linspace(0.3, 2.8, 6), 0.5), ratio=0.5, closed=False, starts=1, atlas=500)
     params = result.candidates[0].params
     assert params.five_bar.a1 == params.five_bar.a1n
-    assert "spherical.setting" not in {one.code for one in checks.findings(params)}
+    assert "spherical.setting" not in {one.code for one in findings_of(params)}
     assert "rocker-n" not in {part.name for part in FAMILY.parts(params)}
 
 

@@ -5,7 +5,7 @@ import pytest
 from mechwright.contracts.finding import errors
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.rules.checks import findings
+from mechwright_spherical.rules.rule_table import findings_of as findings
 
 
 def params(**table):

@@ -23,7 +23,8 @@ from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import shells_of
 from mechwright_spherical.parts.mount import bracket_of, hubs_of, least_height, shaft_end, shaft_form, sizes
 from mechwright_spherical.parts.places import gear_span
-from mechwright_spherical.rules.mount_checks import mount_findings
+from mechwright_spherical.rules.mount import MOUNT
+from mechwright_spherical.table import SphericalTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 EXAMPLE = EXAMPLES / "spherical-machine.toml"
@@ -202,7 +203,8 @@ def test_a_shaft_that_something_would_meet_beyond_the_centre_is_refused(arcs, wh
     stand = {"motor_flange": 56, "screw": 5.5, "arc": 90}
     hardware = {"frame": "two", "link_thickness": 8}
     params = SphericalParams(kind="four-bar", radius=60, four_bar=table, hardware=hardware, stand=stand)
-    (fault,) = [one for one in mount_findings(params) if "through the centre" in one.message]
+    found = MOUNT.findings(SphericalTable(params), quick=False)
+    (fault,) = [one for one in found if "through the centre" in one.message]
     assert f"the {what} would run into it" in fault.message
     assert fault.proposed == ({"parameters.stand.motor_flange": None},)
 

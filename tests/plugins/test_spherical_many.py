@@ -71,7 +71,22 @@ def test_a_ground_on_both_sides_is_asked_by_itself():
     assert MANY.alone
 
 
-@pytest.mark.parametrize("content", [{"four_bar": {"travel": 90}}, {"stand": {"motor_flange": 60}}])
-def test_what_has_no_way_goes_one_by_one(content):
-    MANY.same(MANY.drawn(2, content, radius=(90, 110)), ["transmission_min"], Stage.MOTION)
+@pytest.mark.parametrize(
+    ("content", "stage"),
+    [
+        ({"four_bar": {"travel": 90}}, Stage.MOTION),
+        ({"stand": {"motor_flange": 60}}, Stage.PARTS),
+        ({"hardware": {"frame": "two"}}, Stage.PARTS),
+    ],
+)
+def test_what_no_formula_tells_goes_one_by_one(content, stage):
+    MANY.same(MANY.drawn(2, content, radius=(90, 110)), ["transmission_min"], stage)
     assert MANY.alone == 2
+
+
+def test_the_ground_and_the_motor_do_not_matter_to_the_motion():
+    content = {"stand": {"motor_flange": 60}, "hardware": {"frame": "two"}}
+    batch = MANY.drawn(8, content, **ANY)
+    found = MANY.same(batch, ["transmission_min", "psi.greatest"], Stage.MOTION)
+    assert 0 in found.forbidden
+    assert not MANY.alone

@@ -19,7 +19,7 @@ from mechwright_spherical.kinematics.jets import turning_about
 from mechwright_spherical.kinematics.mobility import mobility
 from mechwright_spherical.kinematics.projection import project, unproject
 from mechwright_spherical.kinematics.vectors import arc
-from mechwright_spherical.rules.hardware_checks import clear_radius
+from mechwright_spherical.rules.links import clear_radius
 from mechwright_spherical.synthesis.planar import CouplerPoses, arm_pins, crank_dyad, points, rocker_dyad
 from mechwright_spherical.synthesis.refine import Fit, Freedom, Path, errors, refine
 from mechwright_spherical.synthesis.structural import (

@@ -4,7 +4,7 @@ import pytest
 
 from mechwright import Stage
 from mechwright.contracts.finding import errors
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.defaults.preferred_sizes import NAMES, USUAL, least_boss
 from mechwright_spherical.family import Spherical
 
@@ -16,8 +16,8 @@ def sizes(params):
 
 
 def test_the_usual_sizes_are_the_defaults():
-    assert sizes(SizedParams()) == tuple(getattr(USUAL, name) for name in NAMES)
-    assert sizes(SizedParams(kind="four-bar")) == sizes(SizedParams())
+    assert sizes(CompleteParams()) == tuple(getattr(USUAL, name) for name in NAMES)
+    assert sizes(CompleteParams(kind="four-bar")) == sizes(CompleteParams())
 
 
 @pytest.mark.parametrize(
@@ -33,35 +33,35 @@ def test_the_usual_sizes_are_the_defaults():
     ],
 )
 def test_a_small_machine_has_the_largest_pins_that_have_room(table, pin):
-    params = SizedParams(**table)
+    params = CompleteParams(**table)
     assert params.hardware.pin_diameter == pin
     assert not errors(FAMILY.check(params), Stage.PARTS)
     noted = [one.message for one in FAMILY.check(params) if one.code == "spherical.sizes"]
     assert [f"pin_diameter = {pin:g}" in one for one in noted] == [True] * (pin != 6.0)
     larger = next((x for x in (6.0, 5.0, 4.0, 3.0) if x > pin and x - pin <= 1), None)
     if larger:
-        thick = SizedParams(**table, hardware={"pin_diameter": larger, "boss_diameter": 2 * larger})
+        thick = CompleteParams(**table, hardware={"pin_diameter": larger, "boss_diameter": 2 * larger})
         assert errors(FAMILY.check(thick), Stage.PARTS)
 
 
 def test_what_is_given_stays():
-    given = SizedParams(radius=60, hardware={"boss_diameter": 8})
+    given = CompleteParams(radius=60, hardware={"boss_diameter": 8})
     assert given.hardware.boss_diameter == 8
     assert given.hardware.pin_diameter <= 6
-    thick = SizedParams(kind="four-bar", hardware={"pin_diameter": 11})
+    thick = CompleteParams(kind="four-bar", hardware={"pin_diameter": 11})
     assert thick.hardware.pin_diameter == 11
     assert thick.hardware.boss_diameter >= least_boss(11, thick.hardware.fit)
     assert not errors(FAMILY.check(thick), Stage.PARTS)
-    refused = SizedParams(radius=40, hardware={"pin_diameter": 6, "boss_diameter": 12, "link_width": 8})
+    refused = CompleteParams(radius=40, hardware={"pin_diameter": 6, "boss_diameter": 12, "link_width": 8})
     assert sizes(refused) == (6, 12, 8)
     assert errors(FAMILY.check(refused), Stage.PARTS)
 
 
 def test_where_no_sizes_have_room_they_are_the_usual_ones():
-    assert sizes(SizedParams(radius=10)) == sizes(SizedParams())
+    assert sizes(CompleteParams(radius=10)) == sizes(CompleteParams())
 
 
 def test_sizes_that_were_chosen_count_as_left_out():
-    params = SizedParams(radius=40)
+    params = CompleteParams(radius=40)
     assert not params.hardware.model_fields_set
-    assert SizedParams(**params.model_dump(exclude_unset=True)) == params
+    assert CompleteParams(**params.model_dump(exclude_unset=True)) == params

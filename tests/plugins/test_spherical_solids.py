@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright_cad.solids.tessellate import mesh_of
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.kinematics.bodies import pins_of_phase
 from mechwright_spherical.kinematics.drive import external, internal, train_of
@@ -203,7 +203,7 @@ def test_slots_let_their_pins_through(name):
 
 def test_a_rocker_of_the_second_phase_brings_its_own_pin():
     """Pins that no screw clamps are pressed into their link, and so are exchanged with it."""
-    one = SizedParams(radius=40)
+    one = CompleteParams(radius=40)
     two = in_phase(one, 2)
     assert clamp_of(one) is None
     shown = [{part.name for part in FAMILY.parts(params) if part.instances} for params in (one, two)]
@@ -218,7 +218,7 @@ def test_a_rocker_of_the_second_phase_brings_its_own_pin():
 
 
 def test_a_face_narrower_than_the_chord_is_divided_more_finely():
-    coupler = links.solid(SizedParams(radius=40), "coupler")
+    coupler = links.solid(CompleteParams(radius=40), "coupler")
     mesh = mesh_of(coupler, ruled=False, tolerance=0.1)
     corners = mesh.points[mesh.triangles]
     volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6

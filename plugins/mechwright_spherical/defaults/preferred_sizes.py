@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Finding
-from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.hardware import HardwareTable
 
 WALL = 1.0
@@ -69,14 +67,3 @@ def candidates(given: Mapping[str, Any], fit: Any) -> Iterator[Sizes]:
             wide = np.ceil(2 * least_boss(sizes["pin_diameter"], fit) - 1e-9) / 2
             sizes["boss_diameter"] = np.maximum(row.boss_diameter, wide)
         yield Sizes(**sizes)
-
-
-def told(params: SphericalParams) -> Iterator[Finding]:
-    """A note of the sizes that were left out and are other than usual."""
-    out, hardware = left_out(params.hardware), params.hardware
-    other = [name for name in NAMES if name in out and getattr(hardware, name) != getattr(USUAL, name)]
-    if other:
-        said = ", ".join(f"hardware.{name} = {getattr(hardware, name):g}" for name in other)
-        yield Finding.note(
-            "spherical.sizes", f"left out, and chosen so that links and pins have room: {said}"
-        )

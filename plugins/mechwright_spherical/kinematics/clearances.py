@@ -21,10 +21,6 @@ SAMPLES = 361
 """Input angles per phase: bodies move by less than a tenth of a millimetre between two on a sphere of 10
 mm."""
 
-POINTS = 33
-"""Points per arc whose distance from the other arc is exact: of two arcs, one end or a crossing is
-nearest, so that these only matter for nearly parallel ones."""
-
 
 @dataclass(frozen=True, slots=True)
 class Approach:
@@ -97,19 +93,16 @@ def pin_apart(
 
 
 def arcs_apart(one: Link, two: Link) -> Array:
-    """Least angle (n,) between two arcs; 0 where they cross.
+    """Least angle (n,) between two arcs, from an end of one to the other; 0 where they cross.
 
-    Arcs that do not cross are nearest at an end of one of them, or along the way where both run side by side
-    on opposite sides of the sphere's poles; points in between find that.
+    The distance to a great circle has no least value but where it is 0.
     """
-    shares = np.linspace(0, 1, POINTS)[:, None]
-    found = [point_to_arc(_between(*link, shares), other) for link, other in ((one, two), (two, one))]
-    apart = np.min(found, axis=(0, 1))
-    return np.where(_cross_each_other(one, two), 0.0, apart)
+    ends = [point_to_arc(end, other) for link, other in ((one, two), (two, one)) for end in link]
+    return np.where(_cross_each_other(one, two), 0.0, np.min(ends, axis=0))
 
 
 def point_to_arc(point: Array, link: Link) -> Array:
-    """Angle (..., n) from points (3, ..., n) to arcs: to their great circle, or to an end.
+    """Angle (n,) from points (3, n) to arcs: to their great circle, or to an end.
 
     An arc without length is its end.
     """
@@ -118,9 +111,6 @@ def point_to_arc(point: Array, link: Link) -> Array:
     length = norm(normal)
     normal = normal / np.where(length > 0, length, 1.0)
     ahead, behind = cross(normal, start), cross(end, normal)
-    # Of several points each, the arcs have an axis between their own two.
-    wide = (slice(None), *(None,) * (point.ndim - start.ndim))
-    start, end, normal, ahead, behind = (one[wide] for one in (start, end, normal, ahead, behind))
     beside = np.arcsin(np.clip(np.abs(dot(normal, point)), 0.0, 1.0))
     # The foot lies on the arc where it is ahead of the start and behind the end.
     on = (dot(ahead, point) > 0) & (dot(behind, point) > 0)
@@ -141,17 +131,6 @@ def _cross_each_other(one: Link, two: Link) -> NDArray[np.bool_]:
 def _on_arc(point: Array, link: Link, normal: Array) -> NDArray[np.bool_]:
     start, end = link
     return np.asarray((dot(cross(normal, start), point) > 0) & (dot(cross(end, normal), point) > 0))
-
-
-def _between(start: Array, end: Array, shares: Array) -> Array:
-    """Points (3, m, n) at shares (m, 1) of arcs."""
-    angle = _angle(start, end)
-    sine = np.sin(angle)
-    one, two = (
-        np.where(sine > 0, np.sin(part * angle) / np.where(sine > 0, sine, 1.0), part)
-        for part in (1 - shares, shares)
-    )
-    return np.asarray(one * start[:, None] + two * end[:, None])
 
 
 def _angle(a: Array, b: Array) -> Array:

@@ -20,6 +20,12 @@ OMEGA, ALPHA, JERK, OMEGA_PSI, ALPHA_PSI, JERK_PSI, ROWS = range(7)
 """Rows of extremes."""
 
 
+def circle_of(samples: int) -> Array:
+    """Cosine and sine of shares of a turn, and the shares (3, samples), both ends included."""
+    share = np.linspace(0.0, 1.0, samples)
+    return np.ascontiguousarray([np.cos(math.tau * share), np.sin(math.tau * share), share])
+
+
 @compiled
 def _pin(
     ax: float, ay: float, az: float, cx: float, cz: float, ca: float, cb: float, branch: float

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright import Array, DesignError, GeometryError, kept
+from mechwright import Array, DesignError, Finding, GeometryError, kept
 from mechwright.mechanics.planar import Course, Turning
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright_spherical.kinematics.five_bar import AdjustableFiveBar
@@ -121,12 +121,11 @@ def linkage_of(params: SphericalParams) -> Linkage:
 
 
 class PinError(DesignError):
-    """A pin or arc that makes no link; ``parameter``, ``value`` and ``limit`` (deg) are for its finding."""
+    """A pin or arc that makes no link, and its finding; value and limit are degrees."""
 
     def __init__(self, parameter: str, message: str, remedy: str, value: float, limit: float) -> None:
         super().__init__(f"{parameter}: {message}; {remedy}")
-        self.parameter, self.message, self.remedy = parameter, message, remedy
-        self.value, self.limit = value, limit
+        self.finding = Finding.error("spherical.pins", parameter, message, value, limit, "deg", remedy)
 
 
 SHORTEST = math.radians(0.05)

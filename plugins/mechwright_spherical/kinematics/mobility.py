@@ -7,11 +7,14 @@ The planar rule of Grashof is wrong on the sphere for half of all linkages. What
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array
+from mechwright.contracts.design_table import Rowwise
+from mechwright.mechanics.planar.swing import TURN_BACK
 
 BALANCE = 1e-9
 """rad. Sums of arcs that differ by less are equal: the linkage folds flat there, and no machine holds it
@@ -110,19 +113,14 @@ def input_range(
 ) -> tuple[tuple[float, float], ...]:
     """Input angles, rad, at which the linkage can be assembled: intervals inside 0 to 2π, in order.
 
-    Its transmission angle μ is at least ``least`` there, rad, and at most π less that. The diagonal D from a
-    to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ = cos α3 cos α4 + sin α3 sin α4 cos μ. No interval:
-    it cannot be assembled at all.
+    Its transmission angle μ is at least ``least`` there, rad, and at most π less that. No interval: it cannot
+    be assembled at all.
 
     >>> arcs = np.radians([80, 30, 70, 60])
     >>> [(round(math.degrees(low), 6), round(math.degrees(high), 6)) for low, high in input_range(*arcs)]
     [(0.0, 360.0)]
     """
-    level, swing = math.cos(ground) * math.cos(input_), math.sin(ground) * math.sin(input_)
-    # cos α3 cos α4 ± sin α3 sin α4 cos μ, in a form that does not cancel.
-    less = 2 * math.sin(coupler) * math.sin(output) * math.sin(least / 2) ** 2
-    highest = (math.cos(coupler - output) - less - level) / swing
-    lowest = (math.cos(coupler + output) + less - level) / swing
+    highest, lowest, _, _ = _limits(ground, input_, coupler, output, least)
     if highest < -1 or lowest > 1 or lowest >= highest:
         return ()
     near = math.acos(highest) if highest < 1 else 0.0
@@ -134,3 +132,61 @@ def input_range(
     if far == math.pi:
         return ((near, math.tau - near),)
     return ((near, far), (math.tau - far, math.tau - near))
+
+
+def _limits(ground: Any, input_: Any, coupler: Any, output: Any, least: float) -> tuple[Any, Any, Any, Any]:
+    """Highest and lowest cos θ with a transmission angle μ of ``least``, rad; k and m of cos μ = k + m cos θ.
+
+    The diagonal D from a to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ = cos α3 cos α4 + sin α3 sin α4
+    cos μ.
+    """
+    level, swing = np.cos(ground) * np.cos(input_), np.sin(ground) * np.sin(input_)
+    # cos α3 cos α4 ± sin α3 sin α4 cos μ, in a form that does not cancel.
+    sines = np.sin(coupler) * np.sin(output)
+    less = 2 * sines * np.sin(least / 2) ** 2
+    highest = (np.cos(coupler - output) - less - level) / swing
+    lowest = (np.cos(coupler + output) + less - level) / swing
+    return highest, lowest, (level - np.cos(coupler) * np.cos(output)) / sines, swing / sines
+
+
+@dataclass(frozen=True)
+class Courses(Rowwise):
+    """How far the inputs of four-bars go that go as far as they can, columns (n, 1), rad.
+
+    Parameters
+    ----------
+    apart
+        Whether links cannot be joined, or stay within a degree of their dead centre.
+    unsure
+        Whether rounding decides that, or whether the input turns fully.
+    start, travel, rocks
+        Where an input begins, how far it goes, and whether it is a lever that comes back.
+    transmission
+        Least and greatest transmission angle (n, 2).
+    """
+
+    apart: Array
+    unsure: Array
+    start: Array
+    travel: Array
+    rocks: Array
+    transmission: Array
+
+
+def courses(ground: Array, input_: Array, coupler: Array, output: Array) -> Courses:
+    """Give the courses of inputs: :func:`input_ways` and its first way, of arcs (n, 1) in rad."""
+    highest, lowest, level, swing = _limits(ground, input_, coupler, output, TURN_BACK)
+    gaps = [highest - lowest, *(one - edge for one in (highest, lowest) for edge in (-1.0, 1.0))]
+    ends = [np.clip(one, -1.0, 1.0) for one in (highest, lowest)]
+    (near, far), inward, outward = (np.arccos(one) for one in ends), highest >= 1, lowest <= -1
+    start = np.where(inward, np.where(outward, 0.0, -far), near)
+    stop = np.where(outward, math.tau - near, far)
+    cosines = np.concatenate([level + swing * one for one in ends], axis=1)
+    return Courses(
+        (highest < -1) | (lowest > 1) | (lowest >= highest),
+        np.any([np.abs(gap) < BALANCE for gap in gaps], axis=0),
+        start,
+        stop - start,
+        ~(inward & outward),
+        np.arccos(np.clip(cosines, -1, 1)),
+    )

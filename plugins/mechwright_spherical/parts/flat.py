@@ -8,6 +8,9 @@ lie (r + K t) δ of strip, measured on the neutral fibre. Long arcs get several 
 
 import math
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from mechwright import Arc, Line, Loop, Outline, Segment, circle
 from mechwright_spherical.parts.hardware import FlatTable
@@ -45,11 +48,20 @@ class Strip:
     middles: tuple[float, ...]
 
 
+def bends_of(arc: Any) -> Any:
+    """How often a strip is bent, for arcs in rad: one of exactly the sharpest bend once."""
+    return np.ceil(arc / SHARPEST - 1e-9)
+
+
+def leg_of(arc: Any, radius: Any, flat: FlatTable) -> Any:
+    """From a bore to the nearest end of a bend, mm, for arcs in rad and radii in mm."""
+    return (radius - flat.bend_radius) * np.tan(arc / bends_of(arc) / 2)
+
+
 def strip(arc: float, radius: float, flat: FlatTable) -> Strip:
     """The strip of a link with an arc, rad, whose facets touch the sphere of ``radius``, mm."""
-    bends = math.ceil(arc / SHARPEST - 1e-9)  # an arc of exactly one bend is one bend
+    bends, leg = int(bends_of(arc)), float(leg_of(arc, radius, flat))
     angle = arc / bends
-    leg = (radius - flat.bend_radius) * math.tan(angle / 2)
     allowance = (flat.bend_radius + flat.neutral * flat.thickness) * angle
     step = 2 * leg + allowance
     middles = tuple(leg + allowance / 2 + number * step for number in range(bends))

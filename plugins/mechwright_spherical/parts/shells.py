@@ -39,8 +39,8 @@ class Shells:
 
     @property
     def inside(self) -> Span:
-        """Span of the innermost shell, mm."""
-        return min(self.links.values())
+        """Span of the innermost shell, mm; links stand in order."""
+        return next(iter(self.links.values()))
 
     @property
     def outside(self) -> float:
@@ -111,5 +111,5 @@ def _stacked(params: SphericalParams, order: Sequence[tuple[str, ...]], start: f
     links: dict[str, Span] = {}
     for names in order:
         links |= dict.fromkeys(names, (start, start + thickness))
-        start += thickness + hardware.gap
+        start = start + thickness + hardware.gap  # which may be a column
     return links

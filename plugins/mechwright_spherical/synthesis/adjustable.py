@@ -23,13 +23,14 @@ from mechwright import (
     Synthesis,
 )
 from mechwright.contracts.finding import errors
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.kinematics.five_bar import AdjustableFiveBar, projected
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.projection import project, unproject
 from mechwright_spherical.parameters import FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.assembly import least_transmission
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis import structural
 from mechwright_spherical.synthesis.planar import CouplerPoses, PlanarSynthesis, points, synthesise
 from mechwright_spherical.synthesis.refine import Fit, Freedom, Path, refine
@@ -65,7 +66,7 @@ def from_poses(wanted: AdjustablePathRequirement, progress: Progress) -> Synthes
     rejected = Rejected()
     for fit in _fits(wanted, mechanism, path, progress):
         params = _design(wanted, fit.mechanism, planar, flat, length, centre)
-        found = errors(checks.findings(params))
+        found = errors(findings_of(params))
         if rejected.by(found):
             refused += found
         elif params not in [candidate.params for candidate in candidates]:
@@ -190,7 +191,7 @@ def _design(
         path_n=tuple(map(tuple, flat[count:].tolist())),
         path_angles_n=tuple(degrees_n),
     )
-    return SizedParams(
+    return CompleteParams(
         kind="five-bar",
         radius=wanted.radius,
         speed=wanted.speed,
@@ -207,7 +208,7 @@ def _candidate(
     wanted: AdjustablePathRequirement, params: SphericalParams, fit: Fit, length: float
 ) -> Candidate[SphericalParams]:
     linkage = linkage_of(params)
-    mu = [math.asin(min(1.0, max(0.0, checks.weakest(phase)[1]))) for phase in linkage.phases]
+    mu = [least_transmission(phase) for phase in linkage.phases]
     misses = np.concatenate([phase.path_errors for phase in linkage.phases])
     (r1, r1n), (r3, r3n) = fit.mechanism.crank_arcs, fit.mechanism.rocker_arcs
     return Candidate(

@@ -16,15 +16,16 @@ from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import thinned
 from mechwright.mechanics.tracing.requirement import fault_of_points
 from mechwright.mechanics.tracing.search import MORE, SEARCH, Trace, Traces, search
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.vectors import arc, vector
 from mechwright_spherical.parameters import MOST_POSITIONS, FiveBarTable, SphericalParams
 from mechwright_spherical.requirements import FiveBarPathRequirement
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.assembly import least_transmission
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis.five_bar_limits import ARCS, FiveBarRoom
 from mechwright_spherical.synthesis.four_bar_limits import Bounds
-from mechwright_spherical.synthesis.four_bar_path import ALIKE, DIGITS, EXACT, directions
+from mechwright_spherical.synthesis.four_bar_path import ALIKE, DIGITS, EXACT, directions, fault
 from mechwright_spherical.synthesis.rounding import NO_STEP, no_step, rounded
 
 INSIDE = math.radians(0.01)
@@ -73,11 +74,11 @@ def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis
     try:
         targets = np.array([vector(point) for point in wanted.points])
     except GeometryError as error:
-        return Synthesis((), (_fault("points", str(error), "give each point a direction"),))
+        return Synthesis((), (fault("points", str(error), "give each point a direction"),))
     timed = bool(wanted.angles)
     if said := fault_of_points(wanted.points, timed) or fault_of_points(directions(targets), timed):
         wrong, _, remedy = said.partition("; ")
-        return Synthesis((), (_fault("points", wrong, remedy or "give other points"),))
+        return Synthesis((), (fault("points", wrong, remedy or "give other points"),))
     rooms = rooms_of(wanted, targets)
     chosen = thinned(rooms[0].targets, rooms[0].closed)
     most = MORE * wanted.designs
@@ -110,7 +111,7 @@ def from_points(wanted: FiveBarPathRequirement, progress: Progress) -> Synthesis
             continue
         looked.append(one)
         params = design(one, wanted, rooms[0])
-        faults = errors(checks.findings(params))
+        faults = errors(findings_of(params))
         refused += faults
         if rejected.by(faults):
             continue
@@ -191,7 +192,7 @@ def design(one: Drawn, wanted: FiveBarPathRequirement, room: FiveBarRoom) -> Sph
         path=tuple(_row(point) for point in targets[shown]),
         path_angles=tuple(turned[shown].round(DIGITS).tolist()),
     )
-    return SizedParams(
+    return CompleteParams(
         kind="five-bar",
         radius=wanted.radius,
         speed=wanted.speed,
@@ -207,7 +208,7 @@ def _row(pin: Array) -> tuple[float, float, float]:
 
 def _least_angle(params: SphericalParams) -> float:
     """Least transmission angle over the passage, rad."""
-    return math.asin(min(1.0, max(0.0, checks.weakest(linkage_of(params).phases[0])[1])))
+    return least_transmission(linkage_of(params).phases[0])
 
 
 def _rank(
@@ -252,21 +253,13 @@ def _broken(room: FiveBarRoom, one: Trace) -> tuple[str, str]:
 def _none(result: Traces, rooms: list[FiveBarRoom], wanted: FiveBarPathRequirement) -> Finding:
     """Why there is no design at all."""
     if not result.beyond:
-        return _fault("five_bar.path", f"in {result.starts} starts no five-bar was found near the points")
+        return fault("five_bar.path", f"in {result.starts} starts no five-bar was found near the points")
     near = result.beyond[0]
     room = rooms[near.room]
-    return _fault(
+    return fault(
         "least_transmission",
         f"in {result.starts} starts no five-bar was found that keeps a transmission angle of "
         f"{wanted.least_transmission:g} degrees with arcs of {wanted.least_arc:g} to "
         f"{wanted.greatest_arc:g}: the nearest misses the points by "
         f"{wanted.radius * room.size * near.mean:.3g} mm, and {_broken(room, near)[1]}",
     )
-
-
-def _fault(
-    parameter: str,
-    message: str,
-    remedy: str = "ask for a larger atlas, more starts, fewer points, or a lower least_transmission",
-) -> Finding:
-    return Finding.error("spherical.synthesis", parameter, message, remedy=remedy)

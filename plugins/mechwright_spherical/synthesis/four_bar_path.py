@@ -18,12 +18,13 @@ from mechwright.mechanics.tracing.dense import on_all, only
 from mechwright.mechanics.tracing.points import thinned
 from mechwright.mechanics.tracing.requirement import fault_of_points
 from mechwright.mechanics.tracing.search import MORE, SEARCH, Trace, search
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.vectors import vector
 from mechwright_spherical.parameters import MOST_POSITIONS, FourBarTable, SphericalParams
 from mechwright_spherical.requirements import FourBarPathRequirement
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.assembly import weakest
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis.four_bar_limits import Bounds, FourBarRoom
 from mechwright_spherical.synthesis.rounding import NO_STEP, no_step, rounded
 
@@ -57,11 +58,11 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
     try:
         targets = np.array([vector(point) for point in wanted.points])
     except GeometryError as error:
-        return Synthesis((), (_fault("points", str(error), "give each point a direction"),))
+        return Synthesis((), (fault("points", str(error), "give each point a direction"),))
     timed = bool(wanted.angles)
     if said := fault_of_points(wanted.points, timed) or fault_of_points(directions(targets), timed):
         wrong, _, remedy = said.partition("; ")
-        return Synthesis((), (_fault("points", wrong, remedy or "give other points"),))
+        return Synthesis((), (fault("points", wrong, remedy or "give other points"),))
     rooms = rooms_of(wanted, targets)
     targets, closed = rooms[0].targets, rooms[0].closed
     chosen = thinned(targets, closed)
@@ -93,7 +94,7 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
             rejected.beyond(wanted.designs, 1)
         else:
             looked.append(params)
-            faults = errors(checks.findings(params))
+            faults = errors(findings_of(params))
             refused += faults
             if not rejected.by(faults):
                 found.append(_candidate(params, wanted.radius * room.size * one.mean))
@@ -166,9 +167,9 @@ def _none(
 ) -> Finding:
     """Why there is no design at all."""
     if not beyond:
-        return _fault("four_bar.path", f"in {starts} starts no four-bar was found near the points")
+        return fault("four_bar.path", f"in {starts} starts no four-bar was found near the points")
     greatest = max(math.degrees(_least_angle(rooms[one.room], one)) for one in beyond)
-    return _fault(
+    return fault(
         "least_transmission",
         f"in {starts} starts no four-bar was found that keeps a transmission angle of "
         f"{wanted.least_transmission:g} degrees with arcs of {wanted.least_arc:g} to "
@@ -176,11 +177,12 @@ def _none(
     )
 
 
-def _fault(
+def fault(
     parameter: str,
     message: str,
     remedy: str = "ask for a larger atlas, more starts, fewer points, or a lower least_transmission",
 ) -> Finding:
+    """The error of a path that no linkage meets."""
     return Finding.error("spherical.synthesis", parameter, message, remedy=remedy)
 
 
@@ -242,7 +244,7 @@ def design(
         path=tuple(map(tuple, targets[shown].round(DIGITS + 2).tolist())),
         path_angles=tuple(np.degrees(angles[shown] - angles[0]).round(DIGITS).tolist()),
     )
-    return SizedParams(
+    return CompleteParams(
         kind="four-bar",
         radius=wanted.radius,
         speed=wanted.speed,
@@ -266,7 +268,7 @@ def _shape(table: FourBarTable) -> Array:
 
 def _candidate(params: SphericalParams, residual: float) -> Candidate[SphericalParams]:
     (phase,) = linkage_of(params).phases
-    sine, table = checks.weakest(phase)[1], params.four_bar
+    sine, table = weakest(phase)[1], params.four_bar
     arcs = table.ground, table.input, table.coupler, table.output
     return Candidate(
         params,

@@ -34,7 +34,8 @@ from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.projection import project, unproject
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.assembly import weakest
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis import structural
 from mechwright_spherical.synthesis.phased_designs import designs_of
 from mechwright_spherical.synthesis.space import SphereSpace
@@ -90,7 +91,7 @@ def from_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthe
             np.concatenate([[0.0], found.theta[k][task.phase == n]]) for n in range(task.unknowns.phases)
         ]
         designs = designs_of(wanted, pins, theta, goal.sphere)
-        faults = [one for _, params in designs for one in errors(checks.findings(params))]
+        faults = [one for _, params in designs for one in errors(findings_of(params))]
         if rejected.by(faults):
             refused += faults
             continue
@@ -279,7 +280,7 @@ def _candidate(
     linkage = linkage_of(params)
     shown = linkage.shown
     misses = params.radius * shown.path_errors
-    sine = min(checks.weakest(phase)[1] for phase in linkage.phases)
+    sine = min(weakest(phase)[1] for phase in linkage.phases)
     figures = {
         "phase": Scalar(float(number), ""),
         "phase_error": Scalar(float(np.sqrt(np.mean(misses**2))), "mm"),

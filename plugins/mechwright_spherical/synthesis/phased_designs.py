@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.adjustable import Pins
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.kinematics.vectors import arc, azimuth, cross, dot, norm
 from mechwright_spherical.parameters import (
     FiveBarPhase,
@@ -62,7 +62,7 @@ def designs_of(
 
 
 def _design(wanted: AdjustablePathRequirement, **table: FourBarTable | FiveBarTable) -> SphericalParams:
-    return SizedParams(
+    return CompleteParams(
         kind=wanted.linkage,
         radius=wanted.radius,
         speed=wanted.speed,

@@ -11,13 +11,14 @@ from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Sy
 from mechwright.contracts.finding import errors
 from mechwright.contracts.synthesis import ALIKE
 from mechwright.mechanics.linkage.passing import passing
-from mechwright_spherical.defaults.complete_parameters import SizedParams
+from mechwright_spherical.defaults.complete_parameters import CompleteParams
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.mobility import input_ways, mobility
 from mechwright_spherical.kinematics.vectors import arc, azimuth, cross, dot, norm, vector
 from mechwright_spherical.parameters import FourBarTable, SphericalParams
 from mechwright_spherical.requirements import PosesRequirement
-from mechwright_spherical.rules import checks
+from mechwright_spherical.rules.assembly import least_transmission
+from mechwright_spherical.rules.rule_table import findings_of
 from mechwright_spherical.synthesis.dyads import COUNT, Dyad, of_five, turns
 
 DIGITS = 12
@@ -183,7 +184,7 @@ def design(linkage: Carrying, wanted: PosesRequirement) -> SphericalParams:
         path=tuple(map(tuple, places.T.round(DIGITS).tolist())),
         path_angles=tuple(np.degrees(theta - theta[0]).round(DIGITS).tolist()),
     )
-    return SizedParams(
+    return CompleteParams(
         kind="four-bar",
         radius=wanted.radius,
         speed=wanted.speed,
@@ -196,10 +197,10 @@ def _kept(
     params: SphericalParams, wanted: PosesRequirement, rejected: Rejected
 ) -> Iterator[Candidate[SphericalParams]]:
     """The design as a candidate where it keeps the limits and has no error; else it is counted."""
-    if rejected.by(errors(checks.findings(params))):
+    if rejected.by(errors(findings_of(params))):
         return
     (phase,) = linkage_of(params).phases
-    angle = math.asin(min(1.0, max(0.0, checks.weakest(phase)[1])))
+    angle = least_transmission(phase)
     if angle < math.radians(wanted.least_transmission):
         said = f"the transmission angle falls to {math.degrees(angle):.3g} degrees"
         rejected.because("spherical.transmission", said)

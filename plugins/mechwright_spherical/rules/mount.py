@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import DesignError, Finding
+from mechwright import DesignError, Finding, Procedure, Stage
+from mechwright.contracts.finding import at_stage
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.frame import AIR, bridge_rooms, frame_of, motor_opposite, shells_of
+from mechwright_spherical.parts.frame import AIR, bridge_rooms, motor_opposite
 from mechwright_spherical.parts.mount import (
     EDGE,
     bracket_of,
@@ -18,15 +18,16 @@ from mechwright_spherical.parts.mount import (
     sizes,
     thread_of,
 )
-from mechwright_spherical.parts.places import link_arcs
 from mechwright_spherical.parts.stand import flange_diameter
+from mechwright_spherical.table import SphericalTable
 
 THREAD = 1.5
 """Least length of a thread in the base, in diameters: what aluminium needs."""
 
 
-def mount_findings(params: SphericalParams) -> Iterator[Finding]:
+def _mount(m: SphericalTable) -> Iterator[Finding]:
     """Nothing without a flange."""
+    params = m.params
     side = params.stand.motor_flange
     if side is None:
         return
@@ -65,8 +66,8 @@ def mount_findings(params: SphericalParams) -> Iterator[Finding]:
             remedy="take thicker links",
         )
         return
-    yield from _through(params)
-    yield from _room(params, side)
+    yield from _through(m)
+    yield from _room(m, side)
 
 
 def _threads(params: SphericalParams) -> Iterator[Finding]:
@@ -99,13 +100,13 @@ def _threads(params: SphericalParams) -> Iterator[Finding]:
         )
 
 
-def _through(params: SphericalParams) -> Iterator[Finding]:
+def _through(m: SphericalTable) -> Iterator[Finding]:
     """Whether a shaft can go through the centre to a motor: no link, nor the bridge, passes its far end."""
-    bridge = frame_of(params).bridge
+    params, bridge = m.params, m.bridge
     if bridge is None:
         return
-    shells, hardware = shells_of(params), params.hardware
-    rooms = bridge_rooms(params, linkage_of(params), shells, math.pi, hardware.pin_diameter)
+    shells, hardware = m.shells, params.hardware
+    rooms = bridge_rooms(params, m.linkage, shells, math.pi, hardware.pin_diameter)
     air = {name: float(room.min()) for name, room in rooms.items()}
     beside = 2 * shells.links["ground-2"][0] * math.sin((math.pi - bridge) / 2)
     air["bridge"] = beside - (hardware.boss_diameter + hardware.pin_diameter) / 2
@@ -124,10 +125,10 @@ def _through(params: SphericalParams) -> Iterator[Finding]:
         )
 
 
-def _room(params: SphericalParams, side: float) -> Iterator[Finding]:
+def _room(m: SphericalTable, side: float) -> Iterator[Finding]:
     """Flange against post and output, all seen from the centre."""
+    params, shells, stand = m.params, m.shells, m.params.stand
     far = motor_opposite(params)
-    shells, stand = shells_of(params), params.stand
     hubs = hubs_of(params)
     half, level = side / 2 + EDGE, flange_level(params)
     least_post = least_height(params)
@@ -146,12 +147,20 @@ def _room(params: SphericalParams, side: float) -> Iterator[Finding]:
     flange = math.atan2(half, level)
     wide = max(hubs["b0"].diameter, params.hardware.boss_diameter)
     beside = math.atan2(wide / 2 + AIR, shells.links["ground"][0])
-    arc = link_arcs(linkage_of(params))["ground"]
+    arc = m.arcs["ground"]
     arc = math.pi - arc if far else arc
     # Over the gears the flange is farther out than the output's hub.
     if bracket_of(params) is None and exceeds(flange + beside, arc):
         most = 2 * (level * math.tan(max(arc - beside, 0.0)) - EDGE)
-        yield _too_wide(side, most, "the hub of the output")
+        yield Finding.error(
+            "spherical.mount",
+            "stand.motor_flange",
+            f"a motor's flange of {side:g} mm runs into the hub of the output",
+            side,
+            max(most, 0.0),
+            "mm",
+            "take a larger radius, or fixed axes farther apart",
+        )
         return
     # The post's flange is widest farthest out, past the whole bracket.
     post = max(
@@ -177,13 +186,9 @@ def _room(params: SphericalParams, side: float) -> Iterator[Finding]:
         )
 
 
-def _too_wide(side: float, most: float, what: str) -> Finding:
-    return Finding.error(
-        "spherical.mount",
-        "stand.motor_flange",
-        f"a motor's flange of {side:g} mm runs into {what}",
-        side,
-        max(most, 0.0),
-        "mm",
-        "take a larger radius, or fixed axes farther apart",
-    )
+MOUNT = Procedure[SphericalTable](
+    ("spherical.mount",),
+    lambda m: at_stage(Stage.PARTS, _mount(m)),
+    when=lambda t: t.params.stand.motor_flange is not None,
+    stage=Stage.PARTS,
+)

@@ -1,26 +1,21 @@
-"""What an engineer would object to in a design, and the figures worth knowing.
-
-The checks run from the pins to the links. Each group needs what the groups before it have found to be sound,
-so the first group with an error ends the list.
-"""
+"""Whether the links can be joined, stay assembled, and lead the path point where it is prescribed."""
 
 import math
 from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, Stage, kept, until_error
+from mechwright import Array, Finding, Procedure, Severity, Stage, in_turn
 from mechwright.contracts.finding import Change
+from mechwright.contracts.rule_list import OneByOne
 from mechwright.mechanics.planar import Turning, swing
 from mechwright.mechanics.planar.swing import TURN_BACK
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_spherical.kinematics.linkage import Phase, PinError, linkage_of
+from mechwright_spherical.kinematics.linkage import Phase, PinError
 from mechwright_spherical.kinematics.mobility import input_range, input_ways, kind
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.frame import shells_of
 from mechwright_spherical.parts.places import second_size
-from mechwright_spherical.rules.hardware_checks import hardware_findings
-from mechwright_spherical.rules.setting_checks import setting_findings
+from mechwright_spherical.table import SphericalTable
 
 DEAD_CENTRE = math.degrees(TURN_BACK)
 """Transmission angle, degrees, below which a linkage counts as standing in a dead centre."""
@@ -30,38 +25,11 @@ SAMPLES = 1441
 two turns."""
 
 
-@kept
-def findings(params: SphericalParams) -> tuple[Finding, ...]:
-    """Everything that is to be said about a design. No error among it means that it can be built."""
-    return until_error(
-        params,
-        _pins,
-        setting_findings,
-        _assembly,
-        _path,
-        hardware_findings,
-        _figures,
-    )
-
-
-def joined(params: SphericalParams) -> bool:
-    """Whether the linkage is one, and stays assembled over its travel."""
-    return all(one.severity is not Severity.ERROR for one in until_error(params, _pins, _assembly))
-
-
-def _pins(params: SphericalParams) -> Iterator[Finding]:
+def _pins(m: SphericalTable) -> Iterator[Finding]:
     try:
-        linkage_of(params)
+        _ = m.linkage
     except PinError as fault:
-        yield Finding.error(
-            "spherical.pins",
-            fault.parameter,
-            fault.message,
-            fault.value,
-            fault.limit,
-            "deg",
-            fault.remedy,
-        )
+        yield fault.finding
 
 
 def key_of(params: SphericalParams, phase: Phase, name: str) -> str:
@@ -95,8 +63,13 @@ def weakest(phase: Phase) -> tuple[float, float]:
     return at, value
 
 
-def _assembly(params: SphericalParams) -> Iterator[Finding]:
-    linkage = linkage_of(params)
+def least_transmission(phase: Phase) -> float:
+    """The worst transmission angle, rad; 0 where the linkage comes apart."""
+    return math.asin(min(1.0, max(0.0, weakest(phase)[1])))
+
+
+def _assembly(m: SphericalTable) -> Iterator[Finding]:
+    params, linkage = m.params, m.linkage
     for phase in linkage.phases:
         at, sine = weakest(phase)
         where = f"at the input angle {math.degrees(at):.4g}°"
@@ -190,8 +163,9 @@ def _reach(phase: Phase) -> float:
     return math.degrees(float(angles[max(first - 1, 0)]))
 
 
-def _path(params: SphericalParams) -> Iterator[Finding]:
-    for phase in linkage_of(params).phases:
+def _path(m: SphericalTable) -> Iterator[Finding]:
+    params = m.params
+    for phase in m.linkage.phases:
         if not phase.target_angles.size:
             continue
         key, keys = key_of(params, phase, "path"), key_of(params, phase, "path_angles")
@@ -254,24 +228,52 @@ ON_TRAVEL = 1e-9
 """rad. A point this little outside the travel is at its end: rounding of degrees."""
 
 
-def _figures(params: SphericalParams) -> Iterator[Finding]:
-    linkage = linkage_of(params)
-    four = linkage.four_bar
+def _figures(m: SphericalTable) -> Iterator[Finding]:
+    four, mechanism = m.linkage.four_bar, m.linkage.five_bar
     if four is not None:
-        yield Finding(
-            "spherical.mobility",
-            Severity.NOTE,
-            "four_bar",
-            f"it is a {kind(*four.arcs)}",
-        )
+        said = f"it is a {kind(*four.arcs)}"
+        yield Finding("spherical.mobility", Severity.NOTE, "four_bar", said)
+    if mechanism is None:
         return
-    mechanism = linkage.five_bar
-    assert mechanism is not None  # noqa: S101 - a linkage is one of both
     (r1, r1n), (r3, r3n) = mechanism.crank_arcs, mechanism.rocker_arcs
     degrees = [math.degrees(float(x)) for x in (r1, r1n, r3, r3n)]
-    other = second_size(linkage, shells_of(params))
+    other = second_size(m.linkage, m.shells)
     apart = max(abs(degrees[0] - degrees[1]), abs(degrees[2] - degrees[3]))
     said = f"R1 = {degrees[0]:.4f}° and {degrees[1]:.4f}°, R3 = {degrees[2]:.4f}° and {degrees[3]:.4f}°"
     if other:
         said += f": {' and '.join(sorted(other))} must be exchanged for phase 2; common_arcs avoids that"
     yield Finding("spherical.arcs", Severity.NOTE, "five_bar.common_arcs", said, apart, None, "deg")
+
+
+Proc = Procedure[SphericalTable]
+
+PINS = in_turn(
+    Proc(("spherical.pins",), _pins, when=lambda t: not t.single and t.has_short_arcs, certain=True),
+    Proc(("spherical.pins",), _pins, common=True),
+)
+"""Whether links have arcs, and pins directions, which the designs of a table share."""
+
+ASSEMBLY = in_turn(
+    OneByOne(lambda t: t.courses.unsure),
+    Proc(
+        ("spherical.assembly",),
+        _assembly,
+        when=lambda t: not t.single and t.courses.apart,
+        certain=True,
+        stage=Stage.PARTS,
+    ),
+    Proc(
+        ("spherical.assembly", "spherical.lever", "spherical.transmission"),
+        _assembly,
+        when=lambda t: t.single or t.courses.apart,
+    ),
+)
+"""Whether the linkage stays assembled over its travel; in its dead centre it may move, and has no parts."""
+
+PATH = Proc(
+    ("spherical.order", "spherical.assembly", "spherical.path"),
+    _path,
+    when=lambda t: t.single,
+    stage=Stage.PARTS,
+)
+FIGURES = Proc(("spherical.mobility", "spherical.arcs"), _figures, warns=True)

@@ -6,24 +6,23 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright import Array, Finding, KinematicsError, Stage, of_stage
+from mechwright import Array, Finding, KinematicsError, Procedure, Stage, of_stage
 from mechwright.mechanics.linkage.clamp import least_stud
 from mechwright.mechanics.linkage.setting_findings import Turned, setting_order
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.defaults.preferred_sizes import WALL
-from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.vectors import arc
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.frame import frame_of, shells_of
 from mechwright_spherical.parts.seats import Seat, clamp_of, plate_of, seats_of, slot_width, slotted_of
+from mechwright_spherical.table import SphericalTable
 
 LONGEST_SLOT = 170.0
 """Degrees about the axis: a longer slot nearly cuts its middle out."""
 
 
-def setting_findings(params: SphericalParams) -> Iterator[Finding]:
+def _setting(m: SphericalTable) -> Iterator[Finding]:
     """Whether the machine can be set, and in which order."""
-    linkage = linkage_of(params)
+    params, linkage = m.params, m.linkage
     if len(linkage.phases) == 1:
         return iter(())
     five = params.kind == "five-bar"
@@ -76,13 +75,13 @@ def _turns(params: SphericalParams, seats: tuple[Seat, Seat]) -> list[tuple[floa
 
 
 @of_stage(Stage.PARTS)
-def slot_findings(params: SphericalParams) -> Iterator[Finding]:
+def _slots(m: SphericalTable) -> Iterator[Finding]:
     """Openings of the coupler that come too near to each other, and the clamps."""
-    seats, names = seats_of(linkage_of(params)), slotted_of(params)
+    params, seats, names = m.params, seats_of(m.linkage), slotted_of(m.params)
     if not any(len(seat.own) > 1 for seat in seats):
         return
-    if names and frame_of(params).bridge is not None:
-        radius, boss = shells_of(params).links["coupler"][0], params.hardware.boss_diameter
+    if names and m.bridge is not None:
+        radius, boss = m.shells.links["coupler"][0], params.hardware.boss_diameter
         chord = min(seat.chord(radius) for seat in seats)
         yield Finding.error(
             "spherical.slot",
@@ -96,23 +95,23 @@ def slot_findings(params: SphericalParams) -> Iterator[Finding]:
             "output link clear of each other with narrower links or a larger radius",
         )
         return
-    yield from _apart(params, seats, names)
+    yield from _apart(m, seats, names)
     if names:
         yield from _clamped(params, seats, names)
 
 
-def _apart(params: SphericalParams, seats: tuple[Seat, Seat], names: tuple[str, ...]) -> Iterator[Finding]:
-    hardware, clamp = params.hardware, clamp_of(params)
+def _apart(m: SphericalTable, seats: tuple[Seat, Seat], names: tuple[str, ...]) -> Iterator[Finding]:
+    params, hardware, clamp = m.params, m.params.hardware, clamp_of(m.params)
     bore = hardware.pin_diameter + hardware.fit
     around = slot_width(params) / 2 if clamp is None else clamp.reach
-    point = linkage_of(params).phases[0].at_reference.p[0][:, :1]
+    point = m.linkage.phases[0].at_reference.p[0][:, :1]
     openings: list[tuple[str, Array, float]] = [("the path point", point, hardware.pin_diameter / 2)]
     for seat in seats:
         if seat.name in names:
             openings.append((f"the slot of pin {seat.name}", seat.points(), around))
         else:
             openings.append((f"a bore of pin {seat.name}", np.stack(seat.own, axis=1), bore / 2))
-    radius = shells_of(params).links["coupler"][0]
+    radius = m.shells.links["coupler"][0]
     for (one, here, half), (two, there, other) in combinations(openings, 2):
         nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
         apart, least = 2 * radius * math.tan(nearest / 2), half + other + WALL
@@ -185,3 +184,10 @@ def _clamped(params: SphericalParams, seats: tuple[Seat, Seat], names: tuple[str
             "mm",
             f"use a standoff of {inwards:g} mm or more",
         )
+
+
+SETTING = Procedure[SphericalTable](("spherical.setting",), _setting, when=lambda t: t.single)
+SLOTS = Procedure[SphericalTable](
+    ("spherical.slot", "spherical.clamp"), _slots, when=lambda t: t.single, stage=Stage.PARTS
+)
+"""Tables have linkages of one phase."""
