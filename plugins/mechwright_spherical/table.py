@@ -14,12 +14,12 @@ import numpy as np
 from mechwright import Array, kept
 from mechwright.contracts.design_table import DesignTable, column, items, plain, with_columns
 from mechwright_spherical.kinematics import kernels
-from mechwright_spherical.kinematics.clearances import SAMPLES, Approach, approaches
+from mechwright_spherical.kinematics.clearances import SAMPLES, Approach
 from mechwright_spherical.kinematics.linkage import SHORTEST, Linkage, linkage_of
 from mechwright_spherical.kinematics.mobility import Courses, courses
 from mechwright_spherical.kinematics.vectors import arc
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.frame import frame_of
+from mechwright_spherical.parts.frame import frame_of, outside_approaches
 from mechwright_spherical.parts.hardware import HardwareTable
 from mechwright_spherical.parts.places import link_arcs
 from mechwright_spherical.parts.seats import seats_of, slotted_of
@@ -148,10 +148,10 @@ class SphericalTable(DesignTable[SphericalParams]):
         ends = (("a", kappa), ("c", kappa - coupler))
         return [(name, np.arccos(np.clip(level * np.cos(angle), -1, 1))) for name, angle in ends]
 
-    @cached_property
-    def approaches(self) -> list[Approach]:
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
         """The nearest approaches of one design whose ground is outside of the links."""
-        return list(approaches(self.params, self.linkage, self.shells))
+        return outside_approaches(self.params)
 
     @property
     def rooms(self) -> Array:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array, kept
-from mechwright_spherical.kinematics.clearances import SAMPLES, Link, approaches, pin_apart
+from mechwright_spherical.kinematics.clearances import SAMPLES, Approach, Link, approaches, pin_apart
 from mechwright_spherical.kinematics.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.kinematics.vectors import arc, dot, norm, rotate
 from mechwright_spherical.parameters import SphericalParams
@@ -50,12 +50,18 @@ def frame_of(params: SphericalParams) -> Frame:
     if linkage.four_bar is None or params.hardware.frame == "one":
         return Frame(outside)
     if params.hardware.frame == "auto":
-        near = min(found.room for found in approaches(params, linkage, outside))
+        near = min(found.room for found in outside_approaches(params))
         if not near < AIR:
             return Frame(outside)
     around = two_sides(params)
     place = _bridge(params, linkage, around)
     return Frame(outside) if place is None else Frame(around, place)
+
+
+@kept
+def outside_approaches(params: SphericalParams) -> tuple[Approach, ...]:
+    """The nearest approaches of links whose ground is outside of them."""
+    return tuple(approaches(params, linkage_of(params), one_side(params, stud_room(params))))
 
 
 def shells_of(params: SphericalParams) -> Shells:

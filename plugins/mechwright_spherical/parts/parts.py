@@ -19,7 +19,7 @@ from mechwright_spherical.parts.places import gear_cones, link_arcs, pin_places,
 from mechwright_spherical.parts.seats import clamp_of, head_of, slotted_of, stud_length
 from mechwright_spherical.parts.shells import Shells
 from mechwright_spherical.parts.stand import FLANGE_SCREWS, MOUNTING_SCREWS, base_outline
-from mechwright_spherical.parts.strips import makes_strips
+from mechwright_spherical.rules.stand import makes_strips
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -167,7 +167,7 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         for number in range(1, len(FLANGE_SCREWS) + len(MOUNTING_SCREWS) + 1):
             base = threaded(base, f"bore-{number}", f"M{thread:g}")
     yield base
-    if not makes_strips(params, linkage, shells):
+    if not makes_strips(params):
         return
     arcs = link_arcs(linkage) | ground_arcs(params)
     arcs |= {f"{n}-n": a for n, a in second_size(linkage, shells).items()}

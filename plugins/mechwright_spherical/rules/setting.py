@@ -6,7 +6,8 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright import Array, Finding, KinematicsError, Procedure, Stage, of_stage
+from mechwright import Array, Finding, KinematicsError, Procedure, Stage
+from mechwright.contracts.finding import at_stage
 from mechwright.mechanics.linkage.clamp import least_stud
 from mechwright.mechanics.linkage.setting_findings import Turned, setting_order
 from mechwright.tolerances import exceeds, falls_short
@@ -74,7 +75,6 @@ def _turns(params: SphericalParams, seats: tuple[Seat, Seat]) -> list[tuple[floa
     ]
 
 
-@of_stage(Stage.PARTS)
 def _slots(m: SphericalTable) -> Iterator[Finding]:
     """Openings of the coupler that come too near to each other, and the clamps."""
     params, seats, names = m.params, seats_of(m.linkage), slotted_of(m.params)
@@ -188,6 +188,9 @@ def _clamped(params: SphericalParams, seats: tuple[Seat, Seat], names: tuple[str
 
 SETTING = Procedure[SphericalTable](("spherical.setting",), _setting, when=lambda t: t.single)
 SLOTS = Procedure[SphericalTable](
-    ("spherical.slot", "spherical.clamp"), _slots, when=lambda t: t.single, stage=Stage.PARTS
+    ("spherical.slot", "spherical.clamp"),
+    lambda m: at_stage(Stage.PARTS, _slots(m)),
+    when=lambda t: t.single,
+    stage=Stage.PARTS,
 )
 """Tables have linkages of one phase."""

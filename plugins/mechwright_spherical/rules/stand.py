@@ -14,12 +14,12 @@ from mechwright.tolerances import falls_short
 from mechwright_spherical.defaults.preferred_sizes import least_boss
 from mechwright_spherical.kinematics.drive import Train, internal, train_of
 from mechwright_spherical.kinematics.vectors import arc
+from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.flat import leg_of
-from mechwright_spherical.parts.frame import AIR, ground_beyond
+from mechwright_spherical.parts.frame import AIR, ground_arcs, ground_beyond
 from mechwright_spherical.parts.hardware import StandTable
-from mechwright_spherical.parts.places import gear_span
+from mechwright_spherical.parts.places import gear_span, second_size
 from mechwright_spherical.parts.stand import MOUNTING_SCREWS, flange_diameter
-from mechwright_spherical.parts.strips import strip_legs
 from mechwright_spherical.table import SphericalTable
 
 Rule = DesignRule[SphericalTable]
@@ -169,18 +169,17 @@ STAND = (
 
 def _legs(t: SphericalTable) -> list[tuple[str, Any]]:
     """Links that strips are made of, and the length of each between a bore and its nearest bend, mm."""
+    arcs = dict(t.arcs)
     if t.single:
-        return list(strip_legs(t.params, t.linkage, t.shells))
-    arcs = {**t.arcs, "coupler": t.coupler_arcs[0]}
-    return [(name, leg_of(angle, t.shells.arc(name)[0], t.params.flat)) for name, angle in arcs.items()]
+        arcs |= ground_arcs(t.params) | second_size(t.linkage, t.shells)
+    links = [*arcs.items(), *(("coupler", angle) for angle in t.coupler_arcs)]
+    return [(name, leg_of(angle, t.shells.arc(name)[0], t.params.flat)) for name, angle in links]
 
 
 def _strip_message(f: Fails) -> str:
-    name = _legs(f.m)[f.item][0]
-    link = "coupler" if name.startswith("coupler") else name
     return (
-        f"the strip of the {link} has {f.value:.4g} mm between bore and bend, and its round end takes "
-        f"{f.limit:g} mm"
+        f"the strip of the {_legs(f.m)[f.item][0]} has {f.value:.4g} mm between bore and bend, and its "
+        f"round end takes {f.limit:g} mm"
     )
 
 
@@ -196,10 +195,19 @@ STRIPS = Rule(
     when=lambda t: t.params.flat.make is True,
 )
 
+_FIRST_TOO_SHORT = STRIPS.but(when=None, each=False)
+
+
+def makes_strips(params: SphericalParams) -> bool:
+    """Whether links are made as flat strips: as the design says, or where all of them can be bent."""
+    if params.flat.make is not None:
+        return params.flat.make
+    return not any(_FIRST_TOO_SHORT.findings(SphericalTable.of(params), quick=True))
+
 
 def _no_strips(m: SphericalTable) -> Iterator[Finding]:
     """A note where strips are left out because they cannot be bent."""
-    for error in STRIPS.but(when=None, each=False).findings(m, quick=False):
+    for error in _FIRST_TOO_SHORT.findings(m, quick=False):
         yield Finding.note(
             "spherical.strip",
             f"links are not made as flat strips: {error.message}; "
