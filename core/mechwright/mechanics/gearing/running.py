@@ -5,6 +5,7 @@ and the two polygons run against each other. Of the first the figures are; the s
 """
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,6 +20,7 @@ from mechwright.mechanics.gearing.cut import hole_of
 from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
 from mechwright.mechanics.gearing.mesh import Mesh, mesh
 from mechwright.mechanics.gearing.pair import Pair
+from mechwright.mechanics.gearing.rack import Rack
 from mechwright.mechanics.gearing.teeth import Teeth
 from mechwright.tolerances import OFF_CENTRE
 
@@ -33,8 +35,93 @@ DEEP = 0.05
 MICRO = 1e6
 
 
+class MadeMesh(ABC):
+    """Two toothed bodies as made, the first of which drives the second.
+
+    ``names`` are both bodies, ``corridor`` is that of both outlines together, mm. ``least`` is the backlash,
+    mm, that the design asks for, and the rule by which it is found. ``free`` says whether the driven body
+    finds its own place; else keys or links fix both.
+    """
+
+    names: tuple[str, str]
+    outlines: tuple[Array, Array]
+    corridor: float
+    least: tuple[float, str]
+    free: bool
+    span: str = "a turn"
+    """What the bodies are looked at over, in words."""
+    play_rule: str = "2 (g cos δ + v sin α) cos α / (s4 cos(α + δ) cos(α - δ))"
+    """How play follows from the gaps g and from v, by which an axis is off."""
+
+    @property
+    @abstractmethod
+    def rack(self) -> Rack:
+        """The cutter of the driver, with the backlash of the design."""
+
+    @property
+    @abstractmethod
+    def contacts(self) -> Contacts:
+        """Where the exact flanks touch."""
+
+    @property
+    @abstractmethod
+    def mesh(self) -> Mesh:
+        """The two polygons run against each other, at the exact centre distance."""
+
+    def apart(self, off: float) -> tuple[float, float]:
+        """By how much the driven body is off, mm, if it stands farther away by so much."""
+        return off, 0.0
+
+    @property
+    def places(self) -> tuple[str, Array]:
+        """What tells the positions, and its values (n,)."""
+        return f"{self.names[0]}, degrees", np.degrees(self.gaps.theta) % 360.0
+
+    def place(self, position: int) -> str:
+        """A position in words."""
+        return f"{self.places[1][position]:.1f} degrees of {self.names[0]}"
+
+    @cached_property
+    def gaps(self) -> Gaps:
+        """What stands between the flanks."""
+        return self.contacts.between(*self.outlines)
+
+    @cached_property
+    def disagreement(self) -> float:
+        """By how much both ways differ at most, besides ridges of the path, as a share of the greatest play.
+
+        Where that is less than what walls within tolerance make of it, of that. Polygons may touch sooner by
+        the corridor, which every worst case has: the edge of a tip that the path leaves proud touches where
+        the exact flanks have left each other.
+        """
+        closed, polygons = np.stack(self.gaps.play()), np.stack((self.mesh.ahead, self.mesh.behind))
+        ahead, behind = closed
+        lever = float(np.abs(self.gaps.lever).min())
+        sooner = float((closed - polygons).max()) - max(RIDGE, self.corridor) / lever
+        off = max(sooner, float((polygons - closed).max()) - RIDGE / lever, 0.0)
+        return float(off / max(np.abs(np.concatenate((ahead, behind))).max(), LEFT / lever))
+
+    def spare(self, off_centre: float, more: float = 0.0) -> Array:
+        """What is left of the play (n,), rad, in the worst of the corridor and with the axes off, mm.
+
+        A single pair finds its own angle, and only what brings the axes together takes play away. In a train
+        keys and the coupler fix the angles: each flank needs its own play, whichever way an axis is off.
+        """
+        if self.free:
+            ahead, behind = self.gaps.play(self.apart(-off_centre), more - self.corridor)
+            return ahead + behind
+        ahead, behind = self.gaps.play((0.0, 0.0), more - self.corridor - off_centre)
+        least: Array = np.minimum(ahead, behind)
+        return least
+
+    @property
+    def title(self) -> str:
+        """What the pair is called."""
+        return " and ".join(name.replace("-", " ") for name in self.names)
+
+
 @dataclass(frozen=True)
-class MadePair:
+class MadePair(MadeMesh):
     """A driver and the gear that it drives, as made.
 
     Parameters
@@ -64,59 +151,28 @@ class MadePair:
     free: bool = True
     mate: Teeth | None = None
 
+    @property
+    def rack(self) -> Rack:
+        """That of the teeth."""
+        return self.teeth.rack
+
     @cached_property
     def contacts(self) -> Contacts:
         """Where the exact flanks touch."""
         return Contacts.of(self.pair, self.teeth, mate=self.mate)
 
     @cached_property
-    def gaps(self) -> Gaps:
-        """What stands between the flanks."""
-        return self.contacts.between(*self.outlines)
-
-    @cached_property
     def mesh(self) -> Mesh:
         """The two polygons run against each other, at the exact centre distance."""
-        import shapely
+        driver, driven = map(plain, self.outlines)
+        return mesh(driver, driven, self.pair, self.teeth.wheel, allowance=DEEP)
 
-        one, two = (
-            shapely.get_coordinates(shapely.simplify(shapely.Polygon(outline), FINE))[:-1]
-            for outline in self.outlines
-        )
-        return mesh(one, two, self.pair, self.teeth.wheel, allowance=DEEP)
 
-    @cached_property
-    def disagreement(self) -> float:
-        """By how much both ways differ at most, besides ridges of the path, as a share of the greatest play.
+def plain(outline: Array) -> Array:
+    """An outline (n, 2), mm, without corners that hardly bend it."""
+    import shapely
 
-        Where that is less than what walls within tolerance make of it, of that. Polygons may touch sooner by
-        the corridor, which every worst case has: the edge of a tip that the path leaves proud touches where
-        the exact flanks have left each other.
-        """
-        closed, polygons = np.stack(self.gaps.play()), np.stack((self.mesh.ahead, self.mesh.behind))
-        ahead, behind = closed
-        lever = float(np.abs(self.gaps.lever).min())
-        sooner = float((closed - polygons).max()) - max(RIDGE, self.corridor) / lever
-        off = max(sooner, float((polygons - closed).max()) - RIDGE / lever, 0.0)
-        return float(off / max(np.abs(np.concatenate((ahead, behind))).max(), LEFT / lever))
-
-    def spare(self, off_centre: float, more: float = 0.0) -> Array:
-        """What is left of the play (n,), rad, in the worst of the corridor and with the axes off, mm.
-
-        A single pair finds its own angle, and only what brings the axes together takes play away. In a train
-        keys and the coupler fix the angles: each flank needs its own play, whichever way an axis is off.
-        """
-        if self.free:
-            ahead, behind = self.gaps.play((-off_centre, 0.0), more - self.corridor)
-            return ahead + behind
-        ahead, behind = self.gaps.play((0.0, 0.0), more - self.corridor - off_centre)
-        least: Array = np.minimum(ahead, behind)
-        return least
-
-    @property
-    def title(self) -> str:
-        """What the pair is called."""
-        return " and ".join(name.replace("-", " ") for name in self.names)
+    return np.asarray(shapely.get_coordinates(shapely.simplify(shapely.Polygon(outline), FINE))[:-1])
 
 
 def about_bore(part: MadePart, diameter: float) -> Array:
@@ -141,15 +197,15 @@ def about_rim(part: MadePart) -> Array:
     return hole_of(shape) - (rim.x, rim.y)
 
 
-def running_figures(pair: MadePair) -> list[MadeFigure]:
+def running_figures(pair: MadeMesh) -> list[MadeFigure]:
     """Play, gap and transmission error: as drawn, as made, and over corridor and centre distance."""
     c, (least, least_rule) = OFF_CENTRE, pair.least
     drawn = pair.contacts.gaps(0.0).play()
     made = pair.gaps.play()
-    tight = pair.gaps.play((-c, 0.0), -pair.corridor)
-    loose = pair.gaps.play((c, 0.0), pair.corridor)
+    tight = pair.gaps.play(pair.apart(-c), -pair.corridor)
+    loose = pair.gaps.play(pair.apart(c), pair.corridor)
     name = ".".join(pair.names)
-    cos = math.cos(pair.teeth.rack.pressure_angle)
+    cos = math.cos(pair.rack.pressure_angle)
     room, gap = pair.contacts.room, pair.gaps.gap
     taken = room - gap[np.abs(gap - room) < LEFT]  # others lie beyond a tip
     what = pair.title
@@ -165,18 +221,18 @@ def running_figures(pair: MadePair) -> list[MadeFigure]:
         both: Array = (play[0] + play[1]) * MICRO
         return both
 
-    rule = f"2 (g cos δ + v sin α) cos α / (s4 cos(α + δ) cos(α - δ)), centre distance ± {c:g} mm"
+    rule = f"{pair.play_rule}, centre distance ± {c:g} mm"
     return [
         figure(
             "play.least",
-            "least play over a turn",
+            f"least play over {pair.span}",
             0.0,
             [float(total(one).min()) for one in (drawn, made, tight, loose)],
             rule,
         ),
         figure(
             "play.greatest",
-            "greatest play over a turn",
+            f"greatest play over {pair.span}",
             None,
             [float(total(one).max()) for one in (drawn, made, tight, loose)],
         ),
@@ -203,7 +259,7 @@ def running_figures(pair: MadePair) -> list[MadeFigure]:
             f"{what}: circumferential backlash",
             "mm",
             least,
-            pair.teeth.rack.backlash,
+            pair.rack.backlash,
             float(2 * (room - taken.mean()) / cos),
             float(2 * (room - taken.max() - pair.corridor) / cos),
             float(2 * (room - taken.min() + pair.corridor) / cos),
@@ -212,15 +268,15 @@ def running_figures(pair: MadePair) -> list[MadeFigure]:
     ]
 
 
-def play_curve(pair: MadePair) -> MadeCurve:
+def play_curve(pair: MadeMesh) -> MadeCurve:
     """Play over the driver's angle: as drawn, as made, and in the worst case."""
-    turn = np.degrees(pair.gaps.theta) % 360.0
+    name, turn = pair.places
     ahead, behind = pair.gaps.play()
     drawn = pair.contacts.gaps(0.0).play()
     order = np.argsort(turn, kind="stable")
     return MadeCurve(
         f"{pair.title}: play",
-        f"{pair.names[0]}, degrees",
+        name,
         "µrad",
         turn[order],
         {
@@ -231,12 +287,12 @@ def play_curve(pair: MadePair) -> MadeCurve:
     )
 
 
-def running_findings(pair: MadePair) -> list[Finding]:
+def running_findings(pair: MadeMesh) -> list[Finding]:
     """Whether the pair turns, at the exact centre distance and over its tolerance, and both ways agree."""
     return [*_running(pair), *_agreeing(pair)]
 
 
-def _running(pair: MadePair) -> list[Finding]:
+def _running(pair: MadeMesh) -> list[Finding]:
     for off_centre, severity in ((0.0, Severity.ERROR), (OFF_CENTRE, Severity.WARNING)):
         spare = pair.spare(off_centre)
         worst = int(np.argmin(spare))
@@ -250,7 +306,7 @@ def _running(pair: MadePair) -> list[Finding]:
                 severity,
                 "backlash",
                 f"as made {pair.title} {what}: {spare[worst] * MICRO:.0f} µrad of play at "
-                f"{math.degrees(pair.gaps.theta[worst]) % 360:.1f} degrees of {pair.names[0]}",
+                f"{pair.place(worst)}",
                 float(spare[worst]) * MICRO,
                 0.0,
                 "µrad",
@@ -262,10 +318,10 @@ def _running(pair: MadePair) -> list[Finding]:
     return []
 
 
-def _tried(pair: MadePair) -> tuple[float, float]:
+def _tried(pair: MadeMesh) -> tuple[float, float]:
     """A backlash, mm, with which the pair turns over all tolerances, and the play that it leaves, rad."""
     backlash = pair.least[0]
-    cos = math.cos(pair.teeth.rack.pressure_angle)
+    cos = math.cos(pair.rack.pressure_angle)
     while True:
         more = backlash * cos / 2 - pair.contacts.room
         spare = float(pair.spare(OFF_CENTRE, more).min())
@@ -274,7 +330,7 @@ def _tried(pair: MadePair) -> tuple[float, float]:
         backlash = round(1.25 * backlash, 3)
 
 
-def _agreeing(pair: MadePair) -> list[Finding]:
+def _agreeing(pair: MadeMesh) -> list[Finding]:
     if pair.disagreement <= AGREEMENT:
         return []
     return [
