@@ -170,7 +170,7 @@ def _contacts(
 ) -> Iterator[tuple[Array, Array, Array, Array]]:
     """Ahead, behind, depth and gap (n,) of :class:`Mesh`, for each of some sets of angles θ1 and θ2 (n,)."""
     pitch = pair.pitch(teeth)
-    one, two = (_cut_edges(points, pitch / EDGES_PER_PITCH) for points in (driver, driven))
+    one, two = (cut_edges(points, pitch / EDGES_PER_PITCH) for points in (driver, driven))
     rims = Rim.of(one), Rim.of(two)
     envelopes = (
         Envelope.of(one, pair.driver, _REACH * pitch),
@@ -181,7 +181,7 @@ def _contacts(
         yield contact(*near, theta1.size, pitch, allowance)
 
 
-def _cut_edges(points: Array, longest: float) -> Array:
+def cut_edges(points: Array, longest: float) -> Array:
     """Corners (n, 2) with every edge at most so long, and none of no length."""
     points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
     edge = np.roll(points, -1, axis=0) - points
