@@ -54,7 +54,10 @@ def test_right_joints_have_no_fault():
         ({"guide": Joint("prismatic", GROUND, "slider", axis=(0.8, 0.6, 0.0))}, "leaves its axis"),
         ({"guide": Joint("prismatic", GROUND, "rod", axis=(1.0, 0.0, 0.0))}, "joint guide: turns by"),
         ({"mesh": Joint("gear", "crank", "wheel", ratio=2.0)}, "joint mesh: the gear slips by"),
-        ({"mesh": Joint("gear", "disc", "wheel", ratio=-2.0)}, "no revolute joint has disc as its body two"),
+        (
+            {"mesh": Joint("gear", "disc", "wheel", ratio=-2.0)},
+            "no revolute or prismatic joint has disc as its body two",
+        ),
         ({"axle": None, "mesh": None}, "body wheel is held by no joint"),
         (
             {"shaft": Joint("revolute", GROUND, "crank", axis=(0.0, 0.0, -1.0), drives=True)},

@@ -27,8 +27,8 @@ class Joint:
     kind
         ``fixed``: both move as one. ``revolute``: ``two`` turns about the axis. ``prismatic``: ``two`` slides
         along the axis and does not turn. ``gear``: ``two`` turns ``ratio`` times as far as ``one``, each in
-        the revolute joint that has it as its ``two``. ``contact``: surfaces that touch now and then push
-        each other.
+        the revolute joint that has it as its ``two``; a rack slides in a prismatic one. ``contact``: surfaces
+        that touch now and then push each other.
     one, two
         Bodies of the motion; ``one`` may be ``GROUND``.
     point
@@ -36,7 +36,7 @@ class Joint:
     axis
         Unit vector in the coordinates of ``one``; a positive angle or way of ``two`` is about it or along it.
     ratio
-        Of a gear; None where it changes over the turn.
+        Of a gear, of a rack in mm for each rad; None where it changes over the turn.
     radius
         Of a contact: radius, mm, of the round pin about the axis with which ``one`` touches; 0 if it is
         all of its plates.

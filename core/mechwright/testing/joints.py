@@ -29,6 +29,8 @@ def joint_faults(motion: Motion) -> list[str]:
         found += [f"joint {name}: {fault}" for fault in _faults(joint, turn, way, size)]
         if joint.kind == "revolute":
             turns.setdefault(joint.two, _angle(turn, joint.axis))
+        if joint.kind == "prismatic":
+            turns.setdefault(joint.two, (way - way[0]) @ joint.axis)
         if joint.drives:
             value = _angle(turn, joint.axis) if joint.kind == "revolute" else (way - way[0]) @ joint.axis
             found += _drive_faults(name, joint, value, motion, size)
@@ -93,12 +95,12 @@ def _drive_faults(name: str, joint: Joint, value: Array, motion: Motion, size: f
 def _gear_faults(joint: Joint, turns: Mapping[str, Array]) -> list[str]:
     missing = [body for body in (joint.one, joint.two) if body not in turns]
     if missing:
-        return [f"no revolute joint has {body} as its body two" for body in missing]
+        return [f"no revolute or prismatic joint has {body} as its body two" for body in missing]
     if joint.ratio is None:
         return []
     worst = float(np.abs(turns[joint.two] - joint.ratio * turns[joint.one]).max())
     limit = APART * (1 + float(np.abs(turns[joint.two]).max()))
-    return [] if worst <= limit else [f"the gear slips by {worst:.3g} rad, the limit is {limit:.3g}"]
+    return [] if worst <= limit else [f"the gear slips by {worst:.3g} rad or mm, the limit is {limit:.3g}"]
 
 
 def _loose(motion: Motion) -> list[str]:

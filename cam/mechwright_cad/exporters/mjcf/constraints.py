@@ -17,8 +17,10 @@ LEVER = 10.0
 
 def check_gears(joints: Mapping[str, Joint], tree: Tree) -> None:
     """Raise KinematicsError for a gear that MJCF cannot hold."""
-    hinges = {
-        branch.body for branch in tree.branches if branch.joint.kind == "revolute" and not branch.turned
+    guided = {
+        branch.body: branch.joint.kind
+        for branch in tree.branches
+        if branch.joint.kind in ("revolute", "prismatic") and not branch.turned
     }
     for name, joint in joints.items():
         if joint.kind != "gear":
@@ -29,11 +31,15 @@ def check_gears(joints: Mapping[str, Joint], tree: Tree) -> None:
                 "angles by a polynomial of degree 4 at most, which cannot follow it; write STEP or GLB"
             )
         for body in (joint.one, joint.two):
-            if body not in hinges:
+            if body not in guided:
                 raise KinematicsError(
                     f"the gear {name} turns {body}, which is body two of no revolute joint that leads to the "
                     "ground; name it so"
                 )
+        if guided[joint.one] == "prismatic":
+            raise KinematicsError(
+                f"the gear {name} has the rack {joint.one} as its body one; name the pinion so"
+            )
 
 
 def write_constraints(
@@ -59,11 +65,16 @@ def write_constraints(
             pair = {"site1": sites[0], "site2": sites[1]}
             element(equality, "connect", name=f"{name}.{number}", solref=SOLREF, **pair)
     hinges = {branch.body: branch.name for branch in tree.branches}
+    kinds = {branch.body: branch.joint.kind for branch in tree.branches}
     for name, joint in joints.items():
         if joint.kind == "gear" and joint.ratio is not None:
-            pair = {"joint1": hinges[joint.two], "joint2": hinges[joint.one]}
-            ratio = [0.0, joint.ratio, 0.0, 0.0, 0.0]
-            element(equality, "joint", name=name, polycoef=ratio, solref=SOLREF, **pair)
+            one, two, ratio = joint.one, joint.two, joint.ratio
+            if kinds[two] == "prismatic":
+                # MuJoCo softens the coupling by the inertia of both alone: in rad, not in m, it stays stiff.
+                one, two, ratio = two, one, 1 / (ratio * METRES)
+            pair = {"joint1": hinges[two], "joint2": hinges[one]}
+            polynomial = [0.0, ratio, 0.0, 0.0, 0.0]
+            element(equality, "joint", name=name, polycoef=polynomial, solref=SOLREF, **pair)
     motors = element(root, "actuator")
     for branch in tree.branches:
         if branch.joint.drives:
