@@ -18,16 +18,17 @@ if TYPE_CHECKING:
 
 
 class SpurGears(Family[SpurGearParams]):
-    """Involute gears: two of them, one in a ring, or a planetary set."""
+    """Involute gears: two of them, one in a ring, a planetary set, or a rack and pinion."""
 
     name = "spur-gears"
     title = "Spur gears"
     summary = (
-        "Involute gears with profile shift, at the centre distance that you have; rings, planetary sets."
+        "Involute gears with profile shift, at the centre distance that you have; rings, planetary sets, "
+        "racks."
     )
     Params = SpurGearParams
     batch: ClassVar[int] = 1 << 16
-    counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth", "ring_teeth"})
+    counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth", "ring_teeth", "rack_teeth"})
     structure: ClassVar[frozenset[str]] = frozenset({"keyway_width", "keyway_depth", "keyway_relief"})
 
     def rules(self) -> "Rules[GearTable]":
@@ -43,7 +44,7 @@ class SpurGears(Family[SpurGearParams]):
         return table_of(params, size)
 
     def solve(self, params: SpurGearParams, samples: int) -> "Motion":
-        """One turn of the driver at constant speed."""
+        """One turn of the driver at constant speed, or a rack there and back."""
         from mechwright_spur_gears.kinematics.motion import motion_of
 
         refuse(self.check(params), Stage.MOTION)
@@ -58,7 +59,7 @@ class SpurGears(Family[SpurGearParams]):
         return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: SpurGearParams) -> "Sequence[Part]":
-        """The gears, and of a planetary set its carrier and pins."""
+        """The gears, a rack, and of a planetary set its carrier and pins."""
         from mechwright_spur_gears.parts.parts import parts_of
 
         refuse(self.check(params), Stage.PARTS)

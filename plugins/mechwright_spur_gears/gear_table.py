@@ -12,6 +12,8 @@ from mechwright import kept
 from mechwright.contracts.design_table import DesignTable
 from mechwright.geometry.keyway import Opening
 from mechwright.mechanics.gearing.involute import InvolutePair
+from mechwright.mechanics.gearing.rack_pair import RackPair
+from mechwright.mechanics.gearing.rack_plate import RackPlate
 from mechwright.mechanics.gearing.ring_plate import RingPlate
 from mechwright.mechanics.openings import opening_of
 from mechwright_spur_gears.pair import pair_of, ring_pair_of
@@ -21,6 +23,7 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     "external": ("gear-1", "gear-2"),
     "internal": ("gear-1", "ring"),
     "planetary": ("sun", "planet", "ring"),
+    "rack": ("gear-1", "rack"),
 }
 """Arrangement to its toothed parts."""
 
@@ -70,6 +73,7 @@ FLANKS: Mapping[str, tuple[Flank, ...]] = {
         Flank(1, 0, "a planet", "mate_teeth", "mate_shift", "pin_diameter", again=True),
         Flank(1, 1, "the ring", "ring_teeth", "centre_distance"),
     ),
+    "rack": (DRIVER, Flank(0, 1, "the rack", "rack_teeth", "shift")),
 }
 """Arrangement to its gears in their meshes."""
 
@@ -115,7 +119,18 @@ class GearTable(DesignTable[SpurGearParams]):
     @property
     def ring(self) -> bool:
         """Whether the last gear has teeth inside."""
-        return self.given.arrangement != "external"
+        return self.given.arrangement in ("internal", "planetary")
+
+    @property
+    def straight(self) -> bool:
+        """Whether a pinion drives a rack."""
+        return self.given.arrangement == "rack"
+
+    @property
+    def rack_pair(self) -> RackPair:
+        """Pinion and rack."""
+        assert isinstance(self.pair, RackPair)  # noqa: S101 - asked of racks alone
+        return self.pair
 
     @property
     def distance(self) -> Any:
@@ -130,6 +145,35 @@ class GearTable(DesignTable[SpurGearParams]):
         return RingPlate(
             -pair.root(1), given.ring_outside, given.ring_holes, given.ring_hole, pair.module, depth
         )
+
+    @property
+    def rack_plate(self) -> RackPlate:
+        """The rack as a plate."""
+        given, pair = self.dimensions, self.rack_pair
+        return RackPlate(
+            pair.module,
+            pair.angle,
+            given.rack_teeth,
+            pair.module * math.pi / 2 - pair.backlash / 2,
+            pair.module * pair.addendum[1],
+            pair.module * pair.dedendum,
+            pair.module * pair.tip_radius,
+            given.rack_height,
+            given.rack_holes,
+            given.rack_hole,
+        )
+
+    @property
+    def swing(self) -> Any:
+        """Angle, rad, of a rack's pinion over the travel."""
+        return self.dimensions.travel / self.pair.operating(0)
+
+    @property
+    def pinion_start(self) -> float:
+        """Angle, rad, of the pinion of one rack in the middle of the travel: tooth 0 is next to +x."""
+        pitch = math.tau / int(self.given.teeth)
+        below = -math.pi / 2 + (pitch / 2 if int(self.dimensions.rack_teeth) % 2 else 0.0)
+        return math.remainder(below, pitch)
 
     @property
     def ratio(self) -> Any:
@@ -171,6 +215,8 @@ class GearTable(DesignTable[SpurGearParams]):
     def normal_force(self) -> Any:
         """Between flanks by the load, N; planets share it."""
         given, driven = self.dimensions, self.driven
+        if self.straight:
+            return given.load_force / np.cos(self.pair.angle)
         if self.planetary:
             return 1000 * UNEVEN * given.load_torque / (given.planets * self.lever(driven))
         return 1000 * given.load_torque / abs(self.pair.base(1))
@@ -202,6 +248,8 @@ class GearTable(DesignTable[SpurGearParams]):
 
     def number_of(self, flank: Flank) -> int:
         """Teeth of a gear of one design."""
+        if self.straight and flank.gear:
+            return int(self.dimensions.rack_teeth)
         return abs(int(np.ravel(self.meshes[flank.mesh].teeth[flank.gear])[0]))
 
 

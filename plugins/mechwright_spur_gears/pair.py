@@ -16,8 +16,10 @@ from mechwright.mechanics.gearing.involute import (
     least_shift,
     share_by_size,
     share_by_sliding,
+    straight_depth,
     sum_of_shifts,
 )
+from mechwright.mechanics.gearing.rack_pair import RackPair
 from mechwright.mechanics.gearing.usual import TIP_RADIUS
 from mechwright.tolerances import OFF_CENTRE
 
@@ -30,6 +32,9 @@ STEP = 1e-3
 CUTTER_RADII = (TIP_RADIUS, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.0)
 """Radii at the tips of a ring's cutter, modules: the first that leaves a land between both arcs is chosen."""
 
+TRAVEL = 100.0
+"""Way of a rack that names neither its travel nor its teeth, mm."""
+
 LEAST_RING = 0.3
 """Modules: height of a ring's teeth that is chosen at least."""
 
@@ -41,6 +46,8 @@ def module_of(given: Any) -> Any:
 
 def pair_of(given: Any) -> InvolutePair:
     """Both gears, with the shifts and the backlash that the design leaves out; a ring has teeth below 0."""
+    if given.arrangement == "rack":
+        return rack_pair_of(given)
     angle, ring = np.radians(given.pressure_angle), given.arrangement == "internal"
     mate = given.addendum if not ring or given.ring_addendum is None else given.ring_addendum
     pair = InvolutePair(
@@ -58,6 +65,34 @@ def pair_of(given: Any) -> InvolutePair:
         shifted, backlash=least_backlash(given, shifted) if given.backlash is None else given.backlash
     )
     return replace(whole, cutter_radius=_cutter_radius(whole)) if ring else whole
+
+
+def rack_pair_of(given: Any) -> RackPair:
+    """Pinion and rack, with the shift and the backlash that the design leaves out."""
+    angle, module = np.radians(given.pressure_angle), module_of(given)
+    heights = given.addendum, given.addendum if given.rack_addendum is None else given.rack_addendum
+    rack = {"addendum": heights, "dedendum": given.dedendum, "tip_radius": given.tip_radius}
+    pair = RackPair.of(module, angle, given.teeth, 0.0, **rack)
+    if given.centre_distance is not None:
+        shift = (given.centre_distance - pair.reference_distance) / module
+    else:
+        shift = _least(given, pair, 0) if given.shift is None else given.shift
+    backlash = backlash_for(pair) if given.backlash is None else given.backlash
+    return RackPair.of(module, angle, given.teeth, shift, backlash=backlash, **rack)
+
+
+def rack_addendum(given: Any) -> Any:
+    """Height of a rack's teeth, modules: that of the pinion's, or what its flanks have room for."""
+    straight = straight_depth(np.radians(given.pressure_angle), given.dedendum, given.tip_radius)
+    height = np.floor(100 * straight + 1e-6) / 100
+    return np.clip(height, np.minimum(LEAST_RING, given.addendum), given.addendum)
+
+
+def travel_of(given: Any, pair: RackPair) -> Any:
+    """Way of a rack, mm: the usual one, or what its teeth allow, in whole millimetres."""
+    if given.rack_teeth is None:
+        return TRAVEL
+    return np.maximum(np.floor(pair.travel(given.rack_teeth)), 1.0)
 
 
 def ring_pair_of(given: Any, pair: InvolutePair) -> InvolutePair:

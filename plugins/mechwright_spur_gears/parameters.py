@@ -9,39 +9,25 @@ from pydantic import Field, model_validator
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.design_table import number
 from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.mechanics.gearing import rack_plate
 from mechwright.mechanics.gearing.ring_plate import HOLE, HOLES, outside_for
 from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_spur_gears.arrangements import ARRANGED, Arrangement
 from mechwright_spur_gears.pair import (
     least_root,
     module_of,
     pair_of,
+    rack_addendum,
+    rack_pair_of,
     rack_tip_radius,
     ring_height,
     ring_pair_of,
+    travel_of,
 )
 
 LEAST_MODULE = 0.3
 """mm."""
-
-Arrangement = Literal["external", "internal", "planetary"]
-"""Of the gears."""
-
-ARRANGED: Mapping[str, tuple[Arrangement, ...]] = {
-    "shift_rule": ("external", "planetary"),
-    "ring_addendum": ("internal", "planetary"),
-    "ring_outside": ("internal", "planetary"),
-    "ring_holes": ("internal", "planetary"),
-    "ring_hole": ("internal", "planetary"),
-    "ring_teeth": ("planetary",),
-    "planets": ("planetary",),
-    "planet_spacing": ("planetary",),
-    "fixed_member": ("planetary",),
-    "driving_member": ("planetary",),
-    "pin_diameter": ("planetary",),
-    "carrier_thickness": ("planetary",),
-}
-"""Keys to the arrangements that use them; all arrangements use the others."""
 
 Member = Literal["sun", "ring", "carrier"]
 """Of a planetary set."""
@@ -49,11 +35,14 @@ Member = Literal["sun", "ring", "carrier"]
 PLANETS, CARRIER = 3, 8.0
 """Planets of a set that names no number, and the thickness of its carrier, mm."""
 
+LEAST_RACK = 2
+"""Teeth of a rack at least."""
+
 Shift = Annotated[float, Field(ge=-1, le=1), Unit("")]
 
 
 class SpurGearParams(Parameters):
-    """Gears with involute teeth of one rack and profile shift: two, one in a ring, or a planetary set.
+    """Gears with involute teeth and profile shift: two, one in a ring, a planetary set, a rack and pinion.
 
     Examples
     --------
@@ -73,16 +62,23 @@ class SpurGearParams(Parameters):
         "sun_teeth": "it is called teeth",
         "planet_teeth": "it is called mate_teeth",
         "number_of_planets": "it is called planets",
+        "stroke": "it is called travel",
+        "pinion": "its number of teeth is called teeth",
+        "rack": 'set arrangement = "rack"',
     }
 
     arrangement: Arrangement = Field(
         "external",
         description="external: two gears. internal: a gear in a ring with teeth inside. planetary: a sun, "
-        "planets about it on a carrier, and a ring.",
+        "planets about it on a carrier, and a ring. rack: a pinion that drives a straight rack.",
         json_schema_extra=FIRST,
     )
     teeth: int = Field(
-        20, ge=6, le=600, description="Teeth z1 of the driver, or of the sun.", json_schema_extra=FIRST
+        20,
+        ge=6,
+        le=600,
+        description="Teeth z1 of the driver, of the sun, or of the pinion of a rack.",
+        json_schema_extra=FIRST,
     )
     mate_teeth: int = Field(
         40, ge=6, le=600, description="Teeth z2 of the driven gear, or of a planet.", json_schema_extra=FIRST
@@ -101,7 +97,7 @@ class SpurGearParams(Parameters):
     centre_distance: Annotated[float, Field(ge=2, le=3000), Unit("mm")] | None = Field(
         None,
         description="Distance of the axes, from which the sum of the shifts follows; left out, what the "
-        "shifts make of it.",
+        "shifts make of it. Of a rack the distance of the pinion's axis from its reference line, r + x m.",
         json_schema_extra=FIRST,
     )
     shift: Shift | None = Field(
@@ -179,6 +175,35 @@ class SpurGearParams(Parameters):
         description="Of the carrier's plate; left out, 8, or less with thinner gears.",
         json_schema_extra=FITTED,
     )
+    rack_teeth: Annotated[int, Field(ge=2, le=4000)] | None = Field(
+        None,
+        description="Teeth of the rack; left out, the fewest with which flanks touch all over the travel.",
+        json_schema_extra=FITTED,
+    )
+    travel: Annotated[float, Field(gt=0, le=3000), Unit("mm")] | None = Field(
+        None,
+        description="Way of the rack there, and back again; left out, 100, or what rack_teeth allow.",
+        json_schema_extra=FITTED,
+    )
+    rack_addendum: Annotated[float, Field(ge=0.2, le=1.3), Unit("")] | None = Field(
+        None,
+        description="Height of the rack's teeth over its reference line, in modules; left out, addendum, or "
+        "what keeps them off the fillets of the pinion.",
+        json_schema_extra=FITTED,
+    )
+    rack_height: Annotated[float, Field(gt=0, le=1000), Unit("mm")] | None = Field(
+        None,
+        description="Height of the rack's body below its roots; left out, what its rim needs.",
+        json_schema_extra=FITTED,
+    )
+    rack_holes: Annotated[int, Field(ge=0, le=200)] | None = Field(
+        None,
+        description="Holes by which the rack is screwed on; left out, 2, or fewer in a short rack.",
+        json_schema_extra=FITTED,
+    )
+    rack_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
+        None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
+    )
     backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
         None,
         description="Circumferential play on the operating pitch circles; left out, the least with which "
@@ -211,12 +236,19 @@ class SpurGearParams(Parameters):
         description="Diameter of the reliefs in the keyways' corners, for a round cutter; 0 for none.",
     )
     speed: RevPerMin = Field(
-        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Constant speed of the driver; of a rack how often it goes there and back in a minute.",
+        json_schema_extra=FIRST,
     )
     load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
         0.0,
         description="Constant torque against the turning of the driven gear.",
         json_schema_extra=FIRST,
+    )
+    load_force: Annotated[float, Field(ge=0, le=1e6), Unit("N")] = Field(
+        0.0, description="Constant force against the rack, whichever way it goes.", json_schema_extra=FIRST
     )
 
     @model_validator(mode="before")
@@ -232,7 +264,8 @@ class SpurGearParams(Parameters):
             raise ValueError("give exactly one of module and diametral_pitch")
         keyed_together(self)
         for name, arrangements in ARRANGED.items():
-            if getattr(self, name) is not None and self.arrangement not in arrangements:
+            usual = type(self).model_fields[name].default
+            if getattr(self, name) != usual and self.arrangement not in arrangements:
                 raise ValueError(
                     f'{name} is for arrangement = "{arrangements[0]}"; leave it out of "{self.arrangement}"'
                 )
@@ -240,6 +273,11 @@ class SpurGearParams(Parameters):
             raise ValueError(
                 "centre_distance, shift and mate_shift: the sum of the shifts follows from the centre "
                 "distance; leave one of the three out"
+            )
+        if self.arrangement == "rack" and self.centre_distance is not None and self.shift is not None:
+            raise ValueError(
+                "centre_distance and shift: the shift of a rack's pinion follows from the distance; leave "
+                "one of both out"
             )
         if self.fixed_member is not None and self.fixed_member == self.driving_member:
             raise ValueError(
@@ -261,7 +299,9 @@ class SpurGearParams(Parameters):
             found["tip_radius"] = number(rack_tip_radius(self))
         if "thickness" not in self.model_fields_set:
             found["thickness"] = number(face_width(module_of(self)))
-        if self.arrangement != "external":
+        if self.arrangement == "rack":
+            found |= self._rack(found)
+        elif self.arrangement != "external":
             found |= self._ring(found)
         if "bore" not in self.model_fields_set:
             wall = RIM * module_of(self) * (self.addendum + self.dedendum)
@@ -290,6 +330,30 @@ class SpurGearParams(Parameters):
                 pair = ring_pair_of(sized, pair)
             hole = np.where(np.asarray(sized.ring_holes) > 0, sized.ring_hole, 0.0)
             left["ring_outside"] = number(outside_for(-pair.root(1), hole, pair.tip(1) - pair.root(1)))
+        return left
+
+    def _rack(self, found: Mapping[str, Any]) -> dict[str, Any]:
+        """What a design leaves out of its rack."""
+        given = self.model_fields_set
+        left: dict[str, Any] = {} if "rack_hole" in given else {"rack_hole": HOLE}
+        if "rack_addendum" not in given:
+            left["rack_addendum"] = number(rack_addendum(self.model_copy(update=dict(found))))
+        sized: Any = self.model_copy(update={**found, **left})
+        pair = rack_pair_of(sized)
+        if "travel" not in given:
+            left["travel"] = number(travel_of(sized, pair))
+        if "rack_teeth" not in given:
+            travel = np.asarray(left.get("travel", self.travel))
+            teeth = np.maximum(pair.rack_teeth(travel), LEAST_RACK)
+            left["rack_teeth"] = teeth if np.ndim(teeth) else int(teeth)
+        sized = sized.model_copy(update=left)
+        if "rack_holes" not in given:
+            holes = rack_plate.holes_for(sized.rack_teeth * pair.pitch, sized.rack_hole + pair.module)
+            left["rack_holes"] = holes if np.ndim(holes) else int(holes)
+            sized = sized.model_copy(update=left)
+        if "rack_height" not in given:
+            hole = np.where(np.asarray(sized.rack_holes) > 0, sized.rack_hole, 0.0)
+            left["rack_height"] = number(rack_plate.body_for(hole, pair.tip(1) - pair.root(1)))
         return left
 
     def _planets(self, found: Mapping[str, Any]) -> dict[str, Any]:

@@ -56,6 +56,7 @@ def witness_of(family, params, samples=73, sample=0):
         pytest.param(*design("spherical-crank-rocker"), marks=by_night),
         design("spherical-double-crank"),
         design("spherical-five-bar-refined"),
+        design("rack-and-pinion"),
     ],
     ids=[
         "four-bar",
@@ -66,6 +67,7 @@ def witness_of(family, params, samples=73, sample=0):
         "spherical",
         "spherical-double-crank",
         "five-bar",
+        "rack-and-pinion",
     ],
 )
 def test_poses_are_those_of_the_motion(family, params):

@@ -65,6 +65,7 @@ DESIGNS = st.one_of(
         speed=speeds,
         load_torque=st.floats(0.1, 2.0),
     ),
+    table("spur-gears", arrangement=st.just("rack"), speed=speeds, load_force=st.floats(1.0, 100.0)),
     table("spherical", speed=st.floats(10.0, 100.0)),
 )
 

@@ -6,6 +6,7 @@ from by_night import examples as tried
 from day_contract import DayContract
 from hypothesis import strategies as st
 
+from mechwright.testing.rates import assert_rates
 from mechwright_spur_gears.family import SpurGears
 
 SMALL = {"thickness": 4, "bore": 6}
@@ -20,6 +21,16 @@ SET = {
     "pin_diameter": 6,
     "planet_spacing": "nearest",
 }
+RACK = {"arrangement": "rack", "teeth": 14, "module": 1.5, "travel": 40, "rack_hole": 4.5}
+
+RACK_RATES = (
+    ("theta1", "omega1"),
+    ("omega1", "alpha1"),
+    ("alpha1", "jerk1"),
+    ("travel", "velocity"),
+    ("velocity", "acceleration"),
+    ("acceleration", "jerk"),
+)
 
 
 class TestSpurGears(DayContract):
@@ -43,6 +54,7 @@ class TestSpurGears(DayContract):
         {**SMALL, "teeth": 18, "mate_teeth": 25, "centre_distance": 44.5, "shift_rule": "equal-sliding"},
         {**SMALL, **RING},
         {**SMALL, **SET},
+        {**SMALL, **RACK},
     )
     refused = (
         ({"teeth": 9, "shift": 0.0}, "shift"),
@@ -56,6 +68,11 @@ class TestSpurGears(DayContract):
         ({**SET, "planets": 6}, "planets"),
         ({**SET, "ring_teeth": 58}, "ring_teeth"),
         ({"backlash": 0.0}, "backlash"),
+        ({**RACK, "rack_teeth": 6}, "travel"),
+        ({**RACK, "rack_addendum": 1.2}, "rack_addendum"),
+        ({**RACK, "rack_height": 5}, "rack_height"),
+        ({**RACK, "rack_holes": 9}, "rack_holes"),
+        ({"travel": 40}, "travel"),
         ({"teeth": 9, "mate_teeth": 30, "shift": 0.84}, "addendum"),
     )
     variations: ClassVar = {
@@ -77,8 +94,22 @@ class TestSpurGears(DayContract):
         "driving_member": ["carrier"],
         "pin_diameter": [8.0],
         "carrier_thickness": [5.0],
+        "rack_teeth": [20],
+        "travel": [30.0],
+        "rack_addendum": [0.8],
+        "rack_height": [12.0],
+        "rack_holes": [1],
+        "rack_hole": [3.0],
+        "load_force": [50.0],
     }
     max_examples = tried(4, 30)
+
+    def test_derivatives(self, design):
+        """Each rate is the derivative of its quantity; a rack has others than gears."""
+        if design.get("arrangement") == "rack":
+            assert_rates(self._motion(design), RACK_RATES, "", ())
+            return
+        super().test_derivatives(design)
 
     def strategy(self):
         """Random pairs near designs that can be built."""

@@ -12,18 +12,23 @@ from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.kinematics.planetary import joints_of, poses_over
+from mechwright_spur_gears.kinematics.rack import (
+    CIRCLE_SAMPLES,
+    rack_figures,
+    rack_motion,
+    rack_table_channels,
+)
 from mechwright_spur_gears.parts.teeth import rolling_pair
-
-CIRCLE_SAMPLES = 361
-"""Points of a pitch circle that is drawn."""
 
 
 def motion_of(m: GearTable, samples: Samples) -> Motion:
-    """Sample one turn of the driver at constant speed, both ends included.
+    """Sample one turn of the driver at constant speed, or a rack there and back, both ends included.
 
     The driver turns about the origin. A driven gear turns about (a, 0), the other way round, and a ring about
-    (-a, 0), the same way round.
+    (-a, 0), the same way round. A rack slides below the driver.
     """
+    if m.straight:
+        return rack_motion(m, samples)
     phi = travelled(math.tau, samples)
     return motion_over(m, Turning.of(phi, float(m.omega)), phi / float(m.omega))
 
@@ -80,6 +85,8 @@ def _circles(m: GearTable) -> dict[str, Curve]:
 
 def figures_of(m: GearTable) -> Mapping[str, Figure]:
     """The figures of a pair, or of a table of pairs."""
+    if m.straight:
+        return rack_figures(m)
     pair = m.pair
     found = {
         "ratio": Figure(lambda: abs(m.ratio)),
@@ -110,7 +117,9 @@ def figures_of(m: GearTable) -> Mapping[str, Figure]:
 
 
 def table_channels(m: GearTable, samples: int) -> dict[str, Channel]:
-    """The channels (n, samples) of a table of pairs over one turn of each driver."""
+    """The channels (n, samples) of a table of pairs over one turn of each driver, or one swing."""
+    if m.straight:
+        return rack_table_channels(m, samples)
     phi = travelled(math.tau, samples)
     omega = np.broadcast_to(m.omega, (m.size, 1))
     return channels_over(m, Turning.of(np.broadcast_to(phi, (m.size, samples)), omega), phi / omega)

@@ -16,6 +16,10 @@ class PairStage(Transmission):
     load_field = "load_torque"
 
     def __init__(self, m: GearTable) -> None:
+        if m.straight:
+            raise DesignError(
+                'arrangement: a rack slides and has no shaft for the next stage; set arrangement = "external"'
+            )
         if m.ring:
             raise DesignError(
                 "arrangement: a ring is screwed to what turns with it and has no shaft for the next stage; "

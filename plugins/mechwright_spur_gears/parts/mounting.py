@@ -10,8 +10,12 @@ from mechwright_spur_gears.gear_table import GearTable
 def mounting_of(m: GearTable) -> Mounting:
     """Both shafts: a torque T on gear 1 presses the teeth together with T/(r_w1 cos α_w).
 
-    Raises MountingError for gears without a bore, and for a ring, which has no shaft.
+    Raises MountingError for gears without a bore, for a ring, which has no shaft, and for a rack.
     """
+    if m.straight:
+        raise MountingError(
+            "parameters.arrangement: a rack slides in a guide, and a frame has none; leave the frame out"
+        )
     if m.ring:
         raise MountingError(
             "parameters.arrangement: a ring is screwed to what turns with it, and has no shaft for a frame; "

@@ -6,6 +6,7 @@ from mechwright.mechanics.gearing import gear_measures, tip_sites
 from mechwright.mechanics.gearing.pair_parts import gear_features
 from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.parts.planetary import carrier_parts
+from mechwright_spur_gears.parts.rack import rack_part
 from mechwright_spur_gears.parts.teeth import outlines_of, pin_hole, teeth_of
 
 COLOURS: dict[str, Colour] = {
@@ -19,7 +20,7 @@ COLOURS: dict[str, Colour] = {
 
 
 def parts_of(m: GearTable) -> tuple[Part, ...]:
-    """All gears, with their sizes over pins, or between them in a ring; then carrier and pins."""
+    """All gears, with their sizes over pins, or between them in a ring; then rack, or carrier and pins."""
     params = m.given
     gears = [
         Part(
@@ -31,8 +32,10 @@ def parts_of(m: GearTable) -> tuple[Part, ...]:
             machined=tuple(_features(m, name, outline)),
             measures=gear_measures(teeth, backlash=float(m.pair.backlash), inside=name == "ring"),
         )
-        for name, outline, teeth in zip(m.names, outlines_of(m), teeth_of(m), strict=True)
+        for name, outline, teeth in zip(m.names, outlines_of(m), teeth_of(m), strict=not m.straight)
     ]
+    if m.straight:
+        return (*gears, rack_part(m))
     return (*gears, *(carrier_parts(m) if m.planetary else ()))
 
 

@@ -16,11 +16,14 @@ from mechwright.mechanics.gearing import (
     Teeth,
     exact_fit,
     gear_loop,
+    lever_fit,
     prove_mesh,
 )
 from mechwright.mechanics.gearing.involute import InvolutePair
+from mechwright.mechanics.gearing.rack_pair import RackPair
 from mechwright.tolerances import TOLERANCES
 from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.parts.rack import POSITIONS_PER_TOOTH, proof_way, rack_proof, way_over
 
 FINER = 0.75
 """Of the deviation with which outlines turn the mate exactly enough: polygons of the proof take the rest."""
@@ -68,14 +71,16 @@ def operating_teeth(pair: InvolutePair, gear: int) -> Teeth:
 
 def _fit(pair: InvolutePair) -> float:
     """Deviation of outlines, mm."""
+    if isinstance(pair, RackPair):
+        return FINER * lever_fit(float(pair.base(0)))
     return FINER * exact_fit(rolling_pair(pair), int(pair.teeth[0]), float(pair.operating_angle))
 
 
 def teeth_of(m: GearTable) -> tuple[Teeth, ...]:
-    """The teeth of all gears as their cutters make them: a rack on the reference circles."""
+    """The teeth of all round gears as their cutters make them: a rack on the reference circles."""
 
     def found() -> tuple[Teeth, ...]:
-        own = [one for one in m.flanks if not one.again]
+        own = [one for one in m.flanks if not one.again and not (m.straight and one.gear)]
         return tuple(_teeth(m.meshes[one.mesh], one.gear) for one in own)
 
     return m.once("teeth", found)
@@ -98,8 +103,13 @@ def _teeth(pair: InvolutePair, gear: int) -> Teeth:
 
 
 def loops_of(m: GearTable) -> tuple[tuple[Loop, float], ...]:
-    """The toothed loops of all gears, each with its deviation, mm."""
-    return m.once("loops", lambda: tuple(map(gear_loop, teeth_of(m))))
+    """The toothed loops of all gears, each with its deviation, mm; of a rack all round, which is exact."""
+
+    def found() -> tuple[tuple[Loop, float], ...]:
+        rack = ((m.rack_plate.outside(), 0.0),) if m.straight else ()
+        return (*map(gear_loop, teeth_of(m)), *rack)
+
+    return m.once("loops", found)
 
 
 def outlines_of(m: GearTable) -> tuple[Outline, ...]:
@@ -109,9 +119,15 @@ def outlines_of(m: GearTable) -> tuple[Outline, ...]:
         {"planet": (Loop((circle((0.0, 0.0), pin_hole(m).middle / 2),)).reversed(),)} if m.planetary else {}
     )
     return tuple(
-        m.ring_plate.outline(*loop) if name == "ring" else Outline(loop[0], holes.get(name, shaft), loop[1])
+        _outline(m, name, loop, holes.get(name, shaft))
         for name, loop in zip(m.names, loops_of(m), strict=True)
     )
+
+
+def _outline(m: GearTable, name: str, loop: tuple[Loop, float], holes: tuple[Loop, ...]) -> Outline:
+    if name == "rack":
+        return m.rack_plate.outline()
+    return m.ring_plate.outline(*loop) if name == "ring" else Outline(loop[0], holes, loop[1])
 
 
 def pin_hole(m: GearTable) -> Fit:
@@ -128,6 +144,8 @@ def prove(m: GearTable, mesh: int = 0) -> MeshProof:
         pair = m.meshes[mesh]
         two = two.reversed() if pair.teeth[1] < 0 else two
         polygons = one.flatten(tolerance), two.flatten(tolerance)
+        if m.straight:
+            return rack_proof(m, proof_way(m, PITCH_POSITIONS), *polygons, off + more + 2 * tolerance)
         whole = rolling_pair(pair)
         over = OnePitch(whole.driver, whole.driven, whole.distance, whole.start)
         return _proof(pair, over, polygons, off + more + 2 * tolerance)
@@ -135,8 +153,11 @@ def prove(m: GearTable, mesh: int = 0) -> MeshProof:
     return m.once(("mesh proof", mesh), found)
 
 
-def prove_outlines(pair: InvolutePair, one: Array, two: Array, allowance: float) -> MeshProof:
+def prove_outlines(m: GearTable, mesh: int, one: Array, two: Array, allowance: float) -> MeshProof:
     """Run outlines (n, 2) and (m, 2), mm, material on the left, each about its axis, against each other."""
+    if m.straight:
+        return rack_proof(m, way_over(m, POSITIONS_PER_TOOTH), one, two, allowance)
+    pair = m.meshes[mesh]
     return _proof(pair, rolling_pair(pair), (one, two), allowance)
 
 

@@ -17,13 +17,16 @@ from mechwright.mechanics.strength.hertz import contact_modulus, line_pressure, 
 from mechwright.mechanics.strength.judging import SHEAR_SHARE, STUD_SHARE, Stress, StressRule, Way
 from mechwright.mechanics.strength.tooth_bending import STRAIGHT, Rack, root_stress
 from mechwright_spur_gears.gear_table import AXIAL_GAP, GearTable, table_of
+from mechwright_spur_gears.kinematics.rack import pinion_torque
 from mechwright_spur_gears.pair import module_of
+from mechwright_spur_gears.rules.teeth_rules import rolls
 
 
 def root_stresses(m: GearTable) -> list[Stress]:
     """Bending at the roots; a tooth that is loaded at its tip carries alone. A ring's is one of a rack.
 
-    Planets are pressed on by the sun on one side of their teeth, and by the ring on the other.
+    Planets are pressed on by the sun on one side of their teeth, and by the ring on the other. The load of a
+    rack is against it on both its ways.
     """
     given, bears, found = m.given, allowed(m.given.material).root, []
     for one in m.flanks:
@@ -33,13 +36,13 @@ def root_stresses(m: GearTable) -> list[Stress]:
             m.normal_force * np.cos(pair.angle),
             given.thickness,
             pair.module,
-            np.where(np.asarray(pair.teeth[gear]) < 0, STRAIGHT, pair.teeth[gear]),
+            np.where(rolls(pair, gear), pair.teeth[gear], STRAIGHT),
             rack=own,
             shift=pair.shifts[gear],
             addendum=pair.addendum[gear] + pair.shifts[gear] - pair.shortening,
         )
         what = f"teeth of {one.words} are bent at their roots with"
-        both_ways = REVERSING_ROOT if one.bore == "pin_diameter" else 1.0
+        both_ways = REVERSING_ROOT if one.bore == "pin_diameter" or m.straight else 1.0
         found.append(Stress(what, _number(value), both_ways * bears, ROOT_SAFETY * bears))
     return found
 
@@ -84,6 +87,8 @@ def pin_stresses(m: GearTable) -> list[Stress]:
 
 def _shaft_torque(m: GearTable) -> float:
     """Greatest torque on a gear with a shaft, N m; a ring has none."""
+    if m.straight:
+        return float(pinion_torque(m))
     load = float(m.given.load_torque)
     if m.planetary:
         return load * float(max(m.lever("sun"), m.lever("carrier")) / m.lever(m.driven))
@@ -98,7 +103,7 @@ def key_stresses(m: GearTable) -> Sequence[Stress]:
     if m.planetary:
         thinner = min(plate.thickness, m.dimensions.carrier_thickness)
         plate = plate.model_copy(update={"thickness": thinner})
-    return loaded_key(plate, m.opening, _shaft_torque(m), reverses=False)
+    return loaded_key(plate, m.opening, _shaft_torque(m), reverses=m.straight)
 
 
 def _wider(m: GearTable) -> Way:
@@ -113,6 +118,8 @@ def _larger(m: GearTable) -> Way:
 
 
 def _less(m: GearTable) -> Way:
+    if m.straight:
+        return Way("load_force", m.given.load_force, up=False)
     return Way("load_torque", m.given.load_torque, up=False)
 
 

@@ -157,9 +157,18 @@ UNDERCUT = Rule(
 
 
 def _arc_depth(pair: InvolutePair, gear: int) -> Any:
-    """How deep the centres of the rack's tip arcs are below the pitch circle, modules; a ring has no rack."""
+    """How deep the centres of the rack's tip arcs are below the pitch circle, modules.
+
+    No rack rolls in a ring or on a rack.
+    """
     depth = pair.dedendum - pair.shifts[gear] - pair.tip_radius
-    return np.where(np.asarray(pair.teeth[gear]) < 0, np.inf, depth)
+    return np.where(rolls(pair, gear), depth, np.inf)
+
+
+def rolls(pair: InvolutePair, gear: int) -> Any:
+    """Whether a gear is a round one with teeth outside."""
+    teeth = np.asarray(pair.teeth[gear])
+    return (teeth > 0) & np.isfinite(teeth)
 
 
 def _less_round(f: Fails) -> Iterator[Change]:
@@ -213,7 +222,10 @@ TIP = Rule(
 
 def height_key(f: Fails) -> str:
     """The key of the height of a gear's teeth."""
-    return "ring_addendum" if f.m.ring and f.item == len(f.m.flanks) - 1 else "addendum"
+    last = f.item == len(f.m.flanks) - 1
+    if last and f.m.straight:
+        return "rack_addendum"
+    return "ring_addendum" if last and f.m.ring else "addendum"
 
 
 CONTACT = Rule(
@@ -234,7 +246,7 @@ ROUGH = CONTACT.but(
 )
 INTERFERENCE = Rule(
     "gear.interference",
-    "addendum",
+    lambda f: _mate_height(f) if f.m.straight else "addendum",
     lambda f: (
         f"the tips of {_mate(f).words} run into the fillets of {flank_of(f).words}: its flanks begin "
         f"{abs(f.limit):.3f} mm along the line of action, and the tips reach {abs(f.value):.3f} mm"
@@ -243,18 +255,41 @@ INTERFERENCE = Rule(
     limit=lambda m: each(m, _form),
     unit="mm",
     remedy=lambda f: (
-        f"make {flank_of(f).shift} larger, {height_key(replace(f, item=f.item ^ 1))} or tip_radius smaller, "
-        "or use more teeth"
+        f"make {_mate_height(f)} at most {_highest(f):g}" + (", or tip_radius smaller" if f.item else "")
+        if f.m.straight
+        else f"make {flank_of(f).shift} larger, {_mate_height(f)} or tip_radius smaller, or use more teeth"
     ),
     each=False,
-    proposed=lambda f: ({"parameters.ring_addendum": None},) if f.m.ring else (),
+    proposed=lambda f: tuple(_lower(f)),
 )
 
 
+def _lower(f: Fails) -> Iterator[Change]:
+    if f.m.straight:
+        yield {"parameters.rack_addendum": None} | ({"parameters.addendum": _highest(f)} if f.item else {})
+    elif f.m.ring:
+        yield {"parameters.ring_addendum": None}
+
+
+def _mate_height(f: Fails) -> str:
+    return height_key(replace(f, item=f.item ^ 1))
+
+
+def _highest(f: Fails) -> float:
+    """The greatest height of the mate's teeth, modules, with which they touch flanks of rack and pinion."""
+    pair = f.m.pair
+    sine, rolled = np.sin(pair.angle), pair.reference(0) * np.sin(pair.angle)
+    if f.item:
+        high = (np.hypot(pair.base(0), rolled - f.limit) - pair.reference(0)) / pair.module - pair.shifts[0]
+    else:
+        high = (rolled - f.limit) * sine / pair.module + pair.shifts[0]
+    return math.floor(100 * float(high) + 1e-6) / 100
+
+
 def _form(pair: InvolutePair, gear: int) -> Any:
-    """Where the flank of a gear begins; that of a ring is below 0."""
+    """Where the flank of a gear begins; those of a ring and of a rack are below 0."""
     form = pair.form_curvature(gear)
-    return np.where(np.asarray(pair.teeth[gear]) < 0, form, np.maximum(form, 0.0))
+    return np.where(rolls(pair, gear), np.maximum(form, 0.0), form)
 
 
 def reach(m: GearTable) -> Any:
@@ -269,8 +304,8 @@ def reach(m: GearTable) -> Any:
 
 def _rim(m: GearTable) -> Any:
     def rim(pair: InvolutePair, gear: int) -> Any:
-        if np.all(np.asarray(pair.teeth[gear]) < 0):
-            return np.inf  # a ring has no shaft
+        if not np.any(rolls(pair, gear)):
+            return np.inf  # neither a ring nor a rack has a shaft
         pin = m.planetary and gear == 1
         return (pair.root(gear) - (m.dimensions.pin_diameter / 2 if pin else reach(m))) / pair.module
 
