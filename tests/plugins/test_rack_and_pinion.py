@@ -15,12 +15,14 @@ from mechwright.machine import MachineSettings, drive_of
 from mechwright.mechanics.gearing.involute import InvolutePair
 from mechwright.mechanics.gearing.rack_pair import RackPair
 from mechwright.mechanics.linkage.mass import plate_mass
+from mechwright.mechanics.strength.allowed import REVERSING_ROOT, allowed
 from mechwright.testing.joints import joint_faults
 from mechwright_spur_gears.family import SpurGears
 from mechwright_spur_gears.gear_table import table_of
 from mechwright_spur_gears.parameters import SpurGearParams
 from mechwright_spur_gears.parts.rack import rack_proof, run_of, way_over
 from mechwright_spur_gears.parts.teeth import loops_of, prove
+from mechwright_spur_gears.rules.strength import root_stresses
 
 ROOT = Path(__file__).parents[2]
 GEARS = SpurGears()
@@ -342,6 +344,8 @@ def test_the_size_over_a_pin_is_that_of_a_pin_that_touches_both_flanks(given):
 def test_the_load_bends_teeth_both_ways_and_turns_the_pinion():
     m = table_of(rack(teeth=20, load_force=500.0))
     assert float(m.normal_force * np.cos(m.pair.angle)) == pytest.approx(500.0)
+    bears = allowed(m.given.material).root
+    assert [one.limit for one in root_stresses(m)] == [REVERSING_ROOT * bears] * 2
     loaded, free = (rack(teeth=20, load_force=force) for force in (50.0, 0.0))
     motion = GEARS.solve(loaded, 73)
     assert motion.scalars["pinion_torque"].value == pytest.approx(50.0 * 20 / 1000)
