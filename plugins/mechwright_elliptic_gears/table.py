@@ -1,24 +1,24 @@
 """The gears of a design, or of a table of designs."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import GeometryError, kept
+from mechwright import Array, GeometryError, kept
 from mechwright.contracts.design_table import column, number, plain
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.gearing import MeshProof, Rack, Teeth
 from mechwright.mechanics.gearing.checks import least_tip
 from mechwright.mechanics.gearing.toothed_pair import Rim, ToothedPair
-from mechwright_elliptic_gears.kinematics.ellipse import perimeter_of
+from mechwright_elliptic_gears.kinematics.ellipse import depth_in, perimeter_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.backlash import jamming_backlash, least_backlash, with_backlash
 from mechwright_elliptic_gears.parts.gear import fillet_mill, rack_of, room, teeth_of
-from mechwright_elliptic_gears.parts.layout import Layout, layout_of
+from mechwright_elliptic_gears.parts.layout import Layout, layout_of, sized_layout
 from mechwright_elliptic_gears.parts.mesh_proof import prove
 from mechwright_elliptic_gears.parts.teeth import Gears, Tips, tips_of
 from mechwright_elliptic_gears.parts.tip_reach import that_clear
@@ -76,7 +76,11 @@ class GearTable(ToothedPair[EllipticGearParams]):
         """Dimensions and heights of a train."""
         if self.single:
             return layout_of(self.given)
-        return Layout.columns([layout_of(self.row(place).given) for place in range(self.size)])
+
+        def each(of: Callable[[EllipticGearParams], float]) -> Array:
+            return np.array([[of(self.row(place).given)] for place in range(self.size)])
+
+        return sized_layout(self.given, self.semi_major, each)
 
     @cached_property
     def gears(self) -> Gears:
@@ -154,6 +158,11 @@ class GearTable(ToothedPair[EllipticGearParams]):
             return Rim.of(given, self.module, partial(room, given), "eccentricity")
         rims = [self.row(place).rim for place in range(self.size)]
         return Rim(np.array([[one.thickness] for one in rims]), np.array([[one.root] for one in rims]))
+
+    def root_depth(self, x: Array, y: Array) -> Array:
+        """Least distance (n, 1), mm, of places (n, k) about the axis from the root curve; below 0 outside."""
+        found = depth_in(self.semi_major, self.given.eccentricity, x, y).min(axis=-1, keepdims=True)
+        return np.asarray(found - self.given.dedendum * self.module)
 
     def proof(self) -> MeshProof:
         """The mesh proof of one design."""

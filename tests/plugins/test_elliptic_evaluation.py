@@ -9,9 +9,12 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.mechanics.gearing.checks import least_tip
 from mechwright.testing.evaluation import assert_same
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
+from mechwright_elliptic_gears.kinematics.mesh_load import meshes_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.areas import areas_of, by_mean, by_teeth
 from mechwright_elliptic_gears.parts.teeth import least_regularity
+from mechwright_elliptic_gears.rules.load_bounds import torques
 from mechwright_elliptic_gears.table import table_of
 
 FAMILY = EllipticGears()
@@ -58,6 +61,17 @@ def test_they_are_what_each_is_by_itself(study):
     assert_same(
         found, one_by_one(FAMILY.judge, FAMILY.solve, STUDIES[study], COLUMNS, Stage.PARTS, FAMILY.parts)
     )
+
+
+def test_pairs_and_trains_in_one_table_have_their_masses():
+    mixed = Batch(
+        EllipticGearParams,
+        {"eccentricity": 0.3},
+        {"stages": np.array([2, 1, 2]), "bore": np.array([8.0, 9, 10])},
+    )
+    found = FAMILY.evaluate(mixed, ("mass",))
+    assert np.isfinite(found.values["mass"]).all()
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, mixed, ("mass",), Stage.PARTS, FAMILY.parts))
 
 
 def test_what_moves_is_not_judged_for_its_parts():
@@ -115,3 +129,55 @@ def test_areas_by_their_mean_are_those_tooth_by_tooth(eccentricity):
     np.testing.assert_allclose(by_mean(gears, 32)[2:], each[2:], rtol=1e-7)
     if eccentricity == 0.7:
         assert abs(by_mean(gears, 32)[0] / each[0] - 1) > 1e-7
+
+
+LOADED = {
+    "pairs": {"load_torque": (0.0, 8.0), "speed": (10.0, 4000.0), "eccentricity": (0.0, 0.65)},
+    "keyed": {"load_torque": (0.0, 8.0), "speed": (10.0, 2000.0), "eccentricity": (0.0, 0.6)},
+    "trains": {
+        "load_torque": (0.0, 3.0),
+        "speed": (10.0, 900.0),
+        "eccentricity": (0.3, 0.62),
+        "phase": (0, 360),
+    },
+}
+
+
+@pytest.mark.parametrize("kind", LOADED)
+def test_loads_are_within_their_bounds(kind):
+    """Torques are within their bounds, and those by which most designs are judged not far below."""
+    content = {"pairs": {}, "keyed": {"keyway_width": 3.0}, "trains": {"stages": 2}}[kind]
+    many = batch(content | {"teeth": 35}, 8, semi_major=(40, 70), **LOADED[kind])
+    for row in range(len(many)):
+        table = table_of(many.one(row))
+        bound, meshes = torques(table), meshes_of(table.given)
+        true = [meshes[0].input_torque, meshes[0].greatest_torque]
+        bounds = [bound.driver, bound.first]
+        if kind == "trains":
+            true += [greatest_torque(table.given, table.given.phase_degrees).value, meshes[1].greatest_torque]
+            bounds += [bound.joint, bound.second]
+        ratios = np.ravel(bounds) / true
+        assert (ratios >= 1).all()
+        assert (ratios[:3] <= (5 if kind == "trains" else 40)).all()
+
+
+@pytest.mark.parametrize(
+    ("rule", "content", "load"),
+    [
+        ("gear.root", {"thickness": 3.0}, (1.0, 60.0)),
+        ("gear.key", {"keyway_width": 3.0, "bore": 9.0, "thickness": 4.0}, (1.0, 60.0)),
+        ("train.shaft", {"stages": 2, "bore": 5.0, "thickness": 14.0}, (0.1, 9.0)),
+        (
+            "train.dowel-load",
+            {"stages": 2, "dowel_diameter": 1.0, "thickness": 14.0, "bore": 14.0},
+            (0.1, 40.0),
+        ),
+    ],
+)
+def test_what_breaks_is_forbidden_in_tables(rule, content, load):
+    some = Batch(
+        EllipticGearParams, content | {"eccentricity": 0.35}, {"load_torque": np.linspace(*load, 12)}
+    )
+    found = FAMILY.evaluate(some, ())
+    assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, some, (), Stage.PARTS))
+    assert 0 < found.counts.get(rule, 0) < 12

@@ -96,6 +96,7 @@ class Answer:
     codes: list[str] = field(default_factory=lambda: [""])
     values: dict[str, Array] = field(default_factory=dict)
     """Column to its values (n,), NaN where there is none; those of forbidden designs do not matter."""
+    _given: dict[str, NDArray[np.bool_]] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         self.forbidden = np.zeros(self.size, np.int32)
@@ -123,7 +124,15 @@ class Answer:
         """Give values of a column, of all or of those at ``places``."""
         if column not in self.values:
             self.values[column] = np.full(self.size, np.nan)
-        self.values[column][slice(None) if places is None else places] = values
+            self._given[column] = np.zeros(self.size, bool)
+        own = slice(None) if places is None else places
+        self.values[column][own], self._given[column][own] = values, True
+
+    def drop_incomplete(self) -> None:
+        """Leave out columns that some of the allowed designs lack: all are asked for them one by one."""
+        for name, given in self._given.items():
+            if (self.open & ~given).any():
+                del self.values[name]
 
     def _open(self, which: NDArray[Any], places: "NDArray[np.intp] | None") -> NDArray[np.intp]:
         asked = np.flatnonzero(np.broadcast_to(which, self.size)) if places is None else places[which]

@@ -84,6 +84,7 @@ def answer(family: Evaluated, designs: Designs, columns: Collection[str], stage:
             some = np.arange(start, min(start + family.block, places.size))
             part = table if some.size == places.size else table.rows(some)
             _Judge(family, designs, places[some], found).take(part, columns, stage)
+    found.drop_incomplete()
     return found
 
 

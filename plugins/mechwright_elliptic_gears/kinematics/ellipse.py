@@ -51,6 +51,28 @@ def perimeter_of(eccentricity: Any) -> Any:
     return 2 * math.pi / mean * rest
 
 
+def depth_in(semi_major: Any, eccentricity: Any, x: Array, y: Array) -> Array:
+    """Distance (...), mm, of points x, y about a focus from ellipses: positive inside, negative outside.
+
+    In the quadrant of a point x, y about the centre, the foot of its perpendicular is a² x/(s + c²), b² y/s
+    with the one s > 0 that puts it on the ellipse. That function of s falls and is convex, so that Newton's
+    method from the left of the root goes up to it.
+    """
+    a, c = semi_major, semi_major * eccentricity
+    b = a * np.sqrt(1 - np.square(eccentricity))
+    x, y = np.abs(x - c), np.maximum(np.abs(y), _ON_AXIS * b)
+    s = np.maximum(b * y, a * x - c * c)
+    for _ in range(_FOOT_STEPS):
+        along, across = a * x / (s + c * c), b * y / s
+        level = along**2 + across**2 - 1
+        s = s + level / (2 * (along**2 / (s + c * c) + across**2 / s))
+        if np.abs(level).max() < _ON_ELLIPSE:
+            break
+    away = np.hypot(x - a * a * x / (s + c * c), y - b * b * y / s)
+    depth: Array = np.where((x / a) ** 2 + (y / b) ** 2 < 1, away, -away)
+    return depth
+
+
 @dataclass(frozen=True)
 class Ellipse(PitchCurve):
     """An ellipse given by its semi-major axis (mm, above 0) and eccentricity (0 to 0.9).
@@ -133,24 +155,8 @@ class Ellipse(PitchCurve):
         return rate
 
     def depth(self, points: Array) -> Array:
-        """Distance (n,), mm, of points (n, 2) from the ellipse: positive inside, negative outside.
-
-        In the quadrant of a point x, y about the centre, the foot of its perpendicular is a² x/(s + c²),
-        b² y/s with the one s > 0 that puts it on the ellipse. That function of s falls and is convex, so that
-        Newton's method from the left of the root goes up to it.
-        """
-        a, b, c = self.semi_major, self.semi_minor, self.focal_distance
-        x, y = np.abs(points[:, 0] - c), np.maximum(np.abs(points[:, 1]), _ON_AXIS * b)
-        s = np.maximum(b * y, a * x - c * c)
-        for _ in range(_FOOT_STEPS):
-            along, across = a * x / (s + c * c), b * y / s
-            level = along**2 + across**2 - 1
-            s = s + level / (2 * (along**2 / (s + c * c) + across**2 / s))
-            if np.abs(level).max() < _ON_ELLIPSE:
-                break
-        away = np.hypot(x - a * a * x / (s + c * c), y - b * b * y / s)
-        depth: Array = np.where((x / a) ** 2 + (y / b) ** 2 < 1, away, -away)
-        return depth
+        """Distance (n,), mm, of points (n, 2) from the ellipse: positive inside, negative outside."""
+        return depth_in(self.semi_major, self.eccentricity, points[:, 0], points[:, 1])
 
     def frame(self, u: Array, arc: Array | None = None) -> Frame:
         """The moving frame at eccentric angles u (...); ``arc`` is given where it is known already."""

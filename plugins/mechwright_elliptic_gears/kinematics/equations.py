@@ -75,10 +75,11 @@ def phase_offset(phase: float, eccentricity: float) -> float:
     >>> round(phase_offset(np.pi / 2, 0.4), 9)
     2.331809081
     """
-    return float(_offset(phase, eccentricity))
+    return float(phase_offsets(phase, eccentricity))
 
 
-def _offset(phase: Array | float, eccentricity: Array | float) -> Array:
+def phase_offsets(phase: Array | float, eccentricity: Array | float) -> Array:
+    """The same of many trains."""
     return 2 * np.pi - driven(Turning.of(phase, 0.0), eccentricity).theta
 
 
@@ -90,7 +91,7 @@ def train(
     Arrays of eccentricities and phases broadcast with the angles of gear 2.
     """
     gear3 = driven(gear2, eccentricity)
-    gear4 = Turning(gear3.theta + _offset(phase, eccentricity), gear3.omega, gear3.alpha, gear3.jerk)
+    gear4 = Turning(gear3.theta + phase_offsets(phase, eccentricity), gear3.omega, gear3.alpha, gear3.jerk)
     return gear3, gear4, driven(gear4, eccentricity)
 
 

@@ -124,31 +124,42 @@ _POINT_FIGURES = {
 
 def _sought(m: GearTable, name: str) -> Any:
     """A figure that is sought, of one design or in a column."""
+    group = _window if "window" in name else _peaks_of_point if name.startswith("Q.") else _peaks_of_last
     if m.single:
-        return _sought_of(m.given)[name]
+        return group(m.given)[name]
 
     def columns() -> dict[str, Array]:
-        each = [_sought_of(m.row(place).given) for place in range(m.size)]
+        each = [group(m.row(place).given) for place in range(m.size)]
         return {key: np.array([[one[key]] for one in each]) for key in each[0]}
 
-    return m.once("sought figures", columns)[name]
+    return m.once(group.__name__, columns)[name]
 
 
 @kept
-def _sought_of(params: EllipticGearParams) -> dict[str, float]:
-    """What is sought of one design: the figures of Q; of a train those of its last gear, too."""
+def _window(params: EllipticGearParams) -> dict[str, float]:
+    """Figures of the longest stretch of near-constant speed of Q."""
     window = point_window(params)
-    found = {
+    return {
         "Q.constant_speed_window.start": window.start,
         "Q.constant_speed_window.end": window.start + window.length,
         "Q.constant_speed_window.length": window.length,
         "Q.constant_speed_window.band": band_of(params),
         "Q.constant_speed_window.least_speed": window.low,
     }
+
+
+@kept
+def _peaks_of_point(params: EllipticGearParams) -> dict[str, float]:
+    """Greatest rates of Q."""
+    found: dict[str, float] = {}
     for name, top in point_peaks(params).items():
         found |= {f"Q.{name}.max": top.value, f"Q.{name}.max.theta2": top.angle}
-    if params.stages == 1:
-        return found
+    return found
+
+
+@kept
+def _peaks_of_last(params: EllipticGearParams) -> dict[str, float]:
+    """Greatest rates of a train's last gear."""
     omega = params.speed * math.tau / 60
 
     def extreme(name: str, sign: float = 1.0) -> Callable[[Array], Array]:
@@ -159,6 +170,5 @@ def _sought_of(params: EllipticGearParams) -> dict[str, float]:
 
         return values
 
-    for name in ("omega", "alpha", "jerk"):
-        found[f"{name}5_max"] = peak(extreme(name)).value
+    found = {f"{name}5_max": peak(extreme(name)).value for name in ("omega", "alpha", "jerk")}
     return found | {"ratio_min": -peak(extreme("omega", -1.0)).value / omega}

@@ -6,14 +6,14 @@ the next gear or the coupler sweeps over them.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from mechwright import kept
-from mechwright.contracts.design_table import Rowwise
+from mechwright.contracts.design_table import Rowwise, number
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.clamp import clamp_of
 from mechwright_elliptic_gears.parts.dividing import Dividing, circle_for, placed
@@ -56,6 +56,9 @@ FIXING = 0.55
 DOWELS = {"dowel-1": 0.0, "dowel-2": math.pi / 2, "dowel-3": 7 * math.pi / 6}
 """Bodies of the dowels and their directions on gear 3, rad. All three steps differ, so that gears 3 and 4 go
 together in one way only, and not turned over."""
+
+DOWEL_STRENGTH = 355.0
+"""Shear stress, MPa, at which a hardened dowel breaks."""
 
 PHASE_PIN = "phase-pin"
 """Part and body of the pin of a dividing circle. Its head lies on gear 4."""
@@ -103,15 +106,6 @@ class Layout(Rowwise):
     stub_diameter: float
     stub: float
 
-    @classmethod
-    def columns(cls, layouts: Sequence["Layout"]) -> "Layout":
-        """The layouts of the designs of a table, as columns."""
-        columns: dict[str, Any] = {
-            name: np.array([[getattr(one, name)] for one in layouts])
-            for name in (one.name for one in fields(cls))
-        }
-        return cls(**columns)
-
     @property
     def lower(self) -> float:
         """Underside of gears 2 and 3."""
@@ -146,25 +140,35 @@ class Layout(Rowwise):
 @kept
 def layout_of(params: EllipticGearParams) -> Layout:
     """The layout of a train."""
-    bore = params.bore
-    pin = _or(params.pin_diameter, _stock_size(bore / 2))
-    dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
-    gap = params.spacing
+    return sized_layout(params, ellipse_of(params).semi_major, lambda of: of(params))
+
+
+def sized_layout(
+    given: Any, semi_major: Any, each: Callable[[Callable[[EllipticGearParams], float]], Any]
+) -> Layout:
+    """The layout of a design, or of designs whose numbers are columns.
+
+    ``each`` gives what follows from the parameters of one design alone.
+    """
+    bore, gap = given.bore, given.spacing
+    pin = _or(given.pin_diameter, _stock_size(bore / 2))
+    dowel = _or(given.dowel_diameter, _stock_size(bore / 3))
+    pinned = given.phase_joint == "pins"
     return Layout(
-        ellipse_of(params).semi_major,
-        params.eccentricity,
-        params.thickness,
+        semi_major,
+        given.eccentricity,
+        given.thickness,
         bore,
         gap,
         pin,
-        _or(params.coupler_thickness, COUPLER_THICKNESS),
-        _or(params.tracer_diameter, pin),
-        _or(params.base_thickness, BASE_THICKNESS),
+        _or(given.coupler_thickness, COUPLER_THICKNESS),
+        _or(given.tracer_diameter, pin),
+        _or(given.base_thickness, BASE_THICKNESS),
         dowel,
-        params.dowel_circle or _dowel_circle(params, dowel),
-        max(gap, _needed(params, dowel)),
-        _or(params.stub_diameter, bore),
-        _or(params.stub_length, STUB * bore),
+        _or(given.dowel_circle, each(_pin_circle) if pinned else _spacer_circle(bore, dowel)),
+        each(_crown) if given.adjustable else gap,
+        _or(given.stub_diameter, bore),
+        _or(given.stub_length, STUB * bore),
     )
 
 
@@ -172,7 +176,8 @@ def screw_offset_of(params: EllipticGearParams) -> float:
     """Of the screws of a frame from the axes of gears 2 and 5, mm."""
     ellipse = ellipse_of(params)
     reach = ellipse.semi_major * (1 + params.eccentricity) + rack_of(params).addendum
-    return _or(params.screw_offset, math.ceil(reach + BEYOND))
+    found: float = _or(params.screw_offset, math.ceil(reach + BEYOND))
+    return found
 
 
 def screw_places(params: EllipticGearParams) -> tuple[complex, ...]:
@@ -184,14 +189,21 @@ def screw_places(params: EllipticGearParams) -> tuple[complex, ...]:
     return tuple(complex(a * x, b * y) for a in (-1, 1) for b in (-1, 1))
 
 
-def _or(value: float | None, default: float) -> float:
+def _or(value: Any, default: Any) -> Any:
     return default if value is None else value
 
 
-def _dowel_circle(params: EllipticGearParams, dowel: float) -> float:
-    """As small as the spacer allows, or the holes of a dividing circle."""
-    least = math.ceil(SPACER * params.bore + dowel + 2 * DOWEL_GAP)
-    return circle_for(params, dowel, least) if params.phase_joint == "pins" else least
+def _spacer_circle(bore: Any, dowel: Any) -> Any:
+    """Diameter of the circle of dowels, mm: as small as the spacer allows."""
+    return number(np.ceil(SPACER * bore + dowel + 2 * DOWEL_GAP))
+
+
+def _pin_circle(params: EllipticGearParams) -> float:
+    """That of the holes of a dividing circle."""
+    if params.dowel_circle is not None:
+        return params.dowel_circle
+    dowel = _or(params.dowel_diameter, _stock_size(params.bore / 3))
+    return circle_for(params, dowel, _spacer_circle(params.bore, dowel))
 
 
 def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
@@ -199,26 +211,26 @@ def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
     return tuple(f"clamp-screw-{number}" for number in range(1, clamp_of(params).screws + 1))
 
 
-def _needed(params: EllipticGearParams, dowel: float) -> float:
-    """What stands on gear 4 under the coupler, mm."""
+def _crown(params: EllipticGearParams) -> float:
+    """From gear 4 to the coupler, mm: what sets the phase stands there."""
     if params.phase_joint == "clamp":
-        return clamp_of(params).crown
-    keeper = _keeper(params, dowel)
-    return 0.0 if keeper is None else keeper.crown
+        return max(params.spacing, clamp_of(params).crown)
+    keeper = _keeper(params)
+    return max(params.spacing, 0.0 if keeper is None else keeper.crown)
 
 
 @kept
-def _keeper(params: EllipticGearParams, dowel: float) -> Keeper | None:
+def _keeper(params: EllipticGearParams) -> Keeper | None:
     if params.phase_joint != "pins":
         return None
-    circle = params.dowel_circle or _dowel_circle(params, dowel)
-    dividing = placed(params.set_phases, params.eccentricity, dowel, circle / 2)
+    dowel = _or(params.dowel_diameter, _stock_size(params.bore / 3))
+    dividing = placed(params.set_phases, params.eccentricity, dowel, _pin_circle(params) / 2)
     return keeper_for(params, dividing, (HEAD * dowel, PIN_HEAD * params.spacing))
 
 
 def keeper_of(params: EllipticGearParams) -> Keeper | None:
     """What keeps the pin of a dividing circle down; None without such a pin, or without room."""
-    return _keeper(params, layout_of(params).dowel)
+    return _keeper(params)
 
 
 def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
@@ -237,6 +249,6 @@ def dividing_of(params: EllipticGearParams) -> Dividing:
     return placed(params.set_phases, params.eccentricity, layout.dowel, layout.dowel_circle / 2)
 
 
-def _stock_size(diameter: float) -> float:
+def _stock_size(diameter: Any) -> Any:
     """Rounded to half a millimetre, at least that."""
-    return max(0.5, round(2 * diameter) / 2)
+    return number(np.maximum(0.5, np.round(2 * np.asarray(diameter)) / 2))

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Stage, kept, material
-from mechwright.contracts.rule_list import all_of, by_design, in_turn
-from mechwright.mechanics.gearing import driven_torque
+from mechwright import Array, kept, material
+from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import (
     PIN_SHEAR,
@@ -23,22 +22,18 @@ from mechwright.mechanics.strength.hertz import contact_modulus, flank_radius, l
 from mechwright.mechanics.strength.judging import STUD_SHARE, RowStressRule, Stress, Way
 from mechwright.mechanics.strength.shaft import von_mises
 from mechwright.mechanics.strength.tooth_bending import (
-    FACTOR,
-    STRAIGHT,
     EllipticMesh,
     Rack,
-    form_factors,
     root_stress,
     virtual_teeth,
 )
-from mechwright.tolerances import exceeds
-from mechwright_elliptic_gears.kinematics.equations import alpha_peak
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
 from mechwright_elliptic_gears.kinematics.mesh_load import meshes_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import rack_of
-from mechwright_elliptic_gears.parts.layout import DOWELS, layout_of
+from mechwright_elliptic_gears.parts.layout import DOWEL_STRENGTH, DOWELS, layout_of
 from mechwright_elliptic_gears.parts.turned import MATERIAL
+from mechwright_elliptic_gears.rules.load_bounds import dowels_bear, keys_bear, roots_bear, shafts_bear
 from mechwright_elliptic_gears.table import GearTable, table_of
 
 Stresses = Callable[[EllipticGearParams], Sequence[Stress]]
@@ -138,7 +133,12 @@ def dowel_stresses(params: EllipticGearParams) -> tuple[Stress, ...]:
     turned = REVERSING_KEY if meshes_of(params)[0].reverses else 1.0
     own = material(params.material)
     return (
-        Stress("the dowels are sheared with", pin_shear(force, d), PIN_SHEAR["hardened, alternating"], 355.0),
+        Stress(
+            "the dowels are sheared with",
+            pin_shear(force, d),
+            PIN_SHEAR["hardened, alternating"],
+            DOWEL_STRENGTH,
+        ),
         Stress(
             "the dowels press on their holes with",
             pin_pressure(force, d, params.thickness),
@@ -165,81 +165,30 @@ def _ways(m: GearTable, *keys: str) -> list[Way]:
     return [*larger, *(Way(key, getattr(given, key), up=False) for key in ("load_torque", "speed"))]
 
 
-def _bear(m: GearTable) -> Any:
-    """Pairs whose teeth bear the greatest of all that goes into the stress of a root at once.
-
-    A gear is within its pitch ellipse grown in proportion; it has no bore, and no play of the load.
-    """
-    given, a, e = m.given, m.semi_major, np.asarray(m.given.eccentricity)
-    if given.stages == 2:
-        return False
-    b, own, alpha = a * np.sqrt(1 - e * e), material(given.material), np.radians(given.pressure_angle)
-    grown = 1 + given.addendum * m.module / b
-    polar = math.pi * a * b * (grown**4 * (a * a + b * b) / 4 + grown**2 * (a * e) ** 2)
-    inertia = polar * given.thickness * own.density * 1e-6
-    torque = driven_torque(inertia, m.omega**2 * alpha_peak(e), given.load_torque)
-    slant = np.arcsin(e)
-    force = torque * 1000 * np.cos(alpha) / (a * (1 - e) * np.cos(alpha + slant))
-    least, most = 2 * (1 - e * e) * a / m.module, 2 / np.sqrt(1 - e * e) * a / m.module
-    rack = Rack(alpha, given.addendum, given.dedendum, given.tip_radius)
-    stress = force / (given.thickness * m.module) * _SPARE * _greatest_form(least, most, rack) * FACTOR
-    breaks = ROOT_SAFETY * allowed(given.material).root
-    return np.isfinite(stress) & (alpha + slant < math.pi / 2) & ~np.asarray(exceeds(stress, breaks))
-
-
-_LOOKS, _SPARE = 9, 1.1
-"""Numbers of virtual teeth that are looked at, and by how much form factors between them may be greater."""
-
-
-def _greatest_form(least: Any, most: Any, rack: Rack) -> Any:
-    """What form and stress factors together are at most between two numbers of virtual teeth."""
-    if max(map(np.ndim, (rack.angle, rack.addendum, rack.dedendum, rack.tip_radius))) == 0:
-        teeth = np.geomspace(np.min(least), STRAIGHT, _LOOKS**2)
-        factors = np.maximum.accumulate(_form(teeth, rack)[::-1])[::-1]
-        return factors[np.maximum(np.searchsorted(teeth, least) - 1, 0)]
-    ratio = np.minimum(most, STRAIGHT) / least
-    return np.maximum.reduce([_form(least * ratio**share, rack) for share in np.linspace(0, 1, _LOOKS)])
-
-
-def _form(teeth: Any, rack: Rack) -> Array:
-    one, two = form_factors(teeth, rack)
-    return np.where(np.isfinite(one * two), one * two, np.inf)
-
-
 def _rule(
-    code: str, stresses: Stresses, *ways: str, load: bool = False, breaks: bool = True
+    code: str,
+    stresses: Stresses,
+    bears: Callable[[GearTable], Any] | None,
+    *ways: str,
+    load: bool = False,
 ) -> RowStressRule[GearTable]:
+    """A rule of a group of stresses; without ``bears`` more than allowed only wears."""
     return RowStressRule[GearTable](
         code,
         lambda m: stresses(m.given),
         lambda m: _ways(m, *ways),
         table_of,
         _load if load else None,
-        bears=_bear if code == "gear.root" else None,
-        breaks=breaks,
+        bears=bears,
+        breaks=bears is not None,
     )
 
 
-ROOT = _rule("gear.root", root_stresses, "thickness", "size", load=True)
-FLANK = _rule("gear.flank", flank_pressures, "thickness", "size", load=True, breaks=False)
-KEY = _rule("gear.key", key_stresses, "thickness", "bore")
-SHAFT = _rule("train.shaft", shaft_stresses, "bore", load=True)
-DOWEL = _rule("train.dowel-load", dowel_stresses, "dowel_diameter", "thickness")
+ROOT = _rule("gear.root", root_stresses, roots_bear, "thickness", "size", load=True)
+FLANK = _rule("gear.flank", flank_pressures, None, "thickness", "size", load=True)
+KEY = _rule("gear.key", key_stresses, keys_bear, "thickness", "bore")
+SHAFT = _rule("train.shaft", shaft_stresses, shafts_bear, "bore", load=True)
+DOWEL = _rule("train.dowel-load", dowel_stresses, dowels_bear, "dowel_diameter", "thickness")
 
-
-def _bounded(m: GearTable) -> bool:
-    """Whether a bound decides most designs: of pairs without keys."""
-    return m.given.stages == 1 and not np.any(np.asarray(m.given.keyway_width) > 0)
-
-
-STRENGTH = all_of(
-    all_of(ROOT, FLANK, when=_bounded),
-    in_turn(
-        by_design(
-            all_of(ROOT, FLANK, KEY, all_of(SHAFT, DOWEL, when=lambda m: m.given.stages == 2)),
-            stage=Stage.PARTS,
-        ),
-        when=lambda m: not _bounded(m),
-    ),
-)
+STRENGTH = all_of(ROOT, FLANK, KEY, all_of(SHAFT, DOWEL, when=lambda m: m.given.stages == 2))
 """What teeth and keys bear, and the shafts and dowels of trains."""

@@ -8,14 +8,17 @@ import numpy as np
 
 from mechwright import Array, Bore, Finding, Stage, at_stage
 from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
-from mechwright.contracts.design_table import by_row
+from mechwright.contracts.design_table import number, plain
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import LEAST_RIM
+from mechwright.mechanics.openings import opening_of
 from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.kinematics.ellipse import perimeter_of
+from mechwright_elliptic_gears.kinematics.equations import phase_offsets
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import rack_of, room
 from mechwright_elliptic_gears.parts.gear_parts import Gear, gear_opening, gears_of
+from mechwright_elliptic_gears.parts.layout import DOWELS
 from mechwright_elliptic_gears.rules.bushings import BUSHES
 from mechwright_elliptic_gears.rules.clamp import CLAMP
 from mechwright_elliptic_gears.rules.pins import DOWEL_SPACER, PINS, ahead
@@ -205,11 +208,17 @@ def _gear(params: EllipticGearParams, name: str) -> Gear:
     return next(gear for gear in gears_of(params) if gear.name == name)
 
 
+def _dowel_places(m: GearTable, turn: Any) -> tuple[Array, Array]:
+    """X and y (n, 3), mm, of the dowels, turned by an angle, rad."""
+    angles, radius = np.array([*DOWELS.values()]) + turn, m.layout.dowel_circle / 2
+    return radius * np.cos(angles), radius * np.sin(angles)
+
+
 DOWEL_RIM = Rule(
     "train.dowel-rim",
     "dowel_circle",
     "{value:.2f} mm stay between the dowels and the nearest root of gear 3, below a module",
-    value=by_row(lambda m: _least_rim(m.given, _gear(m.given, "gear-3"))),
+    value=lambda m: number(m.root_depth(*_dowel_places(m, 0.0)) - m.layout.dowel / 2),
     limit=lambda m: LEAST_RIM * m.module,
     unit="mm",
     remedy="make dowel_circle or dowel_diameter smaller, or the gears larger",
@@ -267,6 +276,27 @@ def _phase_fault(params: EllipticGearParams) -> str | None:
     return None
 
 
+def _may_clash(m: GearTable) -> Any:
+    """Whether the openings of gear 4 may come near to its joint or a root (n, 1), by discs that hold them."""
+    layout, joint = m.layout, m.layout.pin
+    phase = np.radians(m.given.phase_degrees)
+    back = -phase_offsets(phase, m.given.eccentricity)
+    if m.given.dowelled:
+        x, y = _dowel_places(m, back)
+        held = layout.dowel / 2
+    else:
+        opening = opening_of(plain(m.given, 0, m.size))
+        assert opening is not None  # noqa: S101 - a keyed gear has a bore
+        # Its keyway, from where it leaves the bore, in a disc about the middle of its mouth.
+        radius, half = layout.bore / 2, opening.width / 2
+        into = radius - np.sqrt(np.maximum(radius**2 - half**2, 0.0))
+        held = np.hypot(np.maximum(opening.depth, into), half) + opening.relief
+        x, y = radius * np.cos(back), radius * np.sin(back)
+    wall: Any = np.hypot(x - layout.focus, y).min(axis=-1, keepdims=True) - held - joint / 2
+    rim: Any = m.root_depth(x, y) - held
+    return falls_short(wall, WALL * joint) | falls_short(rim, LEAST_RIM * m.module)
+
+
 def _wall(one: Bore, other: Bore) -> float:
     return math.dist(one.centre, other.centre) - (one.diameter + other.diameter) / 2
 
@@ -302,7 +332,10 @@ TRAIN = in_turn(
     in_turn(CLAMP, when=lambda m: m.given.phase_joint == "clamp"),
     in_turn(
         Procedure[GearTable](
-            ("train.phase",), lambda m: at_stage(Stage.PARTS, _turned_openings(m)), stage=Stage.PARTS
+            ("train.phase",),
+            lambda m: at_stage(Stage.PARTS, _turned_openings(m)),
+            stage=Stage.PARTS,
+            when=_may_clash,
         ),
         Note[GearTable]("train.phase", _phase_message, ahead, "deg"),
         when=lambda m: not m.given.adjustable,

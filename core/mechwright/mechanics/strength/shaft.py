@@ -7,6 +7,8 @@ Sources: Roloff/Matek, Maschinenelemente (nominal stresses, key seats); Shigley,
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from mechwright.errors import GeometryError
 
 _N_MM = 1000.0
@@ -103,6 +105,8 @@ def goodman_safety(d: float, load: Load, endurance: float, strength: float, notc
 
 
 def _size(value: float) -> float:
-    if not value > 0:
-        raise GeometryError(f"a diameter or stress of {value:g} carries nothing; it has to be above 0")
+    """A diameter or stress, or an array of them."""
+    least = float(np.min(value))
+    if not least > 0:
+        raise GeometryError(f"a diameter or stress of {least:g} carries nothing; it has to be above 0")
     return value
