@@ -57,6 +57,11 @@ def witness_of(family, params, samples=73, sample=0):
         design("spherical-double-crank"),
         design("spherical-five-bar-refined"),
         design("rack-and-pinion"),
+        design("spur-gears"),
+        design("spur-ring"),
+        design("planetary-gears"),
+        with_params("planetary-gears", fixed_member="carrier"),
+        with_params("planetary-gears", fixed_member="sun", driving_member="ring"),
     ],
     ids=[
         "four-bar",
@@ -68,6 +73,11 @@ def witness_of(family, params, samples=73, sample=0):
         "spherical-double-crank",
         "five-bar",
         "rack-and-pinion",
+        "spur-gears",
+        "spur-ring",
+        "planetary-gears",
+        "carrier-at-rest",
+        "sun-at-rest",
     ],
 )
 def test_poses_are_those_of_the_motion(family, params):

@@ -68,7 +68,7 @@ def motion_over(m: GearTable, driver: Turning, time: Array) -> Motion:
     held = {
         "o1": Joint("revolute", GROUND, one, drives=True),
         "o2": Joint("revolute", GROUND, two, (pair.axis, 0.0, 0.0)),
-        "mesh": Joint("gear", one, two),
+        "mesh": Joint("gear", one, two, ratio=float(m.ratio)),
     }
     return Motion("theta1", channels, poses, figures, {}, held, _circles(m), loads)
 

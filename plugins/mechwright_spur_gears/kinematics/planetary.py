@@ -53,13 +53,15 @@ def joints_of(m: GearTable) -> dict[str, Joint]:
         )
         for name in MEMBERS
     }
+    # Planets turn against the carrier; where they roll on what stands still, the carrier turns them.
+    turns = float(m.rate("planet")) - float(m.rate("carrier"))
+    turning = {name: "carrier" if name == given.fixed_member else name for name in ("sun", "ring")}
     for k, place in enumerate(m.places[0].tolist(), start=1):
         point = (away * math.cos(place), away * math.sin(place), 0.0)
         found[f"planet-{k}-axis"] = Joint("revolute", "carrier", f"planet-{k}", point)
         found[f"pin-{k}-seat"] = Joint("fixed", "carrier", f"pin-{k}", point)
         found |= {
-            f"{name}-planet-{k}": Joint("gear", name, f"planet-{k}")
-            for name in ("sun", "ring")
-            if name != given.fixed_member
+            f"{name}-planet-{k}": Joint("gear", one, f"planet-{k}", ratio=turns / float(m.rate(one)))
+            for name, one in turning.items()
         }
     return found
