@@ -270,3 +270,21 @@ def test_a_shifted_tooth_has_the_form_factor_of_the_charts():
     shifted, _ = form_factors(20, shift=0.5)
     assert float(plain) == pytest.approx(2.80, abs=0.02)
     assert float(shifted) == pytest.approx(2.18, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    ("keys", "remedy"),
+    [
+        ("teeth = 8\nshift = 0.6\ntip_radius = 0.2", "set shift = 0.651 (now 0.6)"),
+        (
+            "teeth = 40\npressure_angle = 28\naddendum = 0.5\ndedendum = 0.8",
+            "leave out addendum (now 0.5), leave out dedendum (now 0.8)",
+        ),
+    ],
+)
+def test_a_remedy_says_what_is_to_be_typed_and_no_more(keys, remedy, tmp_path, command_line):
+    path = tmp_path / "pair.toml"
+    path.write_text(f'family = "spur-gears"\n[parameters]\n{keys}\n')
+    status, out, _ = command_line("check", str(path))
+    assert status == 1
+    assert f"; {remedy}\n" in out

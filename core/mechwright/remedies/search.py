@@ -10,6 +10,7 @@ from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Severity, Stage
 from mechwright.designs.chains import STAGE
+from mechwright.designs.change import found_at
 from mechwright.remedies.bench import KEY, Bench, identity
 from mechwright.remedies.keys import Key, meant, named
 from mechwright.remedies.measured import measured
@@ -151,8 +152,15 @@ def written(bench: Bench, change: Change, decided: Change) -> Change:
         if isinstance(value, float) and path in bench.keys and bench.keys[path].numeric
         else value
         for path, value in change.items()
-        if path not in bench.keys or value is None or bench.now(bench.keys[path], decided) != value
+        if _differs(bench, path, value, decided)
     }
+
+
+def _differs(bench: Bench, path: str, value: Any, decided: Change) -> bool:
+    """Whether a key is not so already; what neither the file nor an earlier change states is left out."""
+    if value is None:
+        return decided.get(path) is not None or found_at(bench.design.content, path)[0]
+    return path not in bench.keys or bool(bench.now(bench.keys[path], decided) != value)
 
 
 def _step(

@@ -235,7 +235,11 @@ CONTACT = Rule(
     value=lambda m: np.concatenate([np.reshape(one.contact_ratio, (-1, 1)) for one in m.meshes], axis=1),
     limit=LEAST_CONTACT,
     must_be="above",
-    remedy="use more teeth, a larger addendum or smaller shifts",
+    remedy="make pressure_angle or the shifts smaller, addendum larger, or use more teeth",
+    proposed=lambda _: (
+        {"parameters.addendum": None, "parameters.dedendum": None},
+        {"parameters.addendum": None, "parameters.dedendum": None, "parameters.pressure_angle": None},
+    ),
 )
 ROUGH = CONTACT.but(
     message="the contact ratio is {value:.3f}, below {limit:g}: teeth with errors run roughly",
