@@ -1,5 +1,7 @@
 """The house stays a house: no circles of imports, small files, and a wheel with every room in it."""
 
+import ast
+import importlib.util
 import re
 import statistics
 from collections import Counter
@@ -40,6 +42,22 @@ def test_files_are_small():
     lines = {name: len(path.read_text(encoding="utf-8").splitlines()) for name, path in sources().items()}
     assert {name: count for name, count in lines.items() if count > LONGEST} == {}
     assert statistics.median(lines.values()) <= MEDIAN
+
+
+def test_benchmarks_import_what_there_is():
+    """Most of them run by hand; what they import from the house is looked up here."""
+    wrong = []
+    for path in sorted((ROOT / "benchmarks").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("mechwright"):
+                module = importlib.import_module(node.module)
+                wrong += [
+                    f"{path.name}: {node.module}.{one.name}"
+                    for one in node.names
+                    if not hasattr(module, one.name)
+                    and importlib.util.find_spec(f"{node.module}.{one.name}") is None
+                ]
+    assert wrong == []
 
 
 def test_files_beside_the_sources_are_small():

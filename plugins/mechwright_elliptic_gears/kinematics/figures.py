@@ -124,7 +124,9 @@ _POINT_FIGURES = {
 
 def _sought(m: GearTable, name: str) -> Any:
     """A figure that is sought, of one design or in a column."""
-    group = _window if "window" in name else _peaks_of_point if name.startswith("Q.") else _peaks_of_last
+    group = last_gear_figures
+    if name.startswith("Q."):
+        group = window_figures if "window" in name else point_figures
     if m.single:
         return group(m.given)[name]
 
@@ -136,7 +138,7 @@ def _sought(m: GearTable, name: str) -> Any:
 
 
 @kept
-def _window(params: EllipticGearParams) -> dict[str, float]:
+def window_figures(params: EllipticGearParams) -> dict[str, float]:
     """Figures of the longest stretch of near-constant speed of Q."""
     window = point_window(params)
     return {
@@ -149,7 +151,7 @@ def _window(params: EllipticGearParams) -> dict[str, float]:
 
 
 @kept
-def _peaks_of_point(params: EllipticGearParams) -> dict[str, float]:
+def point_figures(params: EllipticGearParams) -> dict[str, float]:
     """Greatest rates of Q."""
     found: dict[str, float] = {}
     for name, top in point_peaks(params).items():
@@ -158,7 +160,7 @@ def _peaks_of_point(params: EllipticGearParams) -> dict[str, float]:
 
 
 @kept
-def _peaks_of_last(params: EllipticGearParams) -> dict[str, float]:
+def last_gear_figures(params: EllipticGearParams) -> dict[str, float]:
     """Greatest rates of a train's last gear."""
     omega = params.speed * math.tau / 60
 
@@ -172,3 +174,7 @@ def _peaks_of_last(params: EllipticGearParams) -> dict[str, float]:
 
     found = {f"{name}5_max": peak(extreme(name)).value for name in ("omega", "alpha", "jerk")}
     return found | {"ratio_min": -peak(extreme("omega", -1.0)).value / omega}
+
+
+SOUGHT = (window_figures, point_figures, last_gear_figures)
+"""What is sought of one design: figures of Q's window, of its peaks, and of a train's last gear."""
