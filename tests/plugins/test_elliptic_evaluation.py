@@ -9,12 +9,13 @@ from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.mechanics.gearing.checks import least_tip
 from mechwright.testing.evaluation import assert_same
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.kinematics.equations import Turning, train
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque
 from mechwright_elliptic_gears.kinematics.mesh_load import meshes_of
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.areas import areas_of, by_mean, by_teeth
 from mechwright_elliptic_gears.parts.teeth import least_regularity
-from mechwright_elliptic_gears.rules.load_bounds import torques
+from mechwright_elliptic_gears.rules.load_bounds import BETWEEN, SAMPLED_TO, TURN_SAMPLES, torques
 from mechwright_elliptic_gears.table import table_of
 
 FAMILY = EllipticGears()
@@ -181,3 +182,16 @@ def test_what_breaks_is_forbidden_in_tables(rule, content, load):
     found = FAMILY.evaluate(some, ())
     assert_same(found, one_by_one(FAMILY.judge, FAMILY.solve, some, (), Stage.PARTS))
     assert 0 < found.counts.get(rule, 0) < 12
+
+
+@pytest.mark.parametrize("phase", [0.0, 77.0, 200.0, 301.0])
+def test_peaks_between_samples_are_within_the_bound_as_far_as_it_is_used(phase):
+    """By samples thirty times as dense, up to the eccentricity beyond which nothing is said."""
+    params = EllipticGearParams(stages=2, eccentricity=SAMPLED_TO, phase=phase, teeth=40)
+    theta = np.linspace(0.0, 2 * np.pi, 30 * (TURN_SAMPLES - 1) + 1)
+    _, four, five = train(Turning.of(theta, 1.0), SAMPLED_TO, np.radians(phase))
+    for load in (five.alpha, five.omega, five.alpha * five.omega / four.omega, four.alpha):
+        assert np.abs(load).max() <= BETWEEN * np.abs(load[::30]).max()
+    beyond = table_of(params.model_copy(update={"eccentricity": SAMPLED_TO + 0.01}))
+    assert np.isfinite(torques(table_of(params))).all()
+    assert np.isinf(torques(beyond)).all()
