@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, GIVEN, MaterialName, Parameters
-from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_cam_follower.defaults.proportions import FOLLOWS, fitted, followed, left_out
 
@@ -257,13 +257,11 @@ class CamParams(Parameters):
         description="Shaft bore of the cam; 0 for none; left out, 15, and less in small cams.",
         json_schema_extra={**FIRST, **FITTED},
     )
-    keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of the cam's keyway, along +x at the start; 0 for none."
+    keyway_width: KeywayWidth = Field(
+        0.0, description="Width of the cam's keyway, along +x at the start; 0 for none."
     )
-    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
-    keyway_relief: Millimetres = Field(
-        0.0, ge=0, le=20, description="Diameter of the reliefs in the keyway's corners; 0 for none."
-    )
+    keyway_depth: KeywayDepth = None
+    keyway_relief: KeywayRelief = 0.0
     screw_diameter: Millimetres = Field(
         0.0, ge=0, le=30, description="Diameter of the holes that screw the cam to a flange; 0 for none."
     )

@@ -9,7 +9,8 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
-from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
+from mechwright.mechanics.gearing.fields import Backlash, FaceWidth, LoadTorque, ShaftBore
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
@@ -161,46 +162,31 @@ class EllipticGearParams(Parameters):
         "has room for.",
         json_schema_extra=FITTED,
     )
-    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+    backlash: Backlash | None = Field(
         None,
         description=(
             "Circumferential play of the pair on the pitch curve, a quarter per flank; left out, the least "
             "with which gears as made turn: 0.067 at e = 0.4, of a train 0.107."
         ),
     )
-    thickness: Millimetres = Field(
-        10.0,
-        ge=0.1,
-        le=200,
-        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
-        json_schema_extra={**FIRST, **FITTED},
-    )
+    thickness: FaceWidth = 10.0
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
-    bore: Millimetres = Field(
+    bore: ShaftBore = Field(
         10.0,
-        ge=0,
-        le=300,
         description="Diameter of the shaft bore, 0 for none; left out, 10, or the largest standard one below "
         "that leaves the rim of a small gear.",
-        json_schema_extra={**FIRST, **FITTED},
     )
-    keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of the hub keyway, towards the far vertex; 0 for none."
+    keyway_width: KeywayWidth = Field(
+        0.0, description="Width of the hub keyway, towards the far vertex; 0 for none."
     )
-    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
-    keyway_relief: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=20,
-        description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
-    )
+    keyway_depth: KeywayDepth = None
+    keyway_relief: KeywayRelief = 0.0
     speed: RevPerMin = Field(
         60.0, ge=0.001, le=20000, description="Constant speed of gear 2.", json_schema_extra=FIRST
     )
-    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+    load_torque: LoadTorque = Field(
         0.0,
         description="Constant torque against the turning of the last gear, 4 of a pair or 5 of a train.",
-        json_schema_extra=FIRST,
     )
     point_along: Ratio = Field(
         0.5, ge=-1, le=2, description="Where point Q stands along the coupler: 0 at J, 1 at K."

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.fits import HoleClass
+from mechwright.contracts.keyed import KeywayRelief, KeywayWidth
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_geneva.defaults.proportions import FLOOR, floor_of
 
@@ -141,8 +142,8 @@ class GenevaParams(Parameters):
         ),
         json_schema_extra=FIRST,
     )
-    keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
+    keyway_width: KeywayWidth = Field(
+        0.0, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
     )
     counterbore_diameter: Millimetres = Field(
         0.0, ge=0, le=300, description="Recess about the wheel's bore, for the shaft's screw; 0 for none."
@@ -163,12 +164,10 @@ class GenevaParams(Parameters):
         description="Shaft bore of the driver, 0 for none; left out, found as bore is.",
         json_schema_extra=FIRST,
     )
-    driver_keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of the driver's keyway (DIN 6885-1); 0 for none."
+    driver_keyway_width: KeywayWidth = Field(
+        0.0, description="Width of the driver's keyway (DIN 6885-1); 0 for none."
     )
-    keyway_relief: Millimetres = Field(
-        0.0, ge=0, le=20, description="Diameter of the reliefs in the keyways' corners; 0 for none."
-    )
+    keyway_relief: KeywayRelief = 0.0
     crank_thickness: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
         None,
         description="Thickness of the crank plate; left out, 8, with pins below 2 three and a half of them.",

@@ -2,6 +2,9 @@
 
 from typing import Any
 
+from mechwright.mechanics.gearing.rim_rules import HOLE
+from mechwright.mechanics.gearing.ring_plate import HOLES
+
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
 
@@ -50,8 +53,8 @@ USUAL: dict[str, Any] = {
     "first_ratio": 0.7,
     "last_ratio": 1.4,
     "ring_addendum": 0.6,
-    "ring_holes": 6,
-    "ring_hole": 5.5,
+    "ring_holes": HOLES,
+    "ring_hole": HOLE,
 }
 """Field of a law or of a ring to its value where it is left out."""
 

@@ -7,9 +7,10 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
-from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
 from mechwright.mechanics.formula import LONGEST
-from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright.mechanics.gearing.fields import Backlash, FaceWidth, LoadTorque, ShaftBore
+from mechwright.units import Degrees, Ratio, RevPerMin, Unit
 from mechwright_noncircular_gears.consistency import pair_together
 from mechwright_noncircular_gears.fields import (
     ALSO,
@@ -236,46 +237,31 @@ class NoncircularParams(Parameters):
         description="Radius at the tip of the cutter, in modules; left out, 0.38, with a shaper 0.2, "
         "or what its tooth has room for.",
     )
-    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+    backlash: Backlash | None = Field(
         None,
         description=(
             "Circumferential play on the pitch curves, a quarter per flank; left out, the least with which "
             "gears as made turn."
         ),
     )
-    thickness: Millimetres = Field(
-        10.0,
-        ge=0.1,
-        le=200,
-        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
-        json_schema_extra={**FIRST, **FITTED},
-    )
+    thickness: FaceWidth = 10.0
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
-    bore: Millimetres = Field(
+    bore: ShaftBore = Field(
         10.0,
-        ge=0,
-        le=300,
         description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
         "below that leaves the rim of a small gear, or what a chain asks for.",
-        json_schema_extra={**FIRST, **FITTED},
     )
-    keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of both hub keyways, along +x at φ = 0; 0 for none."
+    keyway_width: KeywayWidth = Field(
+        0.0, description="Width of both hub keyways, along +x at φ = 0; 0 for none."
     )
-    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
-    keyway_relief: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=20,
-        description="Diameter of the reliefs in the keyways' corners, for a round cutter; 0 for none.",
-    )
+    keyway_depth: KeywayDepth = None
+    keyway_relief: KeywayRelief = 0.0
     speed: RevPerMin = Field(
         60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
     )
-    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+    load_torque: LoadTorque = Field(
         0.0,
         description="Constant torque against the turning of the driven gear.",
-        json_schema_extra=FIRST,
     )
 
     @field_validator("sector", mode="before")

@@ -79,13 +79,13 @@ class SpurGears(Family[SpurGearParams]):
 
     def check_cut(self, params: SpurGearParams, cut: "Mapping[str, shapely.Polygon]") -> Sequence[Finding]:
         """Whether the gears as cut still mesh, and their keys go in."""
-        from mechwright_spur_gears.parts.made import cut_findings
+        from mechwright_spur_gears.parts.as_made import cut_findings
 
         return cut_findings(self.table(params), cut)
 
     def as_made(self, params: SpurGearParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Play, transmission error and backlash of every pair, and whether it jams."""
-        from mechwright_spur_gears.parts.made import as_made
+        from mechwright_spur_gears.parts.as_made import as_made
 
         return as_made(self.table(params), made)
 

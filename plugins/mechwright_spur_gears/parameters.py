@@ -8,11 +8,13 @@ from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.design_table import number
-from mechwright.contracts.keyed import DEPTH, KeywayDepth, keyed_together
+from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
 from mechwright.mechanics.gearing import rack_plate
-from mechwright.mechanics.gearing.ring_plate import HOLE, HOLES, outside_for
+from mechwright.mechanics.gearing.fields import Backlash, FaceWidth, LoadTorque, ShaftBore
+from mechwright.mechanics.gearing.rim_rules import HOLE
+from mechwright.mechanics.gearing.ring_plate import HOLES, outside_for
 from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore
-from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright.units import Degrees, Ratio, RevPerMin, Unit
 from mechwright_spur_gears.arrangements import ARRANGED, Arrangement
 from mechwright_spur_gears.pair import (
     least_root,
@@ -204,37 +206,23 @@ class SpurGearParams(Parameters):
     rack_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
         None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
     )
-    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+    backlash: Backlash | None = Field(
         None,
         description="Circumferential play on the operating pitch circles; left out, the least with which "
         "gears as made turn.",
     )
-    thickness: Millimetres = Field(
-        10.0,
-        ge=0.1,
-        le=200,
-        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
-        json_schema_extra={**FIRST, **FITTED},
-    )
+    thickness: FaceWidth = 10.0
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
-    bore: Millimetres = Field(
+    bore: ShaftBore = Field(
         10.0,
-        ge=0,
-        le=300,
         description="Diameter of the shaft bores, 0 for none; left out, 10, or the largest standard one "
         "below that leaves the rim of the smaller gear.",
-        json_schema_extra={**FIRST, **FITTED},
     )
-    keyway_width: Millimetres = Field(
-        0.0, ge=0, le=60, description="Width of both hub keyways, along +x at rest; 0 for none."
+    keyway_width: KeywayWidth = Field(
+        0.0, description="Width of both hub keyways, along +x at rest; 0 for none."
     )
-    keyway_depth: KeywayDepth | None = Field(None, description=DEPTH)
-    keyway_relief: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=20,
-        description="Diameter of the reliefs in the keyways' corners, for a round cutter; 0 for none.",
-    )
+    keyway_depth: KeywayDepth = None
+    keyway_relief: KeywayRelief = 0.0
     speed: RevPerMin = Field(
         60.0,
         ge=0.001,
@@ -242,10 +230,9 @@ class SpurGearParams(Parameters):
         description="Constant speed of the driver; of a rack how often it goes there and back in a minute.",
         json_schema_extra=FIRST,
     )
-    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+    load_torque: LoadTorque = Field(
         0.0,
         description="Constant torque against the turning of the driven gear.",
-        json_schema_extra=FIRST,
     )
     load_force: Annotated[float, Field(ge=0, le=1e6), Unit("N")] = Field(
         0.0, description="Constant force against the rack, whichever way it goes.", json_schema_extra=FIRST

@@ -12,7 +12,7 @@ from mechwright import DesignError, MountingError, Severity, Stage, host
 from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.evaluation import Batch
 from mechwright.designs.design import load
-from mechwright.mechanics.gearing.made_rack import MadeRack
+from mechwright.mechanics.gearing.rack_as_made import MadeRack
 from mechwright.mechanics.gearing.running import FINE, running_findings
 from mechwright_spur_gears.family import SpurGears
 from mechwright_spur_gears.gear_table import GearTable, table_of

@@ -4,13 +4,21 @@ from typing import Annotated, Protocol
 
 from pydantic import Field
 
-from mechwright.units import Unit
+from mechwright.units import Millimetres, Unit
 
-KeywayDepth = Annotated[float, Field(ge=0.1, le=30), Unit("mm")]
-"""Hub depth t2 over the bore (DIN 6885)."""
-
-DEPTH = "Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width."
-"""Description of such a field."""
+KeywayWidth = Annotated[Millimetres, Field(ge=0, le=60)]
+KeywayDepth = Annotated[
+    Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None,
+    Field(description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width."),
+]
+KeywayRelief = Annotated[
+    Millimetres,
+    Field(
+        ge=0,
+        le=20,
+        description="Diameter of the reliefs in the corners of keyways, for a round cutter; 0 for none.",
+    ),
+]
 
 
 class Keyed(Protocol):

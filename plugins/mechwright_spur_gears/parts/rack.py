@@ -8,7 +8,7 @@ from mechwright import AsMade, Instance, MadePart, Part
 from mechwright.arrays import Array
 from mechwright.mechanics.gearing import MeshProof, Rack
 from mechwright.mechanics.gearing.gauging import SHARE
-from mechwright.mechanics.gearing.made_rack import RackMesh, rack_as_made
+from mechwright.mechanics.gearing.rack_as_made import RackMesh, rack_as_made
 from mechwright.mechanics.gearing.rack_mesh import RackRun
 from mechwright_spur_gears.gear_table import GearTable
 

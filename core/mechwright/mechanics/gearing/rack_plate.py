@@ -11,19 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import Rowwise
-from mechwright.contracts.finding import Severity
 from mechwright.contracts.measure import Measure
 from mechwright.contracts.part import Bore, Feature, Profile
-from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.segments import Arc, Line, Point, Segment
-from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM
 from mechwright.mechanics.gearing.contour import tip_sites
 from mechwright.mechanics.gearing.over_pins import gauge_pin
-from mechwright.mechanics.gearing.ring_plate import LEAST_WALL
-from mechwright.tolerances import TOLERANCES, falls_short
+from mechwright.mechanics.gearing.rim_rules import rim_for, rim_rules
+from mechwright.tolerances import TOLERANCES
 
 HOLES = 2
 """Holes of a rack where the design names none and there is room."""
@@ -83,14 +79,18 @@ class RackPlate(Rowwise):
         return self.body - np.where(np.asarray(self.holes) > 0, self.hole, 0.0)
 
     @property
-    def full(self) -> Any:
-        """Wall that no longer weakens the teeth."""
-        return FULL_RIM * (self.tip + self.root)
+    def depth(self) -> Any:
+        """Of the teeth, from tip to root."""
+        return self.tip + self.root
+
+    def size_for(self, rim: float) -> int:
+        """Height of the body, in whole mm, of one rack with a rim so wide."""
+        return math.ceil(rim)
 
     @property
-    def least(self) -> Any:
-        """Wall that the teeth need."""
-        return LEAST_RIM * self.module * np.where(np.asarray(self.holes) > 0, 2, 1)
+    def most_holes(self) -> int:
+        """Holes of one rack between which a module stays."""
+        return math.floor(float(self.length / (self.hole + self.module)))
 
     @property
     def bridge(self) -> Any:
@@ -211,60 +211,8 @@ def holes_for(length: Any, room: Any) -> Any:
 
 def body_for(hole: Any, depth: Any) -> Any:
     """Height, mm, of the body of a rack that names none: whole millimetres, with a full rim."""
-    return np.ceil(hole + np.maximum(FULL_RIM * depth, 2 * LEAST_WALL))
+    return np.ceil(rim_for(hole, depth))
 
 
-Rule = DesignRule[Any]
-Fails = Failure[Any]
-
-
-def _height(f: Fails) -> int:
-    plate: RackPlate = f.m.rack_plate
-    hole = float(plate.hole) if plate.holes > 0 else 0.0
-    return math.ceil(hole + max(float(plate.full), float(plate.least)))
-
-
-_RIM = Rule(
-    "rack.rim",
-    "rack_height",
-    lambda f: (
-        f"{f.value:.2f} mm of the rack stay below its roots"
-        + (f" beside its holes of {float(f.m.rack_plate.hole):g} mm" if f.m.rack_plate.holes > 0 else "")
-    ),
-    value=lambda m: m.rack_plate.wall,
-    limit=lambda m: m.rack_plate.least,
-    unit="mm",
-    remedy=lambda f: (
-        f"make rack_height at least {_height(f)}"
-        + (", or rack_hole smaller" if f.m.rack_plate.holes > 0 else "")
-    ),
-    proposed=lambda f: ({"parameters.rack_height": _height(f)},),
-)
-
-
-def _most_holes(f: Fails) -> int:
-    plate: RackPlate = f.m.rack_plate
-    return math.floor(float(plate.length / (plate.hole + plate.module)))
-
-
-RACK_RULES = in_turn(
-    _RIM,
-    all_of(
-        _RIM.but(
-            severity=Severity.WARNING,
-            limit=lambda m: m.rack_plate.full,
-            when=lambda m: ~np.asarray(falls_short(m.rack_plate.wall, m.rack_plate.least)),
-        ),
-        Rule(
-            "rack.holes",
-            "rack_holes",
-            lambda f: f"{f.value:.2f} mm stay between two of {int(f.m.rack_plate.holes)} holes of the rack",
-            value=lambda m: m.rack_plate.bridge,
-            limit=lambda m: m.rack_plate.module,
-            unit="mm",
-            remedy=lambda f: f"make rack_holes at most {_most_holes(f)}, or rack_hole smaller",
-            proposed=lambda f: ({"parameters.rack_holes": _most_holes(f)},),
-        ),
-    ),
-)
+RACK_RULES = rim_rules("rack", "rack_height", "below", lambda m: m.rack_plate)
 """Of tables with a ``rack_plate``: enough stays below the teeth, at the holes and between them."""

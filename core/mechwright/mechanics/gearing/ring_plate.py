@@ -6,21 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import Rowwise
-from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Bore, Feature, Profile
-from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.segments import Point
-from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM
-from mechwright.tolerances import falls_short
+from mechwright.mechanics.gearing.rim_rules import rim_for, rim_rules
 
-LEAST_WALL = 2.0
-"""mm on each side of a hole where the design names no outside: a mill and a screw's head have room."""
-
-HOLES, HOLE = 6, 5.5
-"""Holes where the design names none, and their diameter, mm: M5 screws go through."""
+HOLES = 6
+"""Holes of a ring where the design names none."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +46,15 @@ class RingPlate(Rowwise):
         """What stays of the rim on both sides of a hole together; all of it where there are none."""
         return self.outside / 2 - self.root - np.where(np.asarray(self.holes) > 0, self.hole, 0.0)
 
-    @property
-    def full(self) -> Any:
-        """Wall that no longer weakens the teeth."""
-        return FULL_RIM * self.depth
+    def size_for(self, rim: float) -> int:
+        """Diameter, in whole mm, of one ring with a rim so wide."""
+        return math.ceil(2 * (float(self.root) + rim))
 
     @property
-    def least(self) -> Any:
-        """Wall that the teeth need."""
-        return LEAST_RIM * self.module * np.where(np.asarray(self.holes) > 0, 2, 1)
+    def most_holes(self) -> int:
+        """Holes of one ring between which a module stays."""
+        chord = float((self.hole + self.module) / (2 * self.circle))
+        return math.floor(math.pi / math.asin(min(1.0, chord)))
 
     @property
     def circle(self) -> Any:
@@ -110,60 +103,8 @@ class RingPlate(Rowwise):
 
 def outside_for(root: Any, hole: Any, depth: Any) -> Any:
     """Diameter, mm, of a ring that names none: whole millimetres, with a full rim outside of its roots."""
-    return np.ceil(2 * (root + hole + np.maximum(FULL_RIM * depth, 2 * LEAST_WALL)))
+    return np.ceil(2 * (root + rim_for(hole, depth)))
 
 
-Rule = DesignRule[Any]
-Fails = Failure[Any]
-
-
-def _outside(f: Fails) -> int:
-    plate: RingPlate = f.m.ring_plate
-    hole = float(plate.hole) if plate.holes > 0 else 0.0
-    return math.ceil(2 * (float(plate.root) + hole + max(float(plate.full), float(plate.least))))
-
-
-_RIM = Rule(
-    "ring.rim",
-    "ring_outside",
-    lambda f: (
-        f"{f.value:.2f} mm of the ring stay outside of its roots"
-        + (f" beside its holes of {float(f.m.ring_plate.hole):g} mm" if f.m.ring_plate.holes > 0 else "")
-    ),
-    value=lambda m: m.ring_plate.wall,
-    limit=lambda m: m.ring_plate.least,
-    unit="mm",
-    remedy=lambda f: (
-        f"make ring_outside at least {_outside(f)}"
-        + (", or ring_hole smaller" if f.m.ring_plate.holes > 0 else "")
-    ),
-    proposed=lambda f: ({"parameters.ring_outside": _outside(f)},),
-)
-
-
-def _most_holes(f: Fails) -> int:
-    plate: RingPlate = f.m.ring_plate
-    return math.floor(math.pi / math.asin(min(1.0, float((plate.hole + plate.module) / (2 * plate.circle)))))
-
-
-RING_RULES = in_turn(
-    _RIM,
-    all_of(
-        _RIM.but(
-            severity=Severity.WARNING,
-            limit=lambda m: m.ring_plate.full,
-            when=lambda m: ~np.asarray(falls_short(m.ring_plate.wall, m.ring_plate.least)),
-        ),
-        Rule(
-            "ring.holes",
-            "ring_holes",
-            lambda f: f"{f.value:.2f} mm stay between two of {int(f.m.ring_plate.holes)} holes",
-            value=lambda m: m.ring_plate.bridge,
-            limit=lambda m: m.ring_plate.module,
-            unit="mm",
-            remedy=lambda f: f"make ring_holes at most {_most_holes(f)}",
-            proposed=lambda f: ({"parameters.ring_holes": _most_holes(f)},),
-        ),
-    ),
-)
+RING_RULES = rim_rules("ring", "ring_outside", "outside of", lambda m: m.ring_plate)
 """Of tables with a ``ring_plate``: enough stays around the teeth, at the holes and between them."""
