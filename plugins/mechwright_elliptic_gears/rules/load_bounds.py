@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechwright import Array, material
-from mechwright.contracts.design_table import column, plain
+from mechwright.contracts.design_table import items, plain
 from mechwright.mechanics.gearing import TO_NM
 from mechwright.mechanics.openings import opening_of
 from mechwright.mechanics.strength.allowed import ROOT_SAFETY, allowed
@@ -75,11 +75,7 @@ def _inertia(m: GearTable) -> Any:
 def _of_pair(m: GearTable) -> Array:
     e = np.asarray(m.given.eccentricity)
     first = _inertia(m) * alpha_peak(e) * m.omega**2 + m.given.load_torque
-    return _columns(m, first * (1 + e) / (1 - e), first, 0.0, 0.0)
-
-
-def _columns(m: GearTable, *found: Any) -> Array:
-    return np.concatenate([column(one, m.size) for one in found], axis=1)
+    return items([first * (1 + e) / (1 - e), first, 0.0, 0.0], m.size)
 
 
 def _of_train(m: GearTable) -> Array:
@@ -102,7 +98,7 @@ def _of_train(m: GearTable) -> Array:
     first = joint + inertia * alpha4
     found = first * omega4 / m.omega, first, joint, power / omega5
     sure = np.where(np.asarray(given.eccentricity) <= SAMPLED_TO, BETWEEN, np.inf)
-    return _columns(m, *(sure * one.max(axis=-1, keepdims=True) for one in found))
+    return items([sure * one.max(axis=-1, keepdims=True) for one in found], m.size)
 
 
 def _tangential(m: GearTable, torque: Any) -> Any:
