@@ -9,6 +9,7 @@ import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage
 from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_table import items
 from mechwright.contracts.finding import Change
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.checks import (
@@ -45,7 +46,7 @@ def each(m: GearTable, value: Callable[[InvolutePair, int], Any], again: float |
     found = [
         again if one.again and again is not None else value(m.meshes[one.mesh], one.gear) for one in m.flanks
     ]
-    return np.concatenate([np.broadcast_to(np.reshape(one, (-1, 1)), (m.size, 1)) for one in found], axis=1)
+    return items(found, m.size)
 
 
 def flank_of(f: Fails) -> Flank:
@@ -232,7 +233,7 @@ CONTACT = Rule(
     "gear.contact-ratio",
     "addendum",
     "the contact ratio is {value:.3f}: a pair of teeth lets go before the next one takes over",
-    value=lambda m: np.concatenate([np.reshape(one.contact_ratio, (-1, 1)) for one in m.meshes], axis=1),
+    value=lambda m: items([one.contact_ratio for one in m.meshes], m.size),
     limit=LEAST_CONTACT,
     must_be="above",
     remedy="make pressure_angle or the shifts smaller, addendum larger, or use more teeth",
