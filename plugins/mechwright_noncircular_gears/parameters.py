@@ -7,9 +7,9 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
+from mechwright.contracts.gear_fields import Backlash, FaceWidth, LoadTorque, ShaftBore
 from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
 from mechwright.mechanics.formula import LONGEST
-from mechwright.mechanics.gearing.fields import Backlash, FaceWidth, LoadTorque, ShaftBore
 from mechwright.units import Degrees, Ratio, RevPerMin, Unit
 from mechwright_noncircular_gears.consistency import pair_together
 from mechwright_noncircular_gears.fields import (

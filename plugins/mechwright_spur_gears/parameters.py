@@ -8,9 +8,9 @@ from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, MaterialName, Parameters
 from mechwright.contracts.design_table import number
+from mechwright.contracts.gear_fields import Backlash, FaceWidth, LoadTorque, ShaftBore
 from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
 from mechwright.mechanics.gearing import rack_plate
-from mechwright.mechanics.gearing.fields import Backlash, FaceWidth, LoadTorque, ShaftBore
 from mechwright.mechanics.gearing.rim_rules import HOLE
 from mechwright.mechanics.gearing.ring_plate import HOLES, outside_for
 from mechwright.mechanics.gearing.usual import RIM, TIP_RADIUS, face_width, shaft_bore

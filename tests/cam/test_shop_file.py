@@ -1,6 +1,7 @@
 """Shop files: what they lend to a design, what they replace, and mistakes in them."""
 
 import json
+import re
 
 import pytest
 from by_control import LINUXCNC, asked
@@ -236,6 +237,7 @@ def test_the_command_writes_a_file_that_is_read(tmp_path, command_line):
     schema = json.loads(out)
     assert code == 0
     assert {"tool", "stock", "prefer", "units"} <= schema["properties"].keys()
+    assert not re.search(r'"(ge|gt|le|lt)":', out)
 
 
 @pytest.mark.parametrize(

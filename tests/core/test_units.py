@@ -2,6 +2,7 @@ import math
 import subprocess
 import sys
 from decimal import Decimal
+from typing import Annotated
 
 import pytest
 from hypothesis import given, settings
@@ -9,7 +10,17 @@ from hypothesis import strategies as st
 from pydantic import Field, ValidationError
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.units import Degrees, Millimetres, MillimetresPerMin, Newtons, Ratio, RevPerMin, convert, kind
+from mechwright.units import (
+    Degrees,
+    Millimetres,
+    MillimetresPerMin,
+    Newtons,
+    Ratio,
+    RevPerMin,
+    Unit,
+    convert,
+    kind,
+)
 
 patient = settings(deadline=None)  # imports and a busy machine are no faults
 UNITS = {
@@ -140,6 +151,21 @@ def test_fields_take_numbers_and_strings_and_hold_their_own_unit():
     table = Table(length="1 in", angle="0.5 turn", speed="6.283185307179586 rad/s", feed=3, force="1 kN")
     assert (table.length, table.angle, table.feed, table.force) == (25.4, 180.0, 3.0, 1000.0)
     assert table.speed == pytest.approx(60, rel=1e-14)
+
+
+def test_the_schema_says_bounds_under_one_name_wherever_they_were_said():
+    class Bounded(Parameters):
+        around: Annotated[Millimetres, Field(ge=0, lt=5)] = 1.0
+        within: Annotated[float, Field(ge=0, lt=5), Unit("mm")] = 1.0
+        beside: Millimetres = Field(1.0, ge=0, lt=5)
+        left_out: Annotated[Millimetres, Field(ge=0, lt=5)] | None = None
+        le: Annotated[tuple[Millimetres, ...], Field(min_length=1)] = (1.0,)
+
+    fields = Bounded.model_json_schema()["properties"]
+    assert set(fields) == {"around", "within", "beside", "left_out", "le"}
+    for number in (fields["around"], fields["within"], fields["beside"], fields["left_out"]["anyOf"][0]):
+        assert (number["minimum"], number["exclusiveMaximum"]) == (0, 5)
+        assert not {"ge", "gt", "le", "lt"} & number.keys()
 
 
 def test_the_schema_says_the_unit():

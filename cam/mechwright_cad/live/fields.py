@@ -122,10 +122,8 @@ def _kind(facts: Mapping[str, Any], value: object) -> str:
 
 
 def _bounds(facts: Mapping[str, Any], value: object) -> dict[str, Any]:
-    low = facts.get("minimum", facts.get("ge"))
-    over = facts.get("exclusiveMinimum", facts.get("gt"))
-    high = facts.get("maximum", facts.get("le"))
-    under = facts.get("exclusiveMaximum", facts.get("lt"))
+    low, over = facts.get("minimum"), facts.get("exclusiveMinimum")
+    high, under = facts.get("maximum"), facts.get("exclusiveMaximum")
     found: dict[str, Any] = {
         "low": over if low is None else low,
         "high": under if high is None else high,

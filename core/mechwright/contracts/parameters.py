@@ -4,9 +4,10 @@ from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeGuard, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationInfo, field_validator
 from pydantic.config import JsonDict
 from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema
 
 if TYPE_CHECKING:
     from functools import _lru_cache_wrapper
@@ -93,6 +94,21 @@ def _marked(model: type[BaseModel]) -> tuple[str, ...]:
     return tuple(found)
 
 
+_BOUNDS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
+"""What pydantic calls the bounds of a type that has a unit already."""
+
+
+def _bounds_named(node: Any) -> Any:
+    if isinstance(node, list):
+        return [_bounds_named(item) for item in node]
+    if not isinstance(node, dict) or "$ref" in node:
+        return node
+    return {
+        _BOUNDS.get(key, key): value if key == "default" else _bounds_named(value)
+        for key, value in node.items()
+    }
+
+
 def _is_table(annotation: object) -> TypeGuard[type[BaseModel]]:
     return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
@@ -126,6 +142,16 @@ class Parameters(BaseModel):
     def model_post_init(self, context: Any, /) -> None:  # noqa: ARG002 - pydantic's
         """Take what :meth:`fitted` says; it still counts as left out."""
         self.__dict__.update(self.fitted())
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """The JSON schema of the table, its bounds under the names that JSON schemas have for them."""
+        found = handler.resolve_ref_schema(handler(schema))
+        fields = found.get("properties", {})
+        fields.update({name: _bounds_named(field) for name, field in fields.items()})
+        return found
 
     @field_validator("*", mode="before")
     @classmethod

@@ -29,9 +29,6 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 QUANTITY = {"type": "string", "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)"}
 """A number as text, with or without a unit; whether the unit fits, only the program says."""
 
-_BOUNDS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
-"""What pydantic calls the bounds of a field that may be left out."""
-
 _KEYWORD = "#:schema"
 
 
@@ -181,7 +178,7 @@ def _written(node: Any, owner: str) -> Any:
         return [_written(item, owner) for item in node]
     if not isinstance(node, dict):
         return node
-    found = {_BOUNDS.get(key, key): _written(value, owner) for key, value in node.items()}
+    found = {key: _written(value, owner) for key, value in node.items()}
     if isinstance(found.get("$ref"), str):
         found["$ref"] = found["$ref"].replace("#/$defs/", f"#/$defs/{owner}.")
     if "default" in found and found["default"] is None:

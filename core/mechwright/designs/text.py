@@ -174,8 +174,8 @@ def _bounds(facts: Mapping[str, Any]) -> list[str]:
     >>> _bounds({"minimum": 0, "maximum": 5}), _bounds({"exclusiveMinimum": 0, "exclusiveMaximum": 180})
     (['0 to 5'], ['above 0, below 180'])
     """
-    low, over = facts.get("minimum", facts.get("ge")), facts.get("exclusiveMinimum", facts.get("gt"))
-    high, under = facts.get("maximum", facts.get("le")), facts.get("exclusiveMaximum", facts.get("lt"))
+    low, over = facts.get("minimum"), facts.get("exclusiveMinimum")
+    high, under = facts.get("maximum"), facts.get("exclusiveMaximum")
     if low is not None and high is not None:
         return [f"{low:g} to {high:g}"]
     words = (("at least", low), ("above", over), ("at most", high), ("below", under))

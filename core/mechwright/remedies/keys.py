@@ -15,9 +15,6 @@ from mechwright.designs.change import changed, found_at
 from mechwright.designs.design import Design
 from mechwright.units import convert
 
-_LEAST, _GREATEST = ("minimum", "ge"), ("maximum", "le")
-_ABOVE, _BELOW = ("exclusiveMinimum", "gt"), ("exclusiveMaximum", "lt")
-# Where a field may be left out, pydantic puts its bounds into the schema under its own names.
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*")
 
 
@@ -191,19 +188,16 @@ def _plain(path: str, field: Mapping[str, Any]) -> Key:
         return Key(path, "choice", choices=(True, False), default=default)
     if kind not in {"number", "integer"}:
         return Key(path, "other", default=default)
-    low, high = _bound(facts, _LEAST, _ABOVE, -math.inf), _bound(facts, _GREATEST, _BELOW, math.inf)
+    low, high = _bound(facts, "minimum", -math.inf), _bound(facts, "maximum", math.inf)
     return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")))
 
 
-def _bound(
-    facts: Mapping[str, Any], closed: tuple[str, ...], left_out: tuple[str, ...], none: float
-) -> float:
+def _bound(facts: Mapping[str, Any], closed: str, none: float) -> float:
     """The last value that is allowed; where the bound itself is left out, one step inside."""
-    for name in closed:
-        if name in facts:
-            return float(facts[name])
-    for name in left_out:
-        if name in facts:
-            step = 1.0 if facts.get("type") == "integer" else max(abs(facts[name]), 1.0) * 1e-3
-            return float(facts[name]) + math.copysign(step, -none)
-    return none
+    if closed in facts:
+        return float(facts[closed])
+    left_out = facts.get(f"exclusive{closed.capitalize()}")
+    if left_out is None:
+        return none
+    step = 1.0 if facts.get("type") == "integer" else max(abs(left_out), 1.0) * 1e-3
+    return float(left_out) + math.copysign(step, -none)

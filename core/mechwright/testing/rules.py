@@ -17,9 +17,8 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.units import kind
 
 _CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(\.[a-z0-9]+(-[a-z0-9]+)*)+")
-# Where a field may be left out, pydantic puts its bounds into the schema under its own names.
-_LEAST = {"minimum", "exclusiveMinimum", "ge", "gt"}
-_GREATEST = {"maximum", "exclusiveMaximum", "le", "lt"}
+_LEAST = {"minimum", "exclusiveMinimum"}
+_GREATEST = {"maximum", "exclusiveMaximum"}
 _CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'.-]*")
 
 

@@ -12,12 +12,7 @@ from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedur
 from mechwright.contracts.design_table import items
 from mechwright.contracts.finding import Change
 from mechwright.contracts.rule_list import all_of
-from mechwright.mechanics.gearing.checks import (
-    FULL_RIM,
-    LEAST_RIM,
-    LEAST_TIP,
-    mesh_findings,
-)
+from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM, LEAST_TIP, mesh_findings
 from mechwright.mechanics.gearing.involute import (
     MOST_SHIFT,
     InvolutePair,

@@ -1,4 +1,4 @@
-"""Fields of design tables that families of gears share."""
+"""Fields of design tables that all families of gears have."""
 
 from typing import Annotated
 
