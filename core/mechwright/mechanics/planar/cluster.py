@@ -39,22 +39,23 @@ class ClusterEquations:
         return cls(machine, replace(cluster, joints=tuple(one for one in machine.joints if one.name in own)))
 
     def bodies(self, orders: Sequence[Array], standing: Mapping[str, BodyMotion]) -> dict[str, BodyMotion]:
-        """All bodies with coordinates and their three rates, each (..., d, 3 k)."""
+        """All bodies with coordinates and their rates, each (..., d, 3 k); rates that are not given are 0."""
         found = dict(standing)
+        still = [np.zeros(())] * (4 - len(orders))
         for number, link in enumerate(self.cluster.links):
-            x, y, angle = ([one[..., 3 * number + part] for one in orders] for part in range(3))
+            x, y, angle = ([*(one[..., 3 * number + part] for one in orders), *still] for part in range(3))
             origin = PointMotion(*(a + 1j * b for a, b in zip(x, y, strict=True)))
             found[link] = BodyMotion(origin, Turning(*angle))
         return found
 
     def equations(
-        self, bodies: Mapping[str, BodyMotion], inputs: Sequence[Turning]
+        self, bodies: Mapping[str, BodyMotion], inputs: Sequence[Turning], rates: int = 3
     ) -> list[tuple[Array, Array, Array, Array]]:
-        """Every joint equation and its three rates, each (d,)."""
+        """Every joint equation and its three rates, each (d,); those above ``rates`` are not to be used."""
         rows: list[tuple[Array, Array, Array, Array]] = []
         for joint in self.cluster.joints:
             if isinstance(joint, Revolute):
-                ends = [bodies[link].point(joint.place(link)) for link in joint.links]
+                ends = [bodies[link].point(joint.place(link), rates) for link in joint.links]
                 gaps = _orders(ends[0], ends[1])
                 rows += [tuple(one.real for one in gaps), tuple(one.imag for one in gaps)]  # type: ignore[list-item]
             elif isinstance(joint, GearPair):
@@ -71,8 +72,8 @@ class ClusterEquations:
                 turn = np.exp(-1j * np.asarray(joint.line_angle))
                 point = seen.point(joint.point)
                 lever = (point.position - joint.line) * turn
-                rates = [one * turn for one in (point.velocity, point.acceleration, point.jerk)]
-                rows.append((lever.imag, *(one.imag for one in rates)))
+                higher = [one * turn for one in (point.velocity, point.acceleration, point.jerk)]
+                rows.append((lever.imag, *(one.imag for one in higher)))
                 angle = angles_of(seen.turning)
                 straight = angle[0] + joint.block_angle - joint.line_angle
                 rows.append((np.sin(straight), *angle[1:]))
@@ -111,8 +112,7 @@ class ClusterEquations:
 
     def residual(self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
         """Joint equations (d, m)."""
-        zero = np.zeros_like(x)
-        rows = self.equations(self.bodies((x, zero, zero, zero), standing), inputs)
+        rows = self.equations(self.bodies((x,), standing), inputs, 0)
         return np.stack([np.broadcast_to(one[0], x.shape[:1]) for one in rows], axis=-1)
 
     def jacobian(self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
@@ -120,28 +120,26 @@ class ClusterEquations:
         still = _rest(standing)
         rest = [Turning.of(one.theta) for one in inputs]
         unit = np.broadcast_to(np.eye(x.shape[1])[:, None, :], (x.shape[1], *x.shape))
-        zero = np.zeros_like(unit)
-        rows = self.equations(self.bodies((np.broadcast_to(x, unit.shape), unit, zero, zero), still), rest)
+        rows = self.equations(self.bodies((np.broadcast_to(x, unit.shape), unit), still), rest, 1)
         found = np.stack([np.broadcast_to(one[1], unit.shape[:2]) for one in rows], axis=-1)
         return np.asarray(np.moveaxis(found, 0, -1))
 
     def speeds(self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]) -> Array:
         """The first rates (d, 3 k) of the coordinates."""
-        zero = np.zeros_like(x)
-        rows = self.equations(self.bodies((x, zero, zero, zero), standing), inputs)
+        rows = self.equations(self.bodies((x,), standing), inputs, 1)
         right = np.stack([np.broadcast_to(one[1], x.shape[:1]) for one in rows], axis=-1)
         return solved(self.jacobian(x, standing, inputs), -right)
 
     def rates(
-        self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
+        self, x: Array, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning], rates: int = 3
     ) -> tuple[list[Array], Array]:
-        """Three rates (d, 3 k) of the coordinates, and the smallest singular value over the largest (d,)."""
+        """Rates (d, 3 k) of the coordinates, and the smallest singular value over the largest (d,)."""
         jacobian = self.jacobian(x, standing, inputs)
-        orders = [x, *(np.zeros_like(x) for _ in range(3))]
-        for order in (1, 2, 3):
-            rows = self.equations(self.bodies(orders, standing), inputs)
+        orders = [x]
+        for order in range(1, rates + 1):
+            rows = self.equations(self.bodies(orders, standing), inputs, order)
             right = np.stack([np.broadcast_to(one[order], x.shape[:1]) for one in rows], axis=-1)
-            orders[order] = solved(jacobian, -right)
+            orders.append(solved(jacobian, -right))
         weighted = jacobian / self.column_weights(len(x))
         values = np.linalg.svd(np.nan_to_num(weighted, posinf=0.0, neginf=0.0), compute_uv=False)
         with np.errstate(invalid="ignore", divide="ignore"):

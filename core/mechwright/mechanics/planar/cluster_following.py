@@ -1,17 +1,20 @@
-"""The way of a cluster along the input: from sample to sample, and between them all at once.
+"""The way of a cluster along the input: by steps from the drawn pose, and between them all at once.
 
-From one sample to the next the pose is predicted by its rates and corrected by Newton's method. A correction
+From one step to the next the pose is predicted by its rates and corrected by Newton's method. A correction
 of more than a quarter of the predicted move would jump to another way to put the links together: the step is
-halved then. Only some samples are followed so. Those between two of them start on the line between both, and
-are corrected together; an interval in which that is not sure is followed sample by sample.
+halved then. Samples between two steps begin on the line between both, and are corrected together; those of
+which that is not sure are followed one after the other. Steps are counted from the drawn pose, so that a
+machine keeps those that were followed before.
 """
 
-from collections.abc import Mapping, Sequence
+import functools
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar.assembly_order import Cluster
@@ -23,7 +26,7 @@ from mechwright.mechanics.planar.cluster import (
     weights,
     with_numbers,
 )
-from mechwright.mechanics.planar.machine import Machine, Prismatic
+from mechwright.mechanics.planar.machine import GearPair, Machine, Prismatic
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
 CLOSED = 1e-12
@@ -34,20 +37,23 @@ QUARTER = 0.25
 SHORTEST = 2.0**-20
 """Share of a step below which a machine is at a dead point: it does not close beyond."""
 
-LEAD = 60
-"""Steps of a slide from the drawn pose to the first sample."""
-
 STRIDE = 0.06
-"""Steps of the input that are followed, rad; of a slide the same share of its whole way."""
+"""A step of the input, rad; of a slide the same share of the machine's size."""
 
 
 def followed(
-    machine: Machine, cluster: Cluster, standing: Mapping[str, BodyMotion], inputs: Sequence[Turning]
+    machine: Machine,
+    cluster: Cluster,
+    standing: Mapping[str, BodyMotion],
+    inputs: Sequence[Turning],
+    steps: range,
+    rates: int,
 ) -> tuple[dict[str, BodyMotion], Array]:
     """The motion of the links of a cluster from the drawn pose on, and how far they are from a dead point.
 
-    Samples are followed from the one that is nearest to the drawn input, to both ends; NaN beyond a dead
-    point.
+    The first samples are ``steps`` of the input from the drawn pose, see :func:`with_steps`. Without them
+    every sample is followed from its neighbour, from the one that is nearest to the drawn input to both ends.
+    NaN beyond a dead point.
     """
     numbers = [np.shape(one) for joint in cluster.joints for one in joint_numbers(joint).values()]
     shape = np.broadcast_shapes(
@@ -60,57 +66,66 @@ def followed(
     flat = {name: _flat(body, shape, designs) for name, body in standing.items()}
     drives = [_flat_turning(one, shape, designs) for one in inputs]
     way = _Way(_of_rows(machine, cluster, designs, 1), flat, drives)
-    slides = isinstance(machine.driven_joint(machine.drives[0]), Prismatic)
-    begin = int(np.argmin(np.abs(drives[0].theta[0] - np.ravel(machine.drawn_at[0])[0])))
-    stops = _stops(drives[0].theta, begin, slides)
     x = np.full((samples, designs, 3 * len(cluster.links)), np.nan)
-    x[begin] = _newton(way.sought, _drawn(machine, cluster, designs), *way.at(begin))
-    way.follow(x, stops[stops >= begin])
-    way.follow(x, stops[stops <= begin][::-1])
-    wide = _of_rows(machine, cluster, designs, samples)
-    everywhere = _everywhere(flat, drives)
-    for low, high in way.between(x, stops, wide, everywhere):
-        first, last = (low, high) if np.isfinite(x[low]).all() else (high, low)
-        way.follow(x, np.arange(first, last, 1 if last > first else -1))
-    rates, sines = wide.rates(x.reshape(samples * designs, -1), *everywhere)
-    found = np.stack([x, *(one.reshape(x.shape) for one in rates)])
+    begin = -steps.start if steps else _nearest(machine, drives[0])
+    known: dict[int, Array] = {}
+    if steps:
+        known = machine.followed.setdefault(("poses", cluster.links, designs), known)
+    for step in known.keys() & set(steps):
+        x[begin + step] = known[step]
+    if 0 not in known:
+        x[begin] = _newton(way.sought, _drawn(machine, cluster, designs), *way.at(begin))
+    last = len(steps) or samples
+    way.follow(x, range(begin, last), known.keys())
+    way.follow(x, range(begin, -1, -1), known.keys())
+    known.update((step, x[begin + step].copy()) for step in steps if step not in known)
+    wide, everywhere = _of_rows(machine, cluster, designs, samples), _everywhere(flat, drives)
+    if steps:
+        way.between(x, len(steps), wide, everywhere)
+    higher, sines = wide.rates(x.reshape(samples * designs, -1), *everywhere, rates)
+    higher += [np.full_like(higher[0], np.nan)] * (3 - rates)
+    found = np.stack([x, *(one.reshape(x.shape) for one in higher)])
     return _bodies(cluster, found, shape), np.moveaxis(sines.reshape(samples, designs), 0, -1).reshape(shape)
 
 
-def with_lead(machine: Machine, inputs: Sequence[Turning]) -> tuple[list[Turning], int]:
-    """The inputs with steps before them that lead from the drawn pose to the first sample, and their number.
+def with_steps(machine: Machine, inputs: Sequence[Turning]) -> tuple[list[Turning], range]:
+    """The inputs with steps from the drawn pose before them, as far as the samples reach, and those steps.
 
-    An input that starts within a step of the drawn pose needs none; one that is not an array (..., n), or is
-    one of several drives, gets none.
+    Several drives get none.
     """
+    if len(inputs) > 1:
+        return list(inputs), range(0)
     drive = inputs[0]
-    if len(inputs) > 1 or drive.theta.ndim == 0:
-        return list(inputs), 0
     drawn = np.asarray(machine.drawn_at[0], float)
     drawn = drawn.reshape(-1)[0] if drawn.size == 1 else drawn.reshape(-1, 1)
-    near = np.abs(drive.theta - drawn).min(axis=-1).max()
     slides = isinstance(machine.driven_joint(machine.drives[0]), Prismatic)
-    stride = max(near / LEAD, 1e-300) if slides else STRIDE
-    count = int(np.ceil(near / stride)) if near > stride else 0
-    if not count:
-        return list(inputs), 0
-    first = drive.theta[..., :1]
-    lead = drawn + (first - drawn) * np.arange(count) / count
-    theta = np.concatenate([lead, drive.theta], axis=-1)
+    stride = STRIDE * (_size(machine) if slides else 1.0)
+    share = (drive.theta - drawn) / stride
+    share = share[np.isfinite(share)]
+    low, high = math.floor(share.min(initial=0.0)), math.ceil(share.max(initial=0.0))
+    steps = range(low, high + 1)
+    ahead = np.broadcast_to(drawn + stride * np.array(steps), (*drive.theta.shape[:-1], len(steps)))
     rates = [
-        np.concatenate([np.full(lead.shape, value), one], axis=-1)
+        np.concatenate([np.full(ahead.shape, value), one], axis=-1)
         for value, one in ((1.0, drive.omega), (0.0, drive.alpha), (0.0, drive.jerk))
     ]
-    return [Turning(theta, *rates)], count
+    return [Turning(np.concatenate([ahead, drive.theta], axis=-1), *rates)], steps
 
 
-def _stops(theta: Array, begin: int, slides: bool) -> NDArray[np.intp]:
-    """The samples that are followed one after the other: both ends, the first, and some between."""
-    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(theta, axis=-1)).max(axis=0))])
-    stride = STRIDE * max(float(np.ptp(theta)), 1e-300) if slides else STRIDE
-    marks = np.floor(way / stride)
-    stops = np.flatnonzero(np.diff(marks, prepend=-1.0) > 0)
-    return np.unique(np.concatenate([stops, [0, begin, len(way) - 1]]))
+def _size(machine: Machine) -> Array:
+    """The longest way of a joint from the origin of its link, mm; a column where numbers are columns."""
+    places = [
+        np.abs(joint.place(link))
+        for joint in machine.joints
+        if not isinstance(joint, GearPair)
+        for link in joint.links
+    ]
+    return np.asarray(functools.reduce(np.maximum, places))
+
+
+def _nearest(machine: Machine, drive: Turning) -> int:
+    """The sample that is nearest to the drawn input."""
+    return int(np.argmin(np.abs(drive.theta[0] - np.ravel(machine.drawn_at[0])[0])))
 
 
 class _Way:
@@ -125,34 +140,47 @@ class _Way:
         """What stands, and the inputs, at a sample."""
         return _at(self.standing, self.drives, sample)
 
-    def follow(self, x: Array, places: NDArray[np.intp]) -> None:
-        """Fill in the poses at these samples, one after the other, from the first on, which is known."""
-        for last, sample in zip(places[:-1].tolist(), places[1:].tolist(), strict=True):
-            here, there = self.at(last), self.at(sample)
-            x[sample] = _step(self.sought, x[last], self.sought.speeds(x[last], *here), here, there)
+    def follow(self, x: Array, places: range, known: Collection[int]) -> None:
+        """Fill in the poses at these samples, one after the other, from the first on, which is known.
 
-    def between(
-        self, x: Array, stops: NDArray[np.intp], wide: ClusterEquations, everywhere: "_Here"
-    ) -> list[tuple[int, int]]:
-        """Fill in the poses between stops all at once; give the intervals that have to be followed."""
-        samples, designs, count = x.shape
+        Known are those, too, that are so many samples from the first one in the order of all.
+        """
+        for last, sample in pairwise(places):
+            if sample - places[0] not in known:
+                here, there = self.at(last), self.at(sample)
+                x[sample] = _step(self.sought, x[last], self.sought.speeds(x[last], *here), here, there)
+
+    def between(self, x: Array, count: int, wide: ClusterEquations, everywhere: "_Here") -> None:
+        """Fill in the poses after the first so many samples, which are the steps, all at once."""
         theta = self.drives[0].theta.T
-        low = stops[np.clip(np.searchsorted(stops, np.arange(samples), side="right") - 1, 0, stops.size - 2)]
-        high = stops[np.clip(np.searchsorted(stops, low, side="right"), 0, stops.size - 1)]
-        span = theta[high] - theta[low]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(span != 0, (theta - theta[low]) / span, 0.0)[..., None]
-        ahead = x[low] + share * (x[high] - x[low])
-        found = _newton(wide, ahead.reshape(-1, count), *everywhere).reshape(samples, designs, count)
-        scale = weights(found.reshape(-1, count))
-        off, way = (np.abs(one * scale).max(axis=-1) for one in (found - ahead, x[high] - x[low]))
+        stride = theta[1] - theta[0] if count > 1 else 1.0
+        place = np.nan_to_num((theta[count:] - theta[0]) / stride)
+        low = np.clip(np.floor(place).astype(int), 0, max(count - 2, 0))
+        high, rows = np.minimum(low + 1, count - 1), np.arange(theta.shape[1])
+        one, two = x[low, rows], x[high, rows]
+        ahead = np.concatenate([x[:count], one + (place - low)[..., None] * (two - one)])
+        found = _newton(wide, ahead.reshape(-1, x.shape[-1]), *everywhere).reshape(x.shape)[count:]
+        scale = weights(found.reshape(-1, x.shape[-1]))
+        off, way = (np.abs(each * scale).max(axis=-1) for each in (found - ahead[count:], two - one))
         sure = off <= QUARTER * way + 1e-6
-        lost = ~np.isfinite(x[low]).all(axis=-1) & ~np.isfinite(x[high]).all(axis=-1)
-        inner = np.ones(samples, bool)
-        inner[stops] = False
-        x[inner] = found[inner]
-        unsure = np.unique(low[inner & ~(sure | lost).all(axis=-1)])
-        return [(int(one), int(stops[np.searchsorted(stops, one) + 1])) for one in unsure]
+        x[count:][sure] = found[sure]
+        closes = np.isfinite(x[:count]).all(axis=-1)
+        unsure = np.logical_not(sure | ~(closes[low, rows] | closes[high, rows]))
+        for row in np.flatnonzero(unsure.any(axis=0)).tolist():
+            doubtful = unsure.T[row]
+            for step in np.unique(low[doubtful, row]).tolist():
+                begin = step if closes[step, row] else step + 1
+                some = count + np.flatnonzero((low[:, row] == step) & doubtful)
+                way_to = np.abs(theta[some, row] - theta[begin, row])
+                self._follow_one(x, row, [begin, *some[np.argsort(way_to)].tolist()])
+
+    def _follow_one(self, x: Array, row: int, places: Sequence[int]) -> None:
+        """Fill in the poses of one design at these samples up to a dead point, from the first on."""
+        sought = self.sought.row(row)
+        for last, sample in pairwise(places):
+            x[sample, row] = _careful(
+                sought, x[last, row][None], _one(self.at(last), row), _one(self.at(sample), row)
+            )
 
 
 _Here = tuple[dict[str, BodyMotion], list[Turning]]
@@ -183,13 +211,14 @@ def _step(sought: ClusterEquations, x: Array, rates: Array, last: _Here, here: _
     off, way = (np.abs(one * scale).max(axis=1) for one in (found - ahead, ahead - x))
     sure = (off <= QUARTER * way + 1e-6) | ~np.isfinite(x).all(axis=1)
     for place in np.flatnonzero(~sure).tolist():
-        found[place] = _careful(sought.row(place), x[place : place + 1], last, here, place)
+        found[place] = _careful(sought.row(place), x[place : place + 1], _one(last, place), _one(here, place))
     return found
 
 
-def _careful(sought: ClusterEquations, x: Array, last: _Here, here: _Here, place: int) -> Array:
+def _careful(sought: ClusterEquations, x: Array, one: _Here, two: _Here) -> Array:
     """The same of one design, with steps that are halved; NaN where it does not get there."""
-    one, two = _one(last, place), _one(here, place)
+    if not np.isfinite(x).all():
+        return np.full(x.shape[1], np.nan)
     done, step, scale = 0.0, 0.5, weights(x)
     while done < 1:
         step = min(step, 1 - done)

@@ -71,9 +71,9 @@ def cluster_limits(
     """
     curve = _Curve.of(machine, order)
     start = curve.drawn()
-    courses = [curve.follow(start, 1.0, bounds[1])]
+    courses = [curve.course(start, 1.0, bounds[1])]
     if share > 0 or not turns or courses[0].end is not None:
-        courses.append(curve.follow(start, -1.0, bounds[0]))
+        courses.append(curve.course(start, -1.0, bounds[0]))
     greatest = max(max(one.sines) for one in courses)
     ends = [curve.cut(one, share * greatest) for one in courses]
     return (ends[1] if len(ends) > 1 else None), ends[0]
@@ -117,6 +117,14 @@ class _Curve:
         found = self._at(start, np.eye(start.size)[-1], 0.0)
         if found is None:
             raise KinematicsError(f"{', '.join(self.cluster.links)} do not close in the drawn pose")
+        return found
+
+    def course(self, start: Array, sense: float, bound: float) -> _Course:
+        """The curve from the drawn pose on, followed once for all limits."""
+        key, known = ("curve", self.cluster.links, sense, bound), self.machine.followed
+        if key not in known:
+            known[key] = self.follow(start, sense, bound)
+        found: _Course = known[key]
         return found
 
     def follow(self, start: Array, sense: float, bound: float) -> _Course:
@@ -221,8 +229,7 @@ class _Curve:
             name: _flat(body) for name, body in solve(self.machine, inputs, self.before, 1).bodies.items()
         }
         x = coordinates[None, :-1]
-        zero = np.zeros_like(x)
-        rows = sought.equations(sought.bodies((x, zero, zero, zero), bodies), inputs)
+        rows = sought.equations(sought.bodies((x,), bodies), inputs, 1)
         value, by_input = (np.array([float(np.ravel(one[order])[0]) for one in rows]) for order in (0, 1))
         slopes = np.concatenate([sought.jacobian(x, bodies, inputs)[0], by_input[:, None]], axis=1)
         return value, slopes / self.scale

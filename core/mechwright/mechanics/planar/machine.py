@@ -20,8 +20,9 @@ Places are complex numbers x + i y in the frame of their link, mm; angles are in
 column (n, 1) over n designs.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from mechwright.errors import KinematicsError
@@ -170,6 +171,11 @@ class Machine:
             raise KinematicsError(f"joint {twice[0]!r} is named twice")
         for drive in self.drives:
             self.driven_joint(drive)
+
+    @cached_property
+    def followed(self) -> dict[Hashable, Any]:
+        """What was found by following a group from the drawn pose, for whoever follows it again."""
+        return {}
 
     @property
     def links(self) -> tuple[str, ...]:

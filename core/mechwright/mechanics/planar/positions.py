@@ -10,7 +10,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.mechanics.planar.assembly_order import Cluster, Driven, Dyad, Geared, Group, assembly_order
-from mechwright.mechanics.planar.cluster_following import followed, with_lead
+from mechwright.mechanics.planar.cluster_following import followed, with_steps
 from mechwright.mechanics.planar.dyads import (
     Slide,
     Solved,
@@ -32,6 +32,8 @@ from mechwright.mechanics.planar.outer_joints import (
     outer_pin,
 )
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
+
+NO_STEPS = range(0)
 
 
 @dataclass(frozen=True)
@@ -60,8 +62,6 @@ class Solution:
 
     def after(self, lead: int) -> "Solution":
         """The motion without its first samples."""
-        if not lead:
-            return self
         bodies = {name: body.samples(slice(lead, None)) for name, body in self.bodies.items()}
         sines = {name: sine[..., lead:] for name, sine in self.sines.items()}
         return Solution(bodies, sines, {name: pivot[..., lead:] for name, pivot in self.pivots.items()})
@@ -112,12 +112,14 @@ def solve(
     """
     groups = assembly_order(machine) if order is None else order
     if any(isinstance(group, Cluster) for group in groups):
-        led, lead = with_lead(machine, inputs)
-        return _solved(machine, led, groups, 3).after(lead)
+        stepped, steps = with_steps(machine, inputs)
+        return _solved(machine, stepped, groups, max(rates, 1), steps).after(len(steps))
     return _solved(machine, inputs, groups, rates)
 
 
-def _solved(machine: Machine, inputs: Sequence[Turning], groups: Sequence[Group], rates: int) -> Solution:
+def _solved(
+    machine: Machine, inputs: Sequence[Turning], groups: Sequence[Group], rates: int, steps: range = NO_STEPS
+) -> Solution:
     still = np.zeros(np.broadcast_shapes(*(one.theta.shape for one in inputs)))
     bodies = {GROUND: BodyMotion.about(0j, Turning.of(still))}
     sines: dict[str, Array] = {}
@@ -133,7 +135,7 @@ def _solved(machine: Machine, inputs: Sequence[Turning], groups: Sequence[Group]
                 bodies |= dict(zip(group.links, (one, two), strict=True))
                 sines[group.inner.name] = sine
             else:
-                found, sine = followed(machine, group, bodies, inputs)
+                found, sine = followed(machine, group, bodies, inputs, steps, rates)
                 bodies |= found
                 pivots[cluster_name(group)] = sine
     return Solution(bodies, sines, pivots)

@@ -108,13 +108,17 @@ def _frame_rates(turning: Plane, moving: Plane) -> Array:
     return found
 
 
+_UNKNOWN = np.complex128(complex(np.nan, np.nan)).tobytes()
+"""The number of all rates that are not needed; arrays of any shape share it, and cannot be written to."""
+
+
 def carried(origin: PointMotion, turning: Turning, lever: Plane, rates: int = 3) -> PointMotion:
     """Motion of the point at a lever (...) from the origin of a body, x + i y on the ground, mm.
 
     ``rates`` is the highest rate that is needed, 0 to 3; those above are NaN.
     """
     position = origin.position + lever
-    none: Plane = np.broadcast_to(np.complex128(complex(np.nan, np.nan)), position.shape)
+    none: Plane = np.ndarray(position.shape, np.complex128, _UNKNOWN, 0, (0,) * position.ndim)
     return PointMotion(
         position,
         origin.velocity + turning.velocity_factor * lever if rates > 0 else none,
