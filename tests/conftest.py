@@ -8,9 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from by_night import examples
+from by_night import NIGHT, examples
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
+from slow_tests import listed
 
 collect_ignore = ["cam/planner_machine"]
 """Files of a machine that LinuxCNC runs."""
@@ -45,6 +46,20 @@ if hasattr(providers, "is_local_module_file"):
 YOUNG = 10_000
 """New objects after which the collector looks for cycles among them, some ten times as many as by default: pydantic
 and hypothesis make them by the thousand."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave slow tests to the night, unless they are asked for by their file."""
+    if NIGHT or [Path(one).name for one in config.args] != config.getini("testpaths"):
+        return
+    slow = {f"tests/{name}" for name in listed()}
+    some = [item for item in items if item.nodeid in slow]
+    if missing := slow - {item.nodeid for item in some}:
+        raise pytest.UsageError(
+            f"tests/slow_tests.txt names {min(missing)}, and there is no such test: take it out"
+        )
+    config.hook.pytest_deselected(items=some)
+    items[:] = [item for item in items if item.nodeid not in slow]
 
 
 def pytest_collection_finish() -> None:
