@@ -27,4 +27,5 @@ def test_every_finding_is_on_the_page_and_no_other() -> None:
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
     said = set(re.findall(r'(?:Finding(?:\.\w+)?\(\s*|(?:[A-Z]+|code: str) = )"(cam\.[a-z-]+)"', code))
     assert said
-    assert set(re.findall(r"^\| `(cam\.[a-z-]+)`", FINDINGS, re.MULTILINE)) == said
+    listed = re.findall(r"^\| (`cam\..*?) \|", FINDINGS, re.MULTILINE)
+    assert set(re.findall(r"`(cam\.[a-z-]+)`", " ".join(listed))) == said
