@@ -225,10 +225,10 @@ def test_there_are_texts_to_look_at():
     )
 
 
-def test_the_tool_library_on_the_page_on_machining_can_be_read(tmp_path):
+def test_the_tool_library_on_the_page_on_cutters_can_be_read(tmp_path):
     from mechwright_cam.shop.library import load_library
 
-    page = (ROOT / "docs" / "machining.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "machining" / "cutters.md").read_text(encoding="utf-8")
     (library,) = re.findall(r"^```toml\n(# my-tools.*?)^```$", page, re.M | re.S)
     (tmp_path / "my-tools.toml").write_text(library, encoding="utf-8")
     assert load_library(tmp_path / "my-tools.toml").get("mill-quarter-inch").diameter == 6.35

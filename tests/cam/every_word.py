@@ -210,7 +210,7 @@ MODAL = re.compile(
 """Words that hold until another of their group: one that is said again before it counts shows nowhere."""
 SAYS_NOTHING = re.compile(
     r"N.*|O\d+|"  # the numbers of lines and programs
-    r"G(9|15|50|69)|M(19|31|33|48|49|88|89)|"  # they change no path (docs/controls.md)
+    r"G(9|15|50|69)|M(19|31|33|48|49|88|89)|"  # they change no path (docs/control-reading.md)
     r"/|;|\* - A|BLK .*|D[LR]0|TOOL DEF 7|R\+?0"  # of Klartext: what is skipped, drawn or said, and what is 0
 )
 """Words that never show."""

@@ -86,8 +86,8 @@ def test_the_example_builds_without_a_warning_and_is_proven(example: Machined) -
     assert proof.rapids_in_stock == 0
 
 
-def test_the_page_on_machining_lists_just_the_checks_that_are_made(example: Machined) -> None:
-    page = (EXAMPLE.parents[1] / "docs" / "machining.md").read_text(encoding="utf-8")
+def test_the_page_of_checks_lists_just_the_checks_that_are_made(example: Machined) -> None:
+    page = (EXAMPLE.parents[1] / "docs" / "machining" / "checks.md").read_text(encoding="utf-8")
     asked = page.split("\n## What the proof asks\n")[1].split("\n## ")[0]
     rows = "".join(re.findall(r"^\| `.*?\|", asked, re.MULTILINE))
     assert set(re.findall(r"`([a-z-]+)`", rows)) == set(example.proof.checks)

@@ -18,7 +18,7 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading import Kind, Run
 
 SAMPLES = Path("/usr/share/linuxcnc/ncfiles")
-PAGE = (Path(__file__).parents[2] / "docs" / "controls.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "control-reading.md").read_text(encoding="utf-8")
 NOT_READ = re.findall(r"^\| [^|]+ \| `([^`|]+)` \|$", PAGE, re.MULTILINE)
 pytestmark = [needs_rs274, pytest.mark.skipif(not SAMPLES.is_dir(), reason=f"there is no {SAMPLES}")]
 
@@ -68,7 +68,7 @@ def test_what_we_read_we_read_as_linuxcnc_does(name: str) -> None:
         assert name not in READ
         reason = str(error).partition(": ")[2]
         known = [row for row in NOT_READ if row in reason]
-        assert known, f"{name} is refused for what docs/controls.md does not list: {reason}"
+        assert known, f"{name} is refused for what docs/control-reading.md does not list: {reason}"
         return
     if run.ended and np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC)).any():
         agree(text, run)

@@ -53,7 +53,7 @@ LACKS = {
         "tool",
     },
 }
-"""What each format has no place for, as docs/machining.md says; ``tool`` is a whole tool."""
+"""What each format has no place for, as docs/machining/cutters.md says; ``tool`` is a whole tool."""
 sizes = st.floats(0.5, 20).map(lambda value: round(value, 4))
 
 

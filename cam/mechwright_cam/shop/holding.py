@@ -45,7 +45,7 @@ class Nesting(Parameters):
         "nest", min_length=1, max_length=40, description="Name of the nest, and stem of its files."
     )
     parts: tuple[str, ...] = Field(
-        (), description="Names of the parts; empty: all that go together, one nest per plate thickness."
+        (), description="Names of the parts; empty: one nest of all parts for each material and thickness."
     )
     gap: Millimetres | None = Field(
         None,
@@ -74,27 +74,27 @@ class Hold(Parameters):
     )
     tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
     tab_width: Millimetres | None = Field(
-        None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
+        None, gt=0, le=50, description="Width of a tab along the contour; by default 2, less on small parts."
     )
     tab_height: Millimetres = Field(
         1.0,
         gt=0,
         le=20,
-        description="Height of a tab above the underside; left out, less in thin plates and beside recesses.",
+        description="Height of a tab above the underside; by default less in thin plates, beside recesses.",
     )
     tab_shape: Literal["rectangular", "ramped"] = Field(
-        "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
+        "rectangular", description="Upright sides, or slopes that the cutter follows without a stop."
     )
     tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
     tab_places: Literal["planned", "found"] = Field(
         "planned",
-        description="Whether the proof asks for the planned tabs, or judges those it finds by their size.",
+        description="Whether the proof requires the planned tabs, or judges the size of those it finds.",
     )
     clamp_diameter: Millimetres = Field(
         20.0,
         gt=0,
         le=300,
-        description="Largest diameter of the bore clamp; left out, less on a part that has no room for it.",
+        description="Largest diameter of the bore clamp; by default less on a part without room for it.",
     )
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."
@@ -127,18 +127,18 @@ class SecondSide(Parameters):
 
     work_offset: WorkOffset = Field("G55", description="Work offset of the second side.")
     more_offsets: tuple[WorkOffset, ...] = Field(
-        (), description="Further work offsets of second sides: the same is milled at each."
+        (), description="Further work offsets of second sides, each with a plate of its own."
     )
     flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
     locate: Literal["bore", "edges", "dowels"] = Field(
-        "bore", description="What X0 Y0 is picked up by: the largest bore, the plate's edges, or two dowels."
+        "bore", description="What X0 Y0 is measured from: the largest bore, the plate's edges, or two dowels."
     )
     dowel_diameter: Millimetres = Field(
         6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
     )
-    x: Place = Field(None, description="Machine X of its work offset, if it is measured.")
-    y: Place = Field(None, description="Machine Y of its work offset, if it is measured.")
-    z: Place = Field(None, description="Machine Z of its work offset, if it is measured.")
+    x: Place = Field(None, description="Machine X of its work offset, if measured.")
+    y: Place = Field(None, description="Machine Y of its work offset, if measured.")
+    z: Place = Field(None, description="Machine Z of its work offset, if measured.")
 
     @model_validator(mode="after")
     def _whole(self) -> Self:

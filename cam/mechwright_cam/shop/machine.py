@@ -49,19 +49,19 @@ class Machine(Parameters):
     travel_z: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Z.")
     rapid: MillimetresPerMin = Field(10000.0, gt=0, le=200000, description="Speed of a rapid move.")
     rapid_z: MillimetresPerMin | None = Field(
-        None, gt=0, le=200000, description="Speed of a rapid move of Z, where it is slower."
+        None, gt=0, le=200000, description="Speed of a rapid move of Z, if it is slower."
     )
     max_feed: MillimetresPerMin = Field(5000.0, gt=0, le=100000, description="Fastest feed.")
     spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
     spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
     spindle_power: Kilowatts = Field(
-        5.5, gt=0, le=200, description="Power of the spindle motor, from the speed on at which it has it."
+        5.5, gt=0, le=200, description="Power of the spindle motor above its base speed."
     )
     spindle_torque: NewtonMetres = Field(
-        30.0, gt=0, le=5000, description="Torque of the spindle at lower speeds."
+        30.0, gt=0, le=5000, description="Torque of the spindle below its base speed."
     )
     spindle_efficiency: Ratio = Field(
-        0.8, gt=0, le=1, description="Share of both that gets into the cut: bearings and belts take the rest."
+        0.8, gt=0, le=1, description="Share of power and torque that reaches the cut."
     )
     acceleration: Ratio = Field(
         1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
@@ -73,14 +73,14 @@ class Machine(Parameters):
         0.0, description="Wait in s for the spindle to come up to speed; 0 if the control waits by itself."
     )
     pockets: int = Field(0, ge=0, le=1000, description="Places of the tool changer; 0: no limit is known.")
-    low_x: Place = Field(None, description="Machine X at the lower end of its travel, if it is known.")
-    low_y: Place = Field(None, description="Machine Y at the lower end of its travel, if it is known.")
-    low_z: Place = Field(None, description="Machine Z at the lower end of its travel, if it is known.")
+    low_x: Place = Field(None, description="Machine X at the lower end of its travel, if known.")
+    low_y: Place = Field(None, description="Machine Y at the lower end of its travel, if known.")
+    low_z: Place = Field(None, description="Machine Z at the lower end of its travel, if known.")
     retract_z: Millimetres = Field(
         0.0,
         ge=-10000,
         le=10000,
-        description="Machine Z of a full retract, the upper end of travel; on Grbl -2 unless it is said.",
+        description="Machine Z of a full retract, the upper end of travel; on Grbl -2 by default.",
     )
     change_x: Place = Field(None, description="Machine X where tools are changed; by default it stays.")
     change_y: Place = Field(None, description="Machine Y where tools are changed; by default it stays.")

@@ -36,14 +36,14 @@ class Posting(Parameters):
 
     program_number: int = Field(1, ge=1, le=9999, description="O number of the first program, if it has one.")
     units: Units | None = Field(
-        None, description="Of programs, tables and sheets; by default those of the shop, or mm."
+        None, description="Unit of programs, tables and sheets; by default that of the shop, or mm."
     )
     line_numbers: int = Field(0, ge=0, le=100, description="Step of the N numbers; 0 writes none.")
-    restart: bool = Field(False, description="Every operation can be started from: it states all modes.")
+    restart: bool = Field(False, description="Every operation states all modes: a restart point.")
     optional_stops: bool = Field(False, description="An M1 before every tool change.")
     stage_tools: bool = Field(
         False,
-        description="The next tool is made ready (T alone) behind each tool change, as arm changers want.",
+        description="Call the next tool (T alone) after each tool change, for changers with an arm.",
     )
     cycles: bool = Field(True, description="Drilling cycles; false writes out their moves.")
     exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
@@ -53,8 +53,8 @@ class Posting(Parameters):
     )
     tool_change: ToolChange | None = Field(
         None,
-        description="Where the control has no tool change: stop for it, or one file per tool; by default as "
-        "the control wants it.",
+        description="On a control without a tool change: stop for it, or write one file per tool; by default "
+        "as the control prefers.",
     )
 
 
@@ -69,7 +69,7 @@ class Probe(Parameters):
     )
     diameter: Millimetres = Field(4.0, ge=0.5, le=20, description="Diameter of the probe's ball.")
     doubt: Millimetres = Field(
-        3.0, ge=0.5, le=10, description="By so much the zero set by eye beforehand may be off."
+        3.0, ge=0.5, le=10, description="Largest error of the zero that is set by eye beforehand."
     )
 
 
@@ -77,7 +77,7 @@ class Setter(Parameters):
     """A tool setter that stands on the table, and measures the tools of a job."""
 
     x: Place = Field(
-        None, description="Machine X of its middle; with x, y and over a program measures tools."
+        None, description="Machine X of its middle; x, y and over ask for a program that measures tools."
     )
     y: Place = Field(None, description="Machine Y of its middle.")
     over: Millimetres | None = Field(
@@ -85,10 +85,10 @@ class Setter(Parameters):
     )
     diameter: Millimetres = Field(20.0, ge=2, le=100, description="Diameter of its top.")
     start: Place = Field(
-        None, description="Machine Z that tools go to at a rapid before the touch; by default the retract."
+        None, description="Machine Z where the rapid ends and the touch begins; by default the retract."
     )
     travel: Millimetres = Field(
-        100.0, ge=1, le=1000, description="A touch that meets nothing so far below it ends the program."
+        100.0, ge=1, le=1000, description="Longest touch; one that meets nothing ends the program."
     )
     fast: MillimetresPerMin = Field(150.0, ge=10, le=1000, description="Feed of the first touch.")
     slow: MillimetresPerMin = Field(25.0, ge=1, le=100, description="Feed of the second touch.")

@@ -39,17 +39,15 @@ class PathSettings(Parameters):
     """How exact the finished walls are, and what their paths are made of."""
 
     inner_tolerance: Millimetres = Field(
-        TOLERANCES.outline, ge=0, le=DEEPEST_INTO, description="Deepest that finishing may cut into a wall."
+        TOLERANCES.outline, ge=0, le=DEEPEST_INTO, description="Deepest cut of finishing into a wall."
     )
     outer_tolerance: Millimetres = Field(
         2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
         ge=LEAST_ZONE / 2,
         le=MOST_OFF,
-        description="Most that finishing may leave on a wall; at least inner_tolerance.",
+        description="Thickest stock that finishing may leave on a wall; at least inner_tolerance.",
     )
-    lines_per_arc: int = Field(
-        1, ge=1, le=100, description="An arc is written where it stands for at least so many lines."
-    )
+    lines_per_arc: int = Field(1, ge=1, le=100, description="Least number of lines that one arc replaces.")
 
     @model_validator(mode="after")
     def _outwards(self) -> Self:
@@ -101,7 +99,7 @@ class CamSettings(Parameters):
     )
     more_offsets: tuple[WorkOffset, ...] = Field(
         (),
-        description="Further work offsets: the same is milled at each, every tool being changed to once.",
+        description="Further work offsets, each with a plate of its own; one tool change serves all.",
         json_schema_extra=FIRST,
     )
     origin: Literal["axis", "corner", "centre"] = Field(
@@ -115,7 +113,7 @@ class CamSettings(Parameters):
         json_schema_extra=FIRST,
     )
     operations: tuple[str, ...] = Field(
-        (), description="Names of operations that are asked before the built-in ones."
+        (), description="Names of operations that are tried before the built-in ones."
     )
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
     cutting: dict[str, CuttingChange] = Field(
@@ -137,9 +135,9 @@ class CamSettings(Parameters):
         5.0, ge=LEAST_CLEARANCE, le=200, description="Height of rapids over stock and clamp."
     )
     breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
-    stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
+    stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Stock that roughing leaves on walls.")
     floor_to_leave: Millimetres = Field(
-        0.2, ge=0, le=5, description="Left on floors of recesses by roughing; at most half of the depth."
+        0.2, ge=0, le=5, description="Stock that roughing leaves on floors; at most half of the depth."
     )
     path: PathSettings = Field(PathSettings(), description="Accuracy of walls, and lines and arcs.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
@@ -147,8 +145,8 @@ class CamSettings(Parameters):
         None,
         gt=0,
         le=10,
-        description="Deepest finishing pass in cutter diameters; by default a wall is finished in one depth "
-        "where the cutter bears that, else in passes of 2.",
+        description="Deepest finishing pass in cutter diameters; by default one pass for the whole wall "
+        "where the cutter bears it, else passes of 2.",
     )
     compensation: Compensation = Field(
         "computer",
@@ -159,14 +157,14 @@ class CamSettings(Parameters):
         0.1,
         ge=0.01,
         le=1,
-        description="By so much D may differ from the planned one, up or down, as a radius.",
+        description="Largest difference, in mm of radius, between D in the control and the planned D.",
     )
     corner_mill: Millimetres = Field(
         2.0,
         ge=0.1,
         le=20,
-        description="No smaller end mill is chosen for the sake of sharp inside corners; left out, one of 1 "
-        "or 0.5 is where the parts as cut would not go together.",
+        description="Smallest end mill that is chosen for sharp inside corners; by default 1 or 0.5 where "
+        "parts that are cut with larger ones would not fit together.",
     )
     chip_thinning: bool = Field(
         True, description="Raise the feed where a small engagement makes chips thinner than planned."
@@ -177,8 +175,8 @@ class CamSettings(Parameters):
     )
     outsides: Literal["contour", "adaptive", "faster"] = Field(
         "contour",
-        description="How the channel around an outside is roughed: with the mill's full width, wider and "
-        "with bounded engagement, or as is faster.",
+        description="How the channel around an outside is roughed: with the mill's full width, in a wider "
+        "channel with bounded engagement, or the faster of both.",
     )
     engagement: Degrees = Field(
         60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
@@ -199,9 +197,7 @@ class CamSettings(Parameters):
     mark_line: Millimetres = Field(
         0.6, ge=0.1, le=5, description="Greatest width of its lines; at least half of it is cut."
     )
-    fitting_marks: bool = Field(
-        False, description="Whether dots that show how parts stand to each other are engraved."
-    )
+    fitting_marks: bool = Field(False, description="Engrave dots that show how parts stand to each other.")
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
 
     @model_validator(mode="after")
