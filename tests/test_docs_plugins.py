@@ -183,8 +183,10 @@ def test_the_exporter_writes_the_contour(flywheel):
     assert radii == pytest.approx([40] * len(lines), abs=1e-3)
 
 
-def test_the_smallest_plugin_works(flywheel):
-    module, host = loaded(PAGES[FRONT.name], f"docs/{FRONT.name}"), Host()
+@pytest.mark.parametrize("name", [FRONT.name, "for/plugin-author.md"])
+def test_the_smallest_plugin_works(name, flywheel):
+    text = (FRONT.parent / name).read_text(encoding="utf-8")
+    module, host = loaded(text, f"docs/{name}"), Host()
     host.add(module, "the first page on plugins", "smallest")
     assert [str(broken) for broken in host.broken] == []
     (page,) = (page for page in host.all(mechwright.Page) if page.name == "part-names")
