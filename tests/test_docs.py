@@ -109,9 +109,7 @@ def public_classes():
 def test_every_public_class_of_the_contracts_is_documented():
     names = sorted(set(public_classes()))
     assert {"Family", "Control", "Exporter", "Page", "FamilyContract", "Outline", "Finding"} <= set(names)
-    assert [
-        name for name in names if name not in REFERENCE and not re.search(rf"`{name}\b", PLUGINS)
-    ] == []
+    assert [name for name in names if name not in REFERENCE and not re.search(rf"`{name}\b", PLUGINS)] == []
 
 
 def test_the_page_of_rules_is_what_families_declare():
