@@ -1,4 +1,4 @@
-"""Every contract has its section in the page on plugins, which begins with a whole plugin that works."""
+"""Every contract has its section in the pages on plugins, which begins with a whole plugin that works."""
 
 import importlib
 import math
@@ -21,9 +21,23 @@ from mechwright.designs.design import load
 from mechwright.plugins.host import HOOK
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
-SECTIONS = dict(re.findall(r"^## `(\w+)`: [^\n]+\n(.*?)(?=^## |\Z)", PAGE, re.M | re.S))
+FRONT = ROOT / "docs" / "plugins.md"
+PAGES = {
+    page.relative_to(FRONT.parent).as_posix(): page.read_text(encoding="utf-8")
+    for page in (FRONT, *sorted((FRONT.parent / "plugins").glob("*.md")))
+}
+"""The pages on plugins, from the folder of the first one."""
+FOUND = [
+    (name, page, text)
+    for page, whole in PAGES.items()
+    for name, text in re.findall(r"^## `(\w+)`: [^\n]+\n(.*?)(?=^## |\Z)", whole, re.M | re.S)
+]
+SECTIONS = {name: text for name, _, text in FOUND}
 """Contract to the text of its section."""
+WHERE = {name: page for name, page, _ in FOUND}
+"""Contract to the page that has its section."""
+MOST = 2500
+"""Words of a page on plugins."""
 COMMON = {name for name in {**vars(Plugin), **Plugin.__annotations__} if not name.startswith("_")}
 """What every contract has, which the page says once."""
 
@@ -40,13 +54,14 @@ def contracts():
 @cache
 def example(contract):
     """The whole plugin at the head of a section, as a module."""
-    (code,) = (
-        block
-        for block in re.findall(r"^```python\n(.*?)^```$", SECTIONS[contract], re.M | re.S)
-        if HOOK in block
-    )
-    module = ModuleType(f"example_of_{contract.lower()}")
-    exec(compile(code, f"docs/plugins.md, {contract}", "exec"), module.__dict__)  # noqa: S102 - our own page
+    return loaded(SECTIONS[contract], f"docs/{WHERE[contract]}, {contract}")
+
+
+def loaded(text, where):
+    """The whole plugin that a text has, as a module."""
+    (code,) = (block for block in re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S) if HOOK in block)
+    module = ModuleType("example_of_" + re.sub(r"\W", "_", where).lower())
+    exec(compile(code, where, "exec"), module.__dict__)  # noqa: S102 - our own pages
     return module
 
 
@@ -84,8 +99,15 @@ def test_every_contract_has_its_section_with_an_example_that_the_host_takes():
 
 
 def test_every_section_stands_in_the_table_of_contracts():
-    table = re.findall(r"^\| \[`(\w+)`\]\(#", PAGE, re.M)
-    assert sorted(table) == sorted(SECTIONS)
+    assert len(FOUND) == len(SECTIONS), "a contract has two sections"
+    table = re.findall(r"^\| \[`(\w+)`\]\(([\w/.-]+)#", PAGES[FRONT.name], re.M)
+    assert sorted(table) == sorted(WHERE.items())
+
+
+def test_every_page_is_named_by_the_first_one_and_short():
+    linked = set(re.findall(r"\((plugins/[\w-]+\.md)", PAGES[FRONT.name]))
+    assert {FRONT.name, *linked} == PAGES.keys()
+    assert [page for page, text in PAGES.items() if len(text.split()) > MOST] == []
 
 
 def test_every_member_of_a_contract_is_in_its_section():
@@ -96,7 +118,8 @@ def test_every_member_of_a_contract_is_in_its_section():
         if not (name.startswith("_") or re.search(rf"`{name}[`(]", SECTIONS[cls.__name__]) or name in COMMON)
     }
     assert missing == set()
-    assert sorted(name for name in COMMON if f"`{name}`" not in PAGE and f"`{name}()`" not in PAGE) == []
+    page = "\n".join(PAGES.values())
+    assert sorted(name for name in COMMON if f"`{name}`" not in page and f"`{name}()`" not in page) == []
 
 
 def test_the_family_moves_is_made_and_is_refused_where_it_has_to_be(flywheel):
@@ -158,6 +181,16 @@ def test_the_exporter_writes_the_contour(flywheel):
     lines = contour.part(flywheel.parts[0]).decode().splitlines()
     radii = [math.hypot(*map(float, line.split(","))) for line in lines]
     assert radii == pytest.approx([40] * len(lines), abs=1e-3)
+
+
+@pytest.mark.parametrize("name", [FRONT.name, "for/plugin-author.md"])
+def test_the_smallest_plugin_works(name, flywheel):
+    text = (FRONT.parent / name).read_text(encoding="utf-8")
+    module, host = loaded(text, f"docs/{name}"), Host()
+    host.add(module, "the first page on plugins", "smallest")
+    assert [str(broken) for broken in host.broken] == []
+    (page,) = (page for page in host.all(mechwright.Page) if page.name == "part-names")
+    assert page.files(flywheel) == {"parts.txt": "wheel\n"}
 
 
 def test_the_page_tells_the_travels(flywheel):

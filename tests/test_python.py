@@ -50,7 +50,7 @@ def test_the_lines_of_the_readme_run(capsys, monkeypatch):
 
 def test_every_name_of_a_mechanism_in_the_page_is_there(pair):
     page = (ROOT / "docs" / "python.md").read_text()
-    table = page[page.index("## What a mechanism has") : page.index("What is wrong is one line")]
+    table = page[page.index("## Members of a mechanism") : page.index("An error is one line")]
     names = set(re.findall(r"`\.(\w+)", table)) - {"text", "files", "proof"}
     assert {"findings", "motion", "parts", "with_", "write", "page"} <= names
     owners = (type(pair), mw.Part, mw.Named, mw.Findings)

@@ -138,11 +138,11 @@ def test_a_name_that_is_built_in_is_not_given_away() -> None:
 
 
 def test_the_example_of_the_page_on_plugins_runs() -> None:
-    page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "plugins" / "operation.md").read_text(encoding="utf-8")
     _, _, section = page.partition("## `Rule`: a judgement of the proof")
     (example,) = re.findall(r"^```python\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)[:1]
     module = ModuleType("shop_feed")
-    exec(compile(example, "plugins.md", "exec"), module.__dict__)  # noqa: S102 - the page is ours
+    exec(compile(example, "operation.md", "exec"), module.__dict__)  # noqa: S102 - the page is ours
     found = Host()
     found.add(module, "shop", "feed")
     assert not found.broken

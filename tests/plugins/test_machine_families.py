@@ -125,7 +125,7 @@ def test_exact_rates_are_those_of_the_poses():
 
 def test_the_script_of_the_manual_prints_what_it_says(monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
-    text = (ROOT / "docs" / "machine.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "drive-and-frame.md").read_text(encoding="utf-8")
     (code,) = (block for block in re.findall(r"```python\n(.*?)```", text, re.S) if "drive_of" in block)
     exec(code, {})  # noqa: S102 - our own
     assert capsys.readouterr().out.strip() == code.rpartition("# ")[2].strip()
