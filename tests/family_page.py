@@ -1,9 +1,11 @@
-"""What a family's page in docs has to say of its code: findings, parameters, requirements."""
+"""What the pages of a family in docs have to say of its code: findings, parameters, requirements."""
 
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
+
+from pydantic import BaseModel
 
 from mechwright import Family, Rules
 
@@ -12,10 +14,36 @@ SHARED = ("adjustable/machine.py", "adjustable/designs.py")
 """Of the core, in mechanics: findings of every synthesis with phases."""
 
 
+def assert_keys(page: str, model: type[BaseModel]) -> None:
+    """The section "Keys" of a page has keys of the model alone, with their defaults, its first keys among them.
+
+    The others are those that ``mechwright new FAMILY --all`` prints, by their descriptions.
+    """
+    table = page.split("\n## Keys\n")[1].split("\n## ")[0]
+    rows = {}
+    for row in table.splitlines():
+        cells = [cell.strip() for cell in row.split("|")]
+        if row.startswith("| `"):
+            for key in re.findall(r"`([a-z_]+)`", cells[1]):
+                rows[key] = cells
+    assert len(rows) > 5
+    assert set(rows) <= set(model.model_fields)
+    for key in rows:
+        default = model.model_fields[key].default
+        if isinstance(default, bool):
+            assert str(default).lower() in rows[key][2], key
+        elif isinstance(default, (int, float)):
+            assert f"{default:g}" in rows[key][2], key
+        elif isinstance(default, str):
+            assert default in rows[key][2], key
+    assert [key for key, field in model.model_fields.items() if not field.description] == []
+
+
 class FamilyPage:
     """The page ``docs/<name>.md`` of a family, and the sources of its plugin and of what it shares.
 
-    ``shared`` are more sources of the core, in mechanics, ``composed`` codes that no source has as one word.
+    ``shared`` are more sources of the core, in mechanics, ``composed`` codes that no source has as one word,
+    ``further`` more pages of the family.
     """
 
     def __init__(
@@ -25,9 +53,11 @@ class FamilyPage:
         prefixes: Sequence[str],
         shared: Sequence[str] = (),
         composed: Sequence[str] = (),
+        further: Sequence[str] = (),
     ) -> None:
         self.family = family
-        self.text = (ROOT / "docs" / f"{family.name}.md").read_text(encoding="utf-8")
+        pages = [(ROOT / "docs" / f"{name}.md").read_text("utf-8") for name in (family.name, *further)]
+        self.first, self.text = pages[0], "".join(pages)
         self.code = rf"((?:{'|'.join(prefixes)})\.(?!html)[a-z-]+)"
         mechanics = ROOT / "core" / "mechwright" / "mechanics"
         sources = [
@@ -44,27 +74,14 @@ class FamilyPage:
         assert set(re.findall(rf"`{self.code}`", self.text)) == said
 
     def assert_parameters(self) -> None:
-        """Every parameter is in the table of the page, with its default."""
-        table = self.text.split("## Parameters")[1].split("## Motion")[0]
-        rows = {}
-        for row in table.splitlines():
-            cells = [cell.strip() for cell in row.split("|")]
-            if row.startswith("| `"):
-                for key in re.findall(r"`([a-z_]+)`", cells[1]):
-                    rows[key] = cells
-        assert set(rows) == set(self.family.Params.model_fields)
-        for key, field in self.family.Params.model_fields.items():
-            if isinstance(field.default, (int, float)):
-                assert f"{field.default:g}" in rows[key][2], key
-            elif isinstance(field.default, str):
-                assert field.default in rows[key][2], key
+        """The keys of the page are those of the family, with their defaults."""
+        assert_keys(self.first, self.family.Params)
 
-    def assert_requirements(self, plain: Sequence[str]) -> None:
-        """Every kind of requirement is described, with its keys but for those that say themselves."""
+    def assert_requirements(self) -> None:
+        """Every kind of requirement is described, and each of its keys describes itself."""
         for kind, model in self.family.requirements.items():
             assert f"Kind `{kind}`" in self.text
-            for key in set(model.model_fields) - set(plain):
-                assert f"`{key}`" in self.text, key
+            assert [key for key, field in model.model_fields.items() if not field.description] == []
 
 
 def _codes(rules: Rules[Any]) -> Iterator[str]:

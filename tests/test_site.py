@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote
 
+import family_pictures
 import gallery
 import pytest
 import tour
@@ -74,6 +75,18 @@ def test_an_example_is_drawn_and_moves():
 def test_the_pictures_of_the_tour_are_what_a_build_draws():
     for name, drawn in tour.pictures().items():
         assert (tour.IMAGES / name).read_text(encoding="utf-8") == drawn, "python docs/tour.py draws it anew"
+
+
+@by_night
+@pytest.mark.parametrize("name", family_pictures.SHOWN)
+def test_the_picture_of_a_family_is_what_its_example_shows(name):
+    file = f"family-{name}.svg"
+    assert (tour.IMAGES / file).read_text(encoding="utf-8") == family_pictures.picture(name), (
+        "python docs/family_pictures.py draws it anew"
+    )
+    page = (DOCS / f"{name}.md").read_text(encoding="utf-8")
+    assert f"(images/{file})" in page
+    assert f"(../examples/{family_pictures.SHOWN[name]}.toml)" in page
 
 
 def test_the_reference_has_every_public_name_once():

@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+from family_page import assert_keys
+
 from mechwright.mechanics import opening_rules
 from mechwright_elliptic_gears.family import EllipticGears
 
@@ -20,14 +22,5 @@ def test_every_finding_is_on_the_page_and_no_other() -> None:
     assert set(re.findall(r"`((?:gear|bore|point|train|synthesis)\.[a-z-]+)`", PAGE)) == said
 
 
-def test_every_parameter_is_on_the_page_with_its_default() -> None:
-    table = PAGE.split("## Parameters")[1].split("## Motion")[0]
-    rows = {
-        key: [cell.strip() for cell in row.split("|")]
-        for row in table.splitlines()
-        for key in re.findall(r"`([a-z_]+)`", row.split("|")[1] if row.startswith("|") else "")
-    }
-    assert set(rows) == set(EllipticGears.Params.model_fields)
-    for key, field in EllipticGears.Params.model_fields.items():
-        if isinstance(field.default, (int, float)):
-            assert f"{field.default:g}" in rows[key][2], key
+def test_keys_of_the_page_are_those_of_the_family() -> None:
+    assert_keys(PAGE, EllipticGears.Params)

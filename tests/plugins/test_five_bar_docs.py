@@ -11,9 +11,9 @@ def test_every_finding_is_on_the_page_and_no_other() -> None:
     PAGE.assert_findings()
 
 
-def test_every_parameter_is_on_the_page_with_its_default() -> None:
+def test_keys_of_the_page_are_those_of_the_family() -> None:
     PAGE.assert_parameters()
 
 
 def test_the_requirements_are_described() -> None:
-    PAGE.assert_requirements(["designs"])
+    PAGE.assert_requirements()

@@ -5,6 +5,8 @@ import re
 import sys
 from pathlib import Path
 
+from family_page import assert_keys
+
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.rules.rule_table import RULES
 
@@ -29,19 +31,8 @@ def test_every_finding_is_on_the_page_and_no_other():
     assert set(re.findall(r"`((?:geneva|bore)\.[a-z-]+)`", PAGE)) == said
 
 
-def test_every_parameter_is_on_the_page_with_its_default():
-    table = PAGE.split("## Parameters")[1].split("## Motion")[0]
-    rows = {
-        key: [cell.strip() for cell in row.split("|")]
-        for row in table.splitlines()
-        for key in re.findall(r"`([a-z_]+)`", row.split("|")[1] if row.startswith("|") else "")
-    }
-    assert set(rows) == set(Geneva.Params.model_fields)
-    for key, field in Geneva.Params.model_fields.items():
-        if isinstance(field.default, (int, float)):
-            assert f"{field.default:g}" in rows[key][2], key
-        elif field.default is None:
-            assert rows[key][2] in ("none", "left out"), key
+def test_keys_of_the_page_are_those_of_the_family():
+    assert_keys(PAGE, Geneva.Params)
 
 
 def test_every_law_is_on_the_page():

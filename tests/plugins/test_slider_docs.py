@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from by_night import thinned
+from family_page import assert_keys
 
 from mechwright.testing.commands import run
 from mechwright_slider_crank.__main__ import main
@@ -26,21 +27,8 @@ def test_every_finding_is_on_the_page_and_no_other():
     assert set(re.findall(r"`(slider-crank\.[a-z-]+)`", PAGE)) == said
 
 
-def test_every_parameter_is_on_the_page_with_its_default():
-    table = PAGE.split("## Parameters")[1].split("## Motion")[0]
-    rows = {
-        key: [cell.strip() for cell in row.split("|")]
-        for row in table.splitlines()
-        for key in re.findall(r"`([a-z_]+)`", row.split("|")[1] if row.startswith("|") else "")
-    }
-    assert set(rows) == set(SliderCrankFamily.Params.model_fields)
-    for key, field in SliderCrankFamily.Params.model_fields.items():
-        if isinstance(field.default, bool):
-            assert rows[key][2] == str(field.default).lower()
-        elif isinstance(field.default, int | float):
-            assert f"{field.default:g}" in rows[key][2], key
-        elif isinstance(field.default, str):
-            assert rows[key][2] == field.default, key
+def test_keys_of_the_page_are_those_of_the_family():
+    assert_keys(PAGE, SliderCrankFamily.Params)
 
 
 @pytest.mark.parametrize("name", ["offset_slider_crank", "acceleration_poles"])

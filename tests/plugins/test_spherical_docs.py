@@ -3,6 +3,8 @@ import re
 import sys
 from pathlib import Path
 
+from family_page import assert_keys
+
 from mechwright_spherical.parameters import FiveBarTable, FourBarTable, SphericalParams
 
 ROOT = Path(__file__).parents[2]
@@ -32,12 +34,10 @@ def test_every_finding_is_documented():
     assert listed == codes
 
 
-def test_every_parameter_is_documented():
-    names = {*SphericalParams.model_fields, *FourBarTable.model_fields, *FiveBarTable.model_fields}
-    missing = {
-        name for name in names if not re.search(rf"`(parameters\.)?{name}`|\[parameters\.{name}\]", DOCS)
-    }
-    assert missing <= {"path_n", "path_angles_n"}
+def test_keys_of_the_page_are_those_of_the_family():
+    assert_keys(DOCS, SphericalParams)
+    for model in (FourBarTable, FiveBarTable):
+        assert [key for key, field in model.model_fields.items() if not field.description] == []
 
 
 def test_the_page_of_the_source_is_what_the_code_says():

@@ -1,6 +1,6 @@
 """What a design table leaves open, from what it gives: every dimension of the mechanism.
 
-In this order, each from those before it (docs/geneva.md, "What is left out"):
+In this order, each from those before it (docs/geneva.md, "Defaults"):
 
     angles and roller   those of :mod:`mechwright_geneva.defaults.slot_defaults`
     l                   as the centre distance wants it, or 100 mm, more where the driver's shaft needs it
