@@ -107,10 +107,10 @@ def accelerating_crank() -> list[str]:
         "",
         *table(),
         "",
-        "At one crank angle the poles of all k form the inflection circle without P. k to either infinity "
-        "leads to P, and the k of the first table to the end of the diameter. A required pole therefore has "
-        "a k only if it lies on that circle. `ratio_of_pole` of `mechwright.mechanics.planar.poles` gives "
-        "that k and the distance of the place from the circle.",
+        "At one crank angle the poles of all k form the inflection circle without P. P is the limit for k to "
+        "either infinity. The k of the first table leads to the end of the diameter. A required pole "
+        "therefore has a k only if it lies on that circle. `ratio_of_pole` of "
+        "`mechwright.mechanics.planar.poles` gives that k and the distance of the place from the circle.",
         "",
         "![Circles of the slider-crank](../images/poles-circles-slider-crank.svg)",
         "",
@@ -118,10 +118,10 @@ def accelerating_crank() -> list[str]:
         "",
         "A constant k over the turn is the speed ω = ω0 exp(k φ). Its poles depend on the angle alone, and "
         "their loci are algebraic. On the ground the slider-crank's locus has degree 26 and 13-fold circular "
-        "points for k ≠ 0 (24 and 12 for k = 0), or 14 and 7 where c = |a ± e| (12 and 6). In the coupler, "
-        "and for the four-bar, the degrees are those of k = 0. The symmetry about an axis is lost: the locus "
-        "of −k is the mirror image. `tests/plugins/test_accelerating_loci.py` finds the degrees from exact "
-        "points.",
+        "points for k ≠ 0, and 24 and 12 for k = 0. Where c = |a ± e| the numbers are 14 and 7, and 12 and "
+        "6. In the coupler, and for the four-bar, the degrees are those of k = 0. The symmetry about an axis "
+        "is lost: the locus of −k is the mirror image. `tests/plugins/test_accelerating_loci.py` finds "
+        "the degrees from exact points.",
         "",
         "![Slider-crank, on the ground](../images/poles-accelerating-slider-crank.svg)",
         "",

@@ -351,9 +351,9 @@ def page() -> str:
         "<!-- written by acceleration_poles.py in this folder; do not edit -->",
         "",
         "The source derives the acceleration pole of the coupler of four-bars and slider-cranks at "
-        "constant crank speed. It gives parametric forms, the locus as a polynomial, and mechanisms through "
-        "prescribed poles. This page compares its equations with the direct formula, and its claims with "
-        "exact polynomials. A [second page](acceleration-poles-further.md) has accelerating cranks and "
+        "constant crank speed. The report has parametric forms, the locus as a polynomial, and mechanisms "
+        "through prescribed poles. This page compares its equations with the direct formula, and its claims "
+        "with exact polynomials. A [second page](acceleration-poles-further.md) has accelerating cranks and "
         "six-bars.",
         "",
     ]

@@ -160,7 +160,7 @@ def errata(rows: list[Cell]) -> list[str]:
         "jumps by 2π. The code has θ4 = 2π − 2 atan2((1 + e) sin(θ2/2), (1 − e) cos(θ2/2)), continued over "
         "any number of turns.",
         "5. (8) holds modulo 2π; (11) to (16) and the equations of θ6 and Q of the train are missing.",
-        "6. (17) φ is never given. It is not γ: with φ = γ the cell γ = 45°, e = 0.8 would have a peak speed "
+        "6. (17) φ is never given. φ is not γ: with φ = γ the cell γ = 45°, e = 0.8 would have a peak speed "
         f"of {naive:.0f} mm/s, where {cell[45, 0.8].printed['speed']:g} is printed. φ = −θ3(γ) "
         f"({math.degrees(phase_offset(math.pi / 2, 0.4)):.3f}° for γ = 90°, e = 0.4) agrees with all cells "
         "but the misprint.",
@@ -298,9 +298,9 @@ def page() -> str:
         "<!-- written by elliptic_gears.py in this folder; do not edit -->",
         "",
         "The source is the report NSC 94-2212-E-150-038 on elliptic gear trains that draw a figure of eight "
-        "with a variable speed. It prints peak speeds and accelerations of point Q (table 3) and the parts "
-        "of a turn with near-constant speed (table 2), but not the dimensions. One set reproduces all cells: "
-        "a = 50 mm, ω2 = 10 rad/s, counter-clockwise, Q in the middle of the coupler, φ = −θ3(γ). [The "
+        "with a variable speed. Table 3 prints peak speeds and accelerations of point Q, table 2 the parts "
+        "of a turn with near-constant speed. The dimensions are not printed. One set reproduces all cells: a "
+        "= 50 mm, ω2 = 10 rad/s, counter-clockwise, Q in the middle of the coupler, φ = −θ3(γ). [The "
         "family's page](../elliptic-gears.md) has the equations.",
         "",
         "## Table 3: peaks of Q",

@@ -236,8 +236,8 @@ equation (3), and α + π.
 
 1. **Figure 6.** The loop point is printed at θd = 11.7177 and 108.2823 degrees, (57.9668, -57.9668). All \
 digits follow from the 3-4-5 law, though the text chooses the cycloid, with dθw/du in place of \
-θw' = dθw/dθd. The factor 1/(2 θd0) of the chain rule is missing. That wall is no envelope: its error is up \
-to {error:.4f} mm, and the printed point lies {away:.4f} mm from the roller's path, less than r = 4.
+θw' = dθw/dθd. The factor 1/(2 θd0) of the chain rule is missing. That wall is no envelope: its error is \
+up to {error:.4f} mm. The printed point lies {away:.4f} mm from the roller's path, less than r = 4.
 2. **Equation (3)** needs atan2: where θw' (a cos φ - b) > b, the plain arc tangent exchanges both walls.
 3. **Equations (28) to (30)**: the terms with θw'' of ∂f/∂θd are missing, and sin φ and cos φ are exchanged \
 in the brackets of the relative velocity. The printed F never comes near 0 where the wall is undercut.
@@ -268,7 +268,7 @@ At mid stroke M_crit = ((1 + p) - N p)² / ((1 + p)² - N p²) = \
 
 ## Points of the walls
 
-The same design, in the wheel's frame at θw = 0, mm.
+The design of the last section, in the wheel's frame at θw = 0, mm.
 
 {table(["θd, deg", "θw, deg", "centre", "wall α", "wall α + π"], walls())}
 

@@ -102,10 +102,10 @@ def page() -> str:
         "",
         "<!-- written by offset_slider_crank.py in this folder; do not edit -->",
         "",
-        "The source constructs the offset slider-crank of a stroke H and a time ratio K with auxiliary "
-        "circles, from one given length: crank a, rod b or offset e. The code solves the same triangle in "
-        "closed form; [the family's page](../slider-crank.md) has the equations. Every exact answer here is "
-        "simulated: H and K are measured on the motion, from the reversals of the slider's velocity.",
+        "The source constructs offset slider-cranks for a stroke H and a time ratio K with auxiliary "
+        "circles. One length is given as well: crank a, rod b or offset e. The code solves the same triangle "
+        "in closed form; [the family's page](../slider-crank.md) has the equations. Every exact answer "
+        "here is simulated: H and K are measured on the motion, from the reversals of the slider's velocity.",
         "",
         f"## The example: H = {STROKE:g} mm, K = {RATIO:g}",
         "",

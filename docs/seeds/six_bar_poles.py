@@ -153,10 +153,11 @@ def six_bars() -> list[str]:
         "",
         *table(),
         "",
-        "The same formula with the relative motion gives the pole of any link relative to any other. The "
-        "table has the point of C-D without acceleration relative to the crank, or to the link of the "
-        "four-bar that C-D is not pinned to, at constant crank speed. For links pinned to each other the "
-        f"pole is the pin. Differences of the relative positions leave at most {of_links:.0e} mm/rad².",
+        "With the relative motion the formula gives the pole of any link relative to any other. The table "
+        "has the point of C-D without acceleration relative to two links: the crank, and the link of the "
+        "four-bar that C-D is not pinned to. The crank's speed is constant. For links pinned to each "
+        f"other the pole is the pin. Differences of the relative positions leave at most {of_links:.0e} "
+        "mm/rad².",
         "",
         *relative_table(),
         "",

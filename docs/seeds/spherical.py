@@ -365,8 +365,9 @@ INTRODUCTION = [
     *paragraph(
         """The source is a report on adjustable spherical five-bar path generators by projection. Only its
         odd pages survive: equations, prescribed points and results are missing. The code, run on the printed
-        pins, confirms this reading: crank a0-a1, coupler a1-c1 with the path point p, rocker c1-b1, arm b0-b1
-        geared to the crank by δφ = 0.5 δθ in the same sense. The machine is adjusted in position 1 = 5."""
+        pins, confirms this reading. Crank a0-a1, coupler a1-c1 with the path point p, rocker c1-b1, and arm
+        b0-b1, which gears turn with the crank by δφ = 0.5 δθ in the same sense. The machine is adjusted in
+        position 1 = 5."""
     ),
 ]
 
