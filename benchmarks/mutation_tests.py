@@ -26,7 +26,17 @@ from code_mutants import Mutant
 
 ROOT = Path(__file__).parents[1]
 ROOMS = ("core", "cam", "plugins")
-COPIED = (*ROOMS, "tests", "docs", "examples", "benchmarks", "pyproject.toml", "README.md", "CHANGELOG.md")
+COPIED = (
+    *ROOMS,
+    "tests",
+    "docs",
+    "examples",
+    "benchmarks",
+    "pyproject.toml",
+    "README.md",
+    "CHANGELOG.md",
+    "changelog.d",
+)
 COMPILED = frozenset({"core/mechwright/mechanics/compiled.py"})
 """Files whose functions become machine code, which is kept by the name of the file."""
 QUIET = ("-x", "-q", "-s", "--no-header", "--tb=no", "-p", "no:cacheprovider")

@@ -14,14 +14,20 @@ from mechwright_geneva.family import Geneva
 
 IMAGES = Path(__file__).parent / "images"
 SAMPLE = 40
-"""Of 361: gear 2 at 40 degrees, where the speed ratio is near 1 and the ellipses stand askew."""
+"""Of 361: gear 2 at 40 degrees, where viewers without animation stop: the speed ratio is near 1."""
+
+FRAME = 3
+"""Of the samples every third is a frame, 3 degrees apart."""
+
+LOOP = 'dur="8s" repeatCount="indefinite"'
+"""A turn of gear 2."""
 
 GENEVA_SAMPLE = 33
 """Of 361: the roller well inside a groove."""
 
 
 def elliptic_pair() -> str:
-    """Both gears of the example in mesh, with their pitch ellipses, foci and coupler."""
+    """Both gears of the example in mesh, turning, with their pitch ellipses, foci and coupler."""
     family = EllipticGears()
     params = family.Params(bore=12)
     (part,) = family.parts(params)
@@ -29,28 +35,35 @@ def elliptic_pair() -> str:
     a, e = params.semi_major, params.eccentricity
     t = np.linspace(0, math.tau, 121)
     ellipse = np.column_stack((a * np.cos(t) + a * e, a * math.sqrt(1 - e * e) * np.sin(t)))
-    drawn, foci = [], []
-    for instance, fill in zip(part.instances, ("#c9d6e3", "#e8d9bd"), strict=True):
+    outline = "".join(path(loop.flatten(0.01), close=True) for loop in part.outline.loops)
+    dots = "".join(f'<circle cx="{x:g}" cy="0" r="1.4" fill="#1b6e3c"/>' for x in (0, 2 * a * e))
+    drawn, ends = [], {}
+    for number, (instance, fill) in enumerate(zip(part.instances, ("#c9d6e3", "#e8d9bd"), strict=True), 1):
         poses = motion.poses[instance.body]
-        angle = math.atan2(poses.rotation[SAMPLE, 1, 0], poses.rotation[SAMPLE, 0, 0])
+        angles = np.unwrap(np.arctan2(poses.rotation[:, 1, 0], poses.rotation[:, 0, 0]))
         x, y = poses.position[SAMPLE, :2]
-        loops = part.outline.moved(x, y, angle).loops
-        outline = "".join(path(loop.flatten(0.01), close=True) for loop in loops)
-        drawn.append(f'<path d="{outline}" fill="{fill}" stroke="#22303c" stroke-width=".5"/>')
-        turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-        pitch = path(ellipse @ turn + (x, y), close=True)
+        foci = np.exp(1j * angles) * 2 * a * e + complex(x, y)
+        ends |= {f"x{number}": foci.real, f"y{number}": -foci.imag}
+        turns = ";".join(f"{value:.2f}" for value in -np.degrees(angles[::FRAME]))
         drawn.append(
-            f'<path d="{pitch}" fill="none" stroke="#b3261e" stroke-width=".5" stroke-dasharray="3 1.5"/>'
+            f'<g transform="translate({place(x, y)})">'
+            f'<g transform="rotate({-math.degrees(angles[SAMPLE]):.2f})">'
+            f'<animateTransform attributeName="transform" type="rotate" values="{turns}" {LOOP}/>'
+            f'<use href="#gear" fill="{fill}"/><use href="#pitch"/>{dots}</g></g>'
         )
-        foci += [np.array([x, y]), np.array([2 * a * e, 0]) @ turn + (x, y)]
-    drawn.append(f'<path d="{path([foci[1], foci[3]])}" fill="none" stroke="#1b6e3c" stroke-width="1.2"/>')
-    for at in foci:
-        cx, cy = place(*at).split(",")
-        drawn.append(f'<circle cx="{cx}" cy="{cy}" r="1.4" fill="#1b6e3c"/>')
+    line = " ".join(f'{name}="{values[SAMPLE]:.2f}"' for name, values in ends.items())
+    moves = "".join(
+        f'<animate attributeName="{name}" values="{";".join(f"{at:.2f}" for at in values[::FRAME])}" {LOOP}/>'
+        for name, values in ends.items()
+    )
+    drawn.append(f'<line {line} stroke="#1b6e3c" stroke-width="1.2">{moves}</line>')
     return "\n".join(
         [
-            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-42 -68 198 146" width="720">',
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-78 -78 256 156" width="720">',
             "<title>Two elliptic gears in mesh, their pitch ellipses, and the equivalent coupler</title>",
+            f'<defs><path id="gear" d="{outline}" fill-rule="evenodd" stroke="#22303c" stroke-width=".5"/>',
+            f'<path id="pitch" d="{path(ellipse, close=True)}" fill="none" stroke="#b3261e" '
+            'stroke-width=".5" stroke-dasharray="3 1.5"/></defs>',
             *drawn,
             "</svg>\n",
         ]

@@ -103,7 +103,7 @@ def test_the_help_of_every_such_command_ends_with_what_to_type(
 ) -> None:
     needing = {one.name: one for one in load(group=COMMANDS).all(Command) if one.libraries}
     assert set(needing) == {"live", "sweep"}
-    table = (ROOT / "README.md").read_text(encoding="utf-8")
+    table = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
     for name, command in needing.items():
         extra = EXTRAS[command.libraries[0]]
         code, out, _ = command_line(name, "--help")

@@ -67,12 +67,28 @@ def test_licences_are_brought_to_one_spelling_and_judged(component, expected):
 
 def test_the_changelog_has_a_part_for_every_version_newest_first():
     parts = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
-    assert parts[0] == "Unreleased"
-    released = [re.fullmatch(r"(\d+\.\d+\.\d+) - \d{4}-\d{2}-\d{2}", part) for part in parts[1:]]
+    before_the_first = parts == ["Unreleased"]
+    releases = [] if before_the_first else parts
+    released = [re.fullmatch(r"(\d+\.\d+\.\d+) - \d{4}-\d{2}-\d{2}", part) for part in releases]
+    assert before_the_first or released
     assert all(released), parts
     versions = [Version(match[1]) for match in released]
     assert versions == sorted(versions, reverse=True)
     assert all(version <= Version(mechwright.__version__) for version in versions)
+
+
+def test_fragments_of_the_changelog_are_what_towncrier_takes():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["towncrier"]
+    news = (ROOT / settings["filename"]).read_text("utf-8")
+    assert news.partition(settings["start_string"])[2].startswith("\n## ")
+    kinds = "|".join(kind["directory"] for kind in settings["type"])
+    page = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("\n### Changelog\n")[2]
+    assert re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE) == kinds.split("|")
+    shown = re.findall(r"changelog\.d/(\S+)", page)
+    fragments = [path for path in (ROOT / settings["directory"]).iterdir() if path.name != "README.md"]
+    names = [*shown, *(path.name for path in fragments)]
+    assert [name for name in names if not re.fullmatch(rf"\+[\w-]+\.(?:{kinds})\.md", name)] == []
+    assert [path.name for path in fragments if not path.read_text("utf-8").strip()] == []
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)

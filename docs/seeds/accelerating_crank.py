@@ -40,23 +40,31 @@ def equation_two() -> float:
     return max(1e-12, 10.0 ** math.ceil(math.log10(max(worst, 1e-300))))
 
 
-def table() -> list[str]:
-    rows = [
-        "| linkage, φ | P | J | k of the inflection pole | k | αc/ωa² | G on the ground | G in the coupler |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
+def position_table() -> list[str]:
+    """What the positions have in common at all k."""
+    rows = ["| linkage, φ | P | J | k of the inflection pole |", "| --- | --- | --- | --- |"]
     for linkage, degrees in CASES:
         steady = body(linkage, degrees, 0.0)
         found = circles(steady)
         turned, _ = ratio_of_pole(steady, found.inflection_pole)
         p, j = complex(found.instant_centre[0]), complex(found.inflection[0])
+        rows.append(f"| {linkage}, {degrees}° | {_place(p)} | {_place(j)} | {turned[0]:.9f} |")
+    return rows
+
+
+def table() -> list[str]:
+    """The pole at each position and each k."""
+    rows = [
+        "| linkage, φ | k | αc/ωa² | G on the ground | G in the coupler |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for linkage, degrees in CASES:
         for number, ratio in enumerate(RATIOS):
             moved = body(linkage, degrees, ratio)
             pole = acceleration_pole(moved)
-            first = (f"{linkage}, {degrees}°", _place(p), _place(j), f"{turned[0]:.9f}")
-            cells = first if number == 0 else ("", "", "", "")
+            first = "" if number else f"{linkage}, {degrees}°"
             rows.append(
-                f"| {' | '.join(cells)} | {ratio:g} | {moved.turning.alpha[0]:.9f} | "
+                f"| {first} | {ratio:g} | {moved.turning.alpha[0]:.9f} | "
                 f"{_place(complex(pole.fixed[0]))} | {_place(complex(pole.moving[0]))} |"
             )
     return rows
@@ -87,40 +95,33 @@ def accelerating_crank() -> list[str]:
     return [
         "## A crank that accelerates",
         "",
-        "The source drops the crank's acceleration after equation (2). With k = αa/ωa², per radian, "
-        "equation (2) is "
-        "αc/ωa² = k ωc/ωa + (h/g − (h/g)²) cot δ, and the pole is G = A + a (1 − i k) exp(i φ)/(i αc − "
-        "ωc²), rates "
-        "over the crank's speed. (2) with the signed distances agrees with the rates of both linkages, at "
-        "the "
-        f"positions below and all k of the table, within {equation_two():.0e}.",
+        "The source drops the crank's acceleration after equation (2). With k = αa/ωa², per radian, equation "
+        "(2) is αc/ωa² = k ωc/ωa + (h/g − (h/g)²) cot δ. The pole is G = A + a (1 − i k) exp(i φ)/(i αc − "
+        "ωc²), with rates over the crank's speed. Equation (2) with signed distances agrees with the rates "
+        f"of both linkages within {equation_two():.0e}, at the positions and all k below.",
         "",
-        "Lengths in mm, slider-crank 50, 150, e = 20, four-bar 40, 120, 80, 100, P from A0, J the diameter "
-        "of the "
-        "inflection circle from P:",
+        "Slider-crank 50, 150, e = 20 mm; four-bar 40, 120, 80, 100 mm. P is measured from A0; J is the "
+        "diameter of the inflection circle from P.",
+        "",
+        *position_table(),
         "",
         *table(),
         "",
-        "At one crank angle the poles of all k are the inflection circle without P; k to either infinity "
-        "leads to P, "
-        "and the k of the table to the end of the diameter. So a wanted pole has a k exactly if it lies on "
-        "that "
-        "circle: `ratio_of_pole` of `mechwright.mechanics.planar.poles` gives it, and by how much the place "
-        "is off.",
+        "At one crank angle the poles of all k form the inflection circle without P. P is the limit for k to "
+        "either infinity. The k of the first table leads to the end of the diameter. A required pole "
+        "therefore has a k only if it lies on that circle. `ratio_of_pole` of "
+        "`mechwright.mechanics.planar.poles` gives that k and the distance of the place from the circle.",
         "",
         "![Circles of the slider-crank](../images/poles-circles-slider-crank.svg)",
         "",
         "![Circles of the four-bar](../images/poles-circles-four-bar.svg)",
         "",
-        "A constant k all along is the speed ω = ω0 exp(k φ). Its poles depend on the angle alone, as at "
-        "constant "
-        "speed, and their loci are algebraic: on the ground the slider-crank's has degree 26 with 13-fold "
-        "circular "
-        "points for k ≠ 0 (24 and 12 for k = 0), 14 and 7 where c = |a ± e| (12 and 6); in the coupler, and "
-        "for the "
-        "four-bar, degrees are those of k = 0. The symmetry about an axis is lost: the locus of −k is the "
-        "mirror "
-        "image. `tests/plugins/test_accelerating_loci.py` has the degrees from exact points.",
+        "A constant k over the turn is the speed ω = ω0 exp(k φ). Its poles depend on the angle alone, and "
+        "their loci are algebraic. On the ground the slider-crank's locus has degree 26 and 13-fold circular "
+        "points for k ≠ 0, and 24 and 12 for k = 0. Where c = |a ± e| the numbers are 14 and 7, and 12 and "
+        "6. In the coupler, and for the four-bar, the degrees are those of k = 0. The symmetry about an axis "
+        "is lost: the locus of −k is the mirror image. `tests/plugins/test_accelerating_loci.py` finds "
+        "the degrees from exact points.",
         "",
         "![Slider-crank, on the ground](../images/poles-accelerating-slider-crank.svg)",
         "",
@@ -130,7 +131,7 @@ def accelerating_crank() -> list[str]:
         "",
         "![Four-bar, in the coupler](../images/poles-accelerating-four-bar-coupler.svg)",
         "",
-        "How far they reach over a turn, mm; pictures are clipped:",
+        "Extent of the loci over a turn, mm; the pictures are clipped:",
         "",
         *reach(),
         "",

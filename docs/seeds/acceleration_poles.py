@@ -15,6 +15,7 @@ from pole_figures import draw, figures
 from signed_distances import of_four_bar, of_slider_crank
 from six_bar_poles import six_bars
 
+from mechwright.mechanics.algebra.curve import PlaneCurve
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.locus import locus as four_bar_locus
@@ -26,6 +27,8 @@ from mechwright_slider_crank.locus import Plane, locus
 from mechwright_slider_crank.poles_synthesis import through_poles
 
 PAGE = Path(__file__).parent / "acceleration-poles.md"
+FURTHER = PAGE.with_name("acceleration-poles-further.md")
+"""The page on mechanisms that the source does not treat."""
 
 SAMPLES = 8000
 """Random slider-cranks on which the equations are tried."""
@@ -37,6 +40,8 @@ LOCI = (
     ("1", "3/2", "1/2", "c = a + e"),
     ("3", "1", "2", "c = a - e"),
 )
+
+PLANES: tuple[Plane, ...] = ("fixed", "coupler")
 
 TWO_POLES = np.array([3.0 - 0.63j, 2.06 + 2.08j])
 """Poles of the example, with 47° of crank rotation between them."""
@@ -84,38 +89,50 @@ def equations() -> list[str]:
     ]
     wrong = np.median((np.abs(-found.alpha - rod.turning.alpha) / alpha)[sound])
     return [
-        f"On {SAMPLES} random slider-cranks of both assemblies, with crank angles that keep clear of 0/0:",
+        f"The table compares {SAMPLES} random slider-cranks of both assemblies, away from 0/0.",
         "",
         "| equation | relative error, at most |",
         "| --- | --- |",
         *(f"| {name} | {error} |" for name, error in rows),
         "",
-        f"With the opposite sign of δ equation (3) is off by {wrong:.1f} in the median: the sign matters.",
+        f"With the opposite sign of δ, equation (3) has a median error of {wrong:.1f}.",
     ]
 
 
 def loci() -> list[str]:
+    """A row for each slider-crank: degree, circular points and terms, on the ground and in the coupler."""
     rows = [
-        "| a, c, e | case | plane | degree | circular points | terms in ρ and the axis | symmetric about |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
+        "| a, c, e | case | on the ground | in the coupler |",
+        "| --- | --- | --- | --- |",
     ]
-    planes: tuple[Plane, ...] = ("fixed", "coupler")
     for a, c, e, case in LOCI:
-        for plane in planes:
+        cells = []
+        for plane in PLANES:
             curve, power = locus(Fraction(a), Fraction(c), Fraction(e), plane)
-            twice = " (run through twice)" if power == 2 else ""
             even = all(power % 2 == 0 for _, power in curve.terms)
-            axes = "both axes" if even and plane == "fixed" else f"{curve.axis} axis"
-            rows.append(
-                f"| {a}, {c}, {e} | {case} | {plane} | {curve.degree}{twice} | {curve.circularity}-fold | "
-                f"{len(curve.terms)} | {axes} |"
-            )
+            notes = ", both axes" if even and plane == "fixed" else ", twice" if power == 2 else ""
+            cells.append(f"{_figures(curve)}{notes}")
+        rows.append(f"| {a}, {c}, {e} | {case} | {' | '.join(cells)} |")
     return rows
 
 
+def _figures(curve: PlaneCurve) -> str:
+    return f"{curve.degree}, {curve.circularity}-fold, {len(curve.terms)}"
+
+
+def _matrix(curve: PlaneCurve) -> list[str]:
+    """The coefficients of a locus: a line for each power of ρ, in it those of rising powers of the axis."""
+    powers = sorted({i for i, _ in curve.terms})
+    lines = []
+    for i in powers:
+        row = {j: value for (one, j), value in curve.terms.items() if one == i}
+        lines.append(f"rho^{i}: " + "  ".join(str(row.get(j, 0)) for j in range(max(row) + 1)))
+    return ["```text", *lines, "```"]
+
+
 def example_polynomial() -> list[str]:
-    curve, _ = locus(Fraction(1), Fraction(3, 2), Fraction(1, 2), "fixed")
-    return ["```text", *(line.rstrip() for line in curve.table().splitlines()), "```"]
+    """The coefficients of the smallest locus of a slider-crank."""
+    return _matrix(locus(Fraction(1), Fraction(3, 2), Fraction(1, 2), "fixed")[0])
 
 
 def _silent(done: float, what: str) -> None:
@@ -144,27 +161,29 @@ def slider_crank() -> list[str]:
         "",
         *equations(),
         "",
-        "The two points P and Q and the signs that make the equations true: P is the coupler's instant "
-        "centre, Q the "
-        "relative centre of crank and slider; g and h are the signed distances of P from crank pin and "
-        "pivot along the "
-        "crank, so that g - h = a; δ is the counter-clockwise angle from line PB to line QP.",
+        "Signs that make the equations true: P is the coupler's instant centre, Q the relative centre of "
+        "crank and slider. g and h are the signed distances of P from crank pin and pivot along the crank, "
+        "with g - h = a. δ is the counter-clockwise angle from line PB to line QP.",
         "",
         "### Loci of the pole over a turn, both assemblies",
         "",
+        "Each cell gives the degree, the multiplicity of the circular points and the number of terms in ρ "
+        "and the axis. The loci are symmetric about Y on the ground and about x in the coupler, unless "
+        'noted. "Twice" marks a locus that is run through twice in a turn.',
+        "",
         *loci(),
         "",
-        "Degrees and multiplicities are computed from exact polynomials with rational coefficients. The "
-        "smallest of "
-        "them, a = 1, c = 3/2, e = 1/2 on the ground:",
+        "Degrees and multiplicities come from exact polynomials with rational coefficients. The smallest "
+        "polynomial is that of a = 1, c = 3/2, e = 1/2 on the ground, with ρ = X² + Y². Each line has the "
+        "coefficients of Y⁰, Y¹, Y² ...:",
         "",
         *example_polynomial(),
         "",
         "### Two prescribed poles",
         "",
-        "Poles (3, -0.63) and (2.06, 2.08), 47° of crank rotation between them, the pivot in the origin, "
-        "the slide along "
-        "X; every slider-crank found whose crank turns, each with a certified residual below 1e-10:",
+        "Poles (3, -0.63) and (2.06, 2.08), 47° of crank rotation apart, pivot in the origin, slide along X. "
+        "The table has every slider-crank found whose crank turns, each with a certified residual below "
+        "1e-10.",
         "",
         *solutions(),
         "",
@@ -172,20 +191,16 @@ def slider_crank() -> list[str]:
         "",
         "| claim | verdict |",
         "| --- | --- |",
-        "| the pole depends on sizes and position only, not on the crank's speed | true for constant "
-        "speed: ω cancels; with an accelerating crank it depends on k besides |",
-        "| on the ground the locus has degree 24 and 12-fold circular points, symmetric about Y | true, "
-        "also where "
-        "the crank cannot turn; of degree 12 with 6-fold points only where c = a + e or c = the "
-        "difference of a and e |",
-        "| in the coupler it has degree 28 and 14-fold circular points, symmetric about x | true for e ≠ 0; "
-        "**false for e = 0**, where the polynomial is a square: degree 14, 7-fold |",
-        "| for c = a + e the degree is 12 with 6-fold circular points | true on the ground; in the "
-        "coupler it is 16, "
-        "8-fold, which the source does not give |",
-        "| a slider-crank goes through at most two prescribed poles | true with the crank's rotations "
-        "given; with free "
-        "crank angles three poles have solutions |",
+        "| the pole does not depend on the crank's speed | true at constant speed, where ω cancels; an "
+        "accelerating crank adds k |",
+        "| on the ground: degree 24, 12-fold, symmetric about Y | true, also where the crank cannot turn; "
+        "degree 12, 6-fold only where c = a + e or c is the difference of a and e |",
+        "| in the coupler: degree 28, 14-fold, symmetric about x | true for e ≠ 0; **false for e = 0**, "
+        "where the polynomial is a square: degree 14, 7-fold |",
+        "| for c = a + e: degree 12, 6-fold | true on the ground; 16, 8-fold in the coupler, which the "
+        "source does not give |",
+        "| a slider-crank goes through at most two prescribed poles | true with given crank rotations; with "
+        "free crank angles three poles have solutions |",
         "",
     ]
 
@@ -220,35 +235,29 @@ def four_bar_equations() -> list[str]:
     ]
     wrong = np.median((np.abs(-found.alpha - loop.coupler.second) / alpha)[sound])
     return [
-        f"On {SAMPLES} random four-bars whose crank turns, on both branches, clear of 0/0:",
+        f"The table compares {SAMPLES} random four-bars whose crank turns, on both branches, away from 0/0.",
         "",
         "| equation | relative error, at most |",
         "| --- | --- |",
         *(f"| {name} | {error} |" for name, error in rows),
         "",
-        f"With the opposite sign of δ equation (3) is off by {wrong:.1f} in the median.",
+        f"With the opposite sign of δ, equation (3) has a median error of {wrong:.1f}.",
     ]
 
 
 def four_bar_loci() -> list[str]:
-    rows = [
-        "| a, c, b, f | case | plane | degree | circular points | terms in ρ and the axis |",
-        "| --- | --- | --- | --- | --- | --- |",
-    ]
-    planes: tuple[Plane, ...] = ("fixed", "coupler")
+    """A row for each four-bar, with the cells of :func:`loci`."""
+    rows = ["| a, c, b, f | case | on the ground | in the coupler |", "| --- | --- | --- | --- |"]
     for a, c, b, f, case in FOUR_BAR_LOCI:
-        for plane in planes:
-            curve = four_bar_locus(Fraction(a), Fraction(c), Fraction(b), Fraction(f), plane)
-            rows.append(
-                f"| {a}, {c}, {b}, {f} | {case} | {plane} | {curve.degree} | {curve.circularity}-fold | "
-                f"{len(curve.terms)} |"
-            )
+        lengths = Fraction(a), Fraction(c), Fraction(b), Fraction(f)
+        cells = (_figures(four_bar_locus(*lengths, plane)) for plane in PLANES)
+        rows.append(f"| {a}, {c}, {b}, {f} | {case} | {' | '.join(cells)} |")
     return rows
 
 
 def four_bar_polynomial() -> list[str]:
-    curve = four_bar_locus(Fraction(3), Fraction(3), Fraction(5), Fraction(5), "fixed")
-    return ["```text", *(line.rstrip() for line in curve.table().splitlines()), "```"]
+    """The coefficients of the smallest locus of a four-bar."""
+    return _matrix(four_bar_locus(Fraction(3), Fraction(3), Fraction(5), Fraction(5), "fixed"))
 
 
 def four_bar_solutions() -> list[str]:
@@ -278,29 +287,26 @@ def four_bar() -> list[str]:
         "",
         *four_bar_equations(),
         "",
-        "P is the coupler's instant centre, where crank and follower meet; Q the relative centre of "
-        "crank and "
-        "follower, where coupler and ground line meet; g, h and δ are as for the slider-crank.",
+        "P is the coupler's instant centre, where crank and follower meet. Q is the relative centre of crank "
+        "and follower, where coupler and ground line meet. g, h and δ are as for the slider-crank.",
         "",
         "### Loci of the pole over a turn, both branches",
         "",
+        "The source leaves the four-bar's locus to later work. Cells are those of the slider-crank's table. "
+        "All loci are symmetric about the ground line, in the coupler about AB. A parallelogram has none: "
+        "its coupler does not turn.",
+        "",
         *four_bar_loci(),
         "",
-        "The source leaves the four-bar's locus to later work. All of it is symmetric about the "
-        "ground line, in "
-        "the coupler about AB. A parallelogram has none: its coupler does not turn. The smallest, "
-        "of the kite "
-        "a = c = 3, b = f = 5 on the ground:",
+        "The smallest polynomial is that of the kite a = c = 3, b = f = 5 on the ground, in powers of X:",
         "",
         *four_bar_polynomial(),
         "",
         "### Three prescribed poles",
         "",
-        "Poles (2.34, 4.09), (-0.53, 5.86) and (2.98, 5.83), at 0°, 50° and 150° of crank rotation, "
-        "the pivot in "
-        "the origin; four-bars found whose crank turns and whose transmission angle keeps above 1°, "
-        "each with a "
-        "certified residual below 1e-10:",
+        "Poles (2.34, 4.09), (-0.53, 5.86) and (2.98, 5.83) at 0°, 50° and 150° of crank rotation, pivot in "
+        "the origin. The table has four-bars found whose crank turns and whose transmission angle stays "
+        "above 1°, each with a certified residual below 1e-10.",
         "",
         *four_bar_solutions(),
         "",
@@ -308,13 +314,11 @@ def four_bar() -> list[str]:
         "",
         "| claim | verdict |",
         "| --- | --- |",
-        "| parametric forms of crank-rockers and double cranks, (6) to (9) | true, with signed g "
-        "and h and one "
-        "sense of δ, and for every four-bar |",
-        "| a four-bar goes through at most three prescribed poles, two with a prescribed ground "
-        "angle | true with "
-        "the crank's rotations given; with free crank angles four places have solutions at a given "
-        "ground angle |",
+        "| parametric forms of crank-rockers and double cranks, (6) to (9) | true for every four-bar, with "
+        "signed g and h and one sense of δ |",
+        "| a four-bar goes through at most three prescribed poles, two with a prescribed ground angle | true "
+        "with given crank rotations; with free crank angles four places have solutions at a given ground "
+        "angle |",
         "",
     ]
 
@@ -323,24 +327,20 @@ def errata() -> list[str]:
     return [
         "## Errata of the source",
         "",
-        "1. Pages 1, 3 and 5 are missing from the text, with equations (1), (2), (14) and all tables; "
-        "superscripts are "
+        "1. Pages 1, 3 and 5 are missing, with equations (1), (2), (14) and all tables. Superscripts are "
         "detached: a g², a², h², cot².",
-        "2. cos σ and sin σ under equation (4) stand in the four-bar's part and are the slider-crank's.",
-        "3. g and h have to be signed. With plain distances (1) and (3) fail where P lies between the "
-        "pivots or behind "
-        "them.",
-        "4. Forms (6) to (13) are 0/0 where the pole is finite: with P at infinity, in a dead centre, "
-        "and with PB and "
-        "QP parallel. The code uses G = A + a exp(i φ) / (i αc - ωc²), and the forms to compare.",
-        "5. The coefficients of (14), (17), (18) and (20) are far fewer than printed: all of them are "
-        "polynomials in "
+        "2. cos σ and sin σ under equation (4) stand in the four-bar's part and belong to the slider-crank.",
+        "3. g and h have to be signed. With plain distances (1) and (3) fail where P lies between the pivots "
+        "or behind them.",
+        "4. Forms (6) to (13) are 0/0 where the pole is finite: with P at infinity, in a dead centre, and "
+        "with PB and QP parallel. The code uses G = A + a exp(i φ) / (i αc - ωc²), and the forms to compare.",
+        "5. The coefficients of (14), (17), (18) and (20) are far fewer than printed: all are polynomials in "
         "X² + Y² and one coordinate.",
         "",
     ]
 
 
-PARTS: list[Callable[[], list[str]]] = [figures, slider_crank, four_bar, accelerating_crank, six_bars]
+PARTS: list[Callable[[], list[str]]] = [figures, slider_crank, four_bar]
 """In the order of the page."""
 
 
@@ -351,15 +351,30 @@ def page() -> str:
         "<!-- written by acceleration_poles.py in this folder; do not edit -->",
         "",
         "The source derives the acceleration pole of the coupler of four-bars and slider-cranks at "
-        "constant crank speed "
-        "in parametric form, its locus as a polynomial, and mechanisms through prescribed poles. Here "
-        "its equations are "
-        "compared with the direct formula, and its claims with exact polynomials.",
+        "constant crank speed. The report has parametric forms, the locus as a polynomial, and mechanisms "
+        "through prescribed poles. This page compares its equations with the direct formula, and its claims "
+        "with exact polynomials. A [second page](acceleration-poles-further.md) has accelerating cranks and "
+        "six-bars.",
         "",
     ]
     return "\n".join((*head, *(line for part in PARTS for line in part()), *errata()))
 
 
+def further() -> str:
+    """The page beyond the source."""
+    head = [
+        "# Acceleration poles beyond the source",
+        "",
+        "<!-- written by acceleration_poles.py in this folder; do not edit -->",
+        "",
+        "The [source](acceleration-poles.md) treats four-bars and slider-cranks at constant crank speed. The "
+        "direct formula also gives the poles of cranks that accelerate and of six-bars.",
+        "",
+    ]
+    return "\n".join((*head, *accelerating_crank(), *six_bars()))
+
+
 if __name__ == "__main__":
     draw()
     PAGE.write_text(page(), encoding="utf-8")
+    FURTHER.write_text(further(), encoding="utf-8")

@@ -160,15 +160,13 @@ def page(one: Example) -> str:
         f"![Both limits](../images/circle-{one.name}-mechanism.svg)",
         "",
         *table(numbers(CIRCLE, one.found)),
-        "## What comes out",
+        "## Result",
         "",
         *beside(one),
         "",
-        f"λ, the angle of AC2 to the stroke, is {math.degrees(one.found.position):.9f}°. A slip of A by 1 "
-        f"mm along the "
-        f"circle changes a, b and e by {slips(one.found)} mm: the printed lengths are off by more than a "
-        f"pencil's "
-        "line.",
+        f"λ, the angle of AC2 to the stroke, is {math.degrees(one.found.position):.9f}°. An error of 1 mm in "
+        f"A along the circle changes a, b and e by {slips(one.found)} mm. The printed lengths have larger "
+        "errors than the width of a pencil's line.",
         "",
         *table(solutions(CIRCLE, one.found)),
     ]

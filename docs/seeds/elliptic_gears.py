@@ -108,15 +108,14 @@ def cells() -> list[Cell]:
 def table3(rows: list[Cell]) -> list[str]:
     """Peak speeds and accelerations."""
     lines = [
-        "| γ | e | speed printed | computed | at θ2 | printed − computed | acceleration printed | "
-        "computed | at θ2 | "
-        "printed − computed |",
-        "| --- " * 10 + "|",
+        "| γ, e | speed printed | computed | at θ2 | error | acceleration printed | computed | at θ2 | "
+        "error |",
+        "| --- " * 9 + "|",
     ]
     for cell in rows:
         error = "**misprint**" if cell.is_misprint else f"{cell.acceleration_error:+.3%}"
         lines.append(
-            f"| {cell.phase}° | {cell.eccentricity} | {cell.printed['speed']:g} | {cell.speed.value:.2f} "
+            f"| {cell.phase}°, {cell.eccentricity} | {cell.printed['speed']:g} | {cell.speed.value:.2f} "
             f"| {cell.speed.angle:.3f} | {cell.speed_error:+.3%} | {cell.printed['acceleration']:g} "
             f"| {cell.acceleration.value / 1000:.4f} | {cell.acceleration.angle:.3f} | {error} |"
         )
@@ -126,23 +125,21 @@ def table3(rows: list[Cell]) -> list[str]:
 def table2(rows: list[Cell]) -> list[str]:
     """Windows of near-constant speed."""
     lines = [
-        "| γ | e | printed θ2 | computed θ2 | length printed | computed | speed printed | computed |",
-        "| --- " * 8 + "|",
+        "| γ, e | printed θ2 | computed θ2 | length printed | computed | speed printed | computed |",
+        "| --- " * 7 + "|",
     ]
     for cell in rows:
-        computed = f"{cell.window.start:.3f} to {cell.end:.3f}"
-        speed = f"{cell.window.low:.2f} to {cell.window.low + PRINTED['band_mm_per_s']:.2f}"
+        computed = f"{cell.window.start:.3f}–{cell.end:.3f}"
+        speed = f"{cell.window.low:.2f}–{cell.window.low + PRINTED['band_mm_per_s']:.2f}"
         window = cell.printed["window"]
-        start = f"| {cell.phase}° | {cell.eccentricity} "
+        start = f"| {cell.phase}°, {cell.eccentricity} "
         if window is None:
-            lines.append(
-                f"{start}| none | {computed} | < {LISTED:g} | {cell.window.length:.3f} | | {speed} |"
-            )
+            lines.append(f"{start}| none | {computed} | <{LISTED:g} | {cell.window.length:.3f} | | {speed} |")
         else:
             one, two, low, high = window
             lines.append(
-                f"{start}| {one:g} to {two:g} | {computed} | {two - one:.2f} | {cell.window.length:.3f} "
-                f"| {low:g} to {high:g} | {speed} |"
+                f"{start}| {one:g}–{two:g} | {computed} | {two - one:.2f} | {cell.window.length:.3f} "
+                f"| {low:g}–{high:g} | {speed} |"
             )
     return lines
 
@@ -159,37 +156,29 @@ def errata(rows: list[Cell]) -> list[str]:
         "1. (3) holds as a vector product; read with magnitudes it loses the sign of (4).",
         "2. (5), (19), (22): the ratio is −(1 − e²)/D; the gears turn in opposite directions.",
         "3. (6), (20), (23): the first term is +2 e (1 − e²) sin θ / D² ω².",
-        "4. (7), (21): the radicand −(1 − e²)² is negative, and the logarithm has twice its right "
-        "factor and jumps by "
-        "2π. The code has θ4 = 2π − 2 atan2((1 + e) sin(θ2/2), (1 − e) cos(θ2/2)), continued over "
+        "4. (7), (21): the radicand −(1 − e²)² is negative. The logarithm has twice its right factor and "
+        "jumps by 2π. The code has θ4 = 2π − 2 atan2((1 + e) sin(θ2/2), (1 − e) cos(θ2/2)), continued over "
         "any number of turns.",
         "5. (8) holds modulo 2π; (11) to (16) and the equations of θ6 and Q of the train are missing.",
-        "6. (17) φ is never given. It is not γ: with φ = γ the cell γ = 45°, e = 0.8 would have a "
-        "peak speed of "
-        f"{naive:.0f} mm/s where {cell[45, 0.8].printed['speed']:g} is printed. φ = −θ3(γ) "
-        f"({math.degrees(phase_offset(math.pi / 2, 0.4)):.3f}° for γ = 90°, e = 0.4) agrees with "
-        "all cells but the "
-        "misprint.",
-        "7. (18) The principal arccos has gear 3 turn the wrong way for 0 < θ2 < π.",
-        "8. θ3 and ω3 mean the coupler of a pair and gear 3 of the train; the train's coupler is link 6.",
-        f"9. Table 3, γ = 0, e = 0.6: {cell[MISPRINT].printed['acceleration']:g} stands for "
-        f"{missing:.0f}. It also "
-        "contradicts the text, which calls γ = 0 the largest: γ = 45° has "
+        "6. (17) φ is never given. φ is not γ: with φ = γ the cell γ = 45°, e = 0.8 would have a peak speed "
+        f"of {naive:.0f} mm/s, where {cell[45, 0.8].printed['speed']:g} is printed. φ = −θ3(γ) "
+        f"({math.degrees(phase_offset(math.pi / 2, 0.4)):.3f}° for γ = 90°, e = 0.4) agrees with all cells "
+        "but the misprint.",
+        "7. (18) The principal arccos turns gear 3 the wrong way for 0 < θ2 < π.",
+        "8. θ3 and ω3 mean both the coupler of a pair and gear 3 of the train; its coupler is link 6.",
+        f"9. Table 3, γ = 0, e = 0.6: {cell[MISPRINT].printed['acceleration']:g} stands for {missing:.0f}. "
+        "The misprint contradicts the text, which calls γ = 0 the largest: γ = 45° has "
         f"{cell[45, 0.6].printed['acceleration']:g}.",
         f"10. Table 2, γ = 90°, e = 0.4: the band 188 to 198 has to be {split.window.low:.2f} to "
-        f"{split.window.low + 10:.2f}; read literally the window splits.",
-        f"11. Table 2: γ = 90°, e = 0.6 is listed with {listed.window.length:.3f} rad, γ = 135°, e "
-        "= 0.6 is not, with "
-        f"{unlisted.window.length:.3f} rad.",
-        '12. "At equal e, γ = 0 has the largest variation" does not hold for the speed at e = 0.2: '
-        "the peak is "
+        f"{split.window.low + 10:.2f}; with the printed band the window splits.",
+        f"11. Table 2 lists γ = 90°, e = 0.6 with {listed.window.length:.3f} rad, but not γ = 135°, e = 0.6 "
+        f"with {unlisted.window.length:.3f} rad.",
+        '12. "At equal e, γ = 0 has the largest variation" is false for the speed at e = 0.2: the peak is '
         f"{small[0]:.1f} mm/s at γ = 0 and {small[1]:.1f} at 45°.",
-        '13. The "1.4 rad" of a single pair is that of e = 0.8 only; table 1 is missing. A train '
-        "with γ = 180° moves as a "
-        f"single pair does: {cell[180, 0.8].window.length:.3f} rad.",
-        f'14. "The longest is 2.21 rad" holds on the grid of the table only: e = {BEST[1]}, γ = '
-        f"{BEST[0]}° has "
-        f"{best.length:.3f} rad, from {best.start:.3f} to {best.start + best.length:.3f}.",
+        '13. The "1.4 rad" of a single pair is that of e = 0.8 only; table 1 is missing. A train with γ = '
+        f"180° moves as a single pair does: {cell[180, 0.8].window.length:.3f} rad.",
+        f'14. "The longest is 2.21 rad" holds on the grid of the table only: e = {BEST[1]}, γ = {BEST[0]}° '
+        f"has {best.length:.3f} rad, from {best.start:.3f} to {best.start + best.length:.3f}.",
     ]
 
 
@@ -236,28 +225,22 @@ def variable() -> list[str]:
     holes = ", ".join(f"{hole.phase:g}" for hole in dividing_of(machine).holes)
     play = math.degrees(pin_play(machine) / 2)
     return [
-        "The source turns the first pair by γ, then joins gears 3 and 4; how that is done on "
-        "the machine, and how "
-        "γ is changed, it does not say. Only the angle φ between the two changes: gears, axes, coupler and "
-        "figure stay. [`figure-eight-variable.toml`](../../examples/figure-eight-variable.toml) "
-        "is one machine "
-        f"with a pin in one of five holes ({holes} degrees). Rows of e = 0.4 of both tables, "
-        "from that machine; "
-        "speeds in mm/s, acceleration in 1000 mm/s², windows in rad, torque in N m:",
+        "The source turns the first pair by γ, then joins gears 3 and 4. How the machine does so, and how γ "
+        "is changed, is not stated. Only the angle φ between the two gears changes: gears, axes, coupler and "
+        "figure stay. [`figure-eight-variable.toml`](../../examples/figure-eight-variable.toml) is one "
+        f"machine with a pin in one of five holes ({holes} degrees). Its rows of e = 0.4, speeds in mm/s, "
+        "acceleration in 1000 mm/s², windows in rad, torque in N m:",
         "",
         *variable_table(),
         "",
-        f"The play of the pin turns gear 4 by ±{play:.3f}°, and the speed by "
-        f"{phase_sensitivity(machine):.4f} of it at "
-        f"the worst, ±{100 * phase_sensitivity(machine) * math.radians(play):.2f} %, whatever "
-        "the phase. The window of "
-        "γ = 90° ends at an edge: the joint has to stand on the side of more. A clamp instead "
-        "of the pin holds "
+        f"The play of the pin turns gear 4 by ±{play:.3f}°. The speed changes by at most "
+        f"{phase_sensitivity(machine):.4f} of that angle, "
+        f"±{100 * phase_sensitivity(machine) * math.radians(play):.2f} %, at every phase. The window of γ = "
+        "90° ends at an edge: set the joint on the side of more. A clamp in place of the pin transmits "
         f"{clamp_of(clamped).torque(machine.material):.1f} N m.",
         "",
-        "`mechwright solve` writes `figure-eight.html`, on which phase and eccentricity are "
-        "sliders, with both "
-        "tables. [Setting the phase](../elliptic-gears.md#the-train) tells parts, strength and limits.",
+        "`mechwright solve` writes `figure-eight.html`, with sliders for phase and eccentricity and with "
+        "both tables. [The family's page](../elliptic-gears.md) has parts, strength and limits.",
     ]
 
 
@@ -265,8 +248,8 @@ FIGURES = (
     ("3", "pitch curves of a pair", "the same, with teeth: [picture](../images/elliptic-pair.svg)"),
     (
         "7",
-        "train from above and from the side, gear 4 at 0 as gear 2 stands at γ",
-        "planes of `layout.py`; the order of assembly is that of *setting the phase*",
+        "train from above and from the side, gear 4 at 0 while gear 2 is at γ",
+        "the order of assembly: [setting the phase](../elliptic-gears.md)",
     ),
     (
         "8",
@@ -314,32 +297,27 @@ def page() -> str:
         "",
         "<!-- written by elliptic_gears.py in this folder; do not edit -->",
         "",
-        "The source is the report NSC 94-2212-E-150-038 on elliptic gear trains that draw a figure "
-        "of eight with a variable "
-        "speed. It prints peak speeds and accelerations of point Q (table 3) and the parts of a "
-        "turn with near-constant "
-        "speed (table 2), and not the sizes behind them. One set reproduces all cells: a = 50 mm, "
-        "ω2 = 10 rad/s, "
-        "counter-clockwise, Q in the middle of the coupler, φ = −θ3(γ). [The "
-        "model](../elliptic-gears.md#the-train) has "
-        "the equations.",
+        "The source is the report NSC 94-2212-E-150-038 on elliptic gear trains that draw a figure of eight "
+        "with a variable speed. Table 3 prints peak speeds and accelerations of point Q, table 2 the parts "
+        "of a turn with near-constant speed. The dimensions are not printed. One set reproduces all cells: a "
+        "= 50 mm, ω2 = 10 rad/s, counter-clockwise, Q in the middle of the coupler, φ = −θ3(γ). [The "
+        "family's page](../elliptic-gears.md) has the equations.",
         "",
         "## Table 3: peaks of Q",
         "",
-        "Speeds in mm/s, accelerations in 1000 mm/s², θ2 in rad (the first of two mirrored peaks).",
+        "Speeds in mm/s, accelerations in 1000 mm/s², θ2 in rad (the first of two mirrored peaks). The error "
+        "is printed − computed.",
         "",
         *table3(rows),
         "",
-        f"20 of 20 speeds agree within {speed:.3%}, 19 of 20 accelerations within "
-        f"{acceleration:.3%}; the twentieth is a "
-        "misprint. The rest is rounding and a coarse grid: printed peaks mostly lie just below the "
-        "true ones.",
+        f"20 of 20 speeds agree within {speed:.3%}, 19 of 20 accelerations within {acceleration:.3%}; the "
+        "twentieth is a misprint. The differences come from rounding and a coarse grid: most printed peaks "
+        "lie just below the true ones.",
         "",
         "## Table 2: near-constant speed",
         "",
-        "The longest part of a turn, taken cyclically, on which the speed of Q spreads by at most "
-        "10 mm/s. θ2 in rad, "
-        "speeds in mm/s.",
+        "The window is the longest part of a turn, taken cyclically, on which the speed of Q spreads by at "
+        "most 10 mm/s. θ2 in rad, speeds in mm/s.",
         "",
         *table2(rows),
         "",
@@ -357,14 +335,12 @@ def page() -> str:
         "",
         "![Speed and acceleration of Q over a turn](../images/figure-eight-charts.svg)",
         "",
-        "Lines end at 3,500 mm/s and 350,000 mm/s² as the source's do; θ2 in rad. At γ = 0 and "
-        "e = 0.8 the peaks are 28,800 "
-        "and 26.6 million.",
+        "Lines end at 3,500 mm/s and 350,000 mm/s², as in the source; θ2 in rad. At γ = 0 and e = 0.8 the "
+        "peaks are 28,800 and 26.6 million.",
         "",
         "## Errata of the source",
         "",
-        "Roots, brackets and some signs are lost in the text at hand, so what is said of printed "
-        "equations is a reading.",
+        "Roots, brackets and some signs are lost in the text at hand; printed equations are as read.",
         "",
         *errata(rows),
     ]

@@ -17,6 +17,7 @@ from mechwright.mechanics.laws import LAWS, Law
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.figures import straight_peaks
 from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Frame, stroke
+from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.rules.slots import REGIMES
 
@@ -92,31 +93,32 @@ def singularities() -> Iterator[list[str]]:
         yield [f"{100 * u[k]:g}", f"{wrong[k]:.8f}", f"{right[k]:.8f}", f"{square[k]:.8f}"]
 
 
+def prototype(slots: int, half: float, sign: int) -> Mechanism:
+    return mechanism_of(
+        GenevaParams(
+            slots=slots,
+            crank_half_angle=half,
+            offset_angle=12.0 * sign,
+            entry_radius=70,
+            roller_radius=5,
+            groove_clearance=0,
+        )
+    )
+
+
+def regime(sign: int) -> str:
+    """The regime, which all of them share."""
+    (found,) = {REGIMES[prototype(*one, sign).side] for one in PROTOTYPES}
+    return found
+
+
 def prototypes(sign: int) -> Iterator[list[str]]:
     for slots, half in PROTOTYPES:
-        m = mechanism_of(
-            GenevaParams(
-                slots=slots,
-                crank_half_angle=half,
-                offset_angle=12.0 * sign,
-                entry_radius=70,
-                roller_radius=5,
-                groove_clearance=0,
-            )
-        )
+        m = prototype(slots, half, sign)
         limit, web = m.measures.island_limit.item(), m.measures.web.item()
-        verdict = "undercut" if limit <= m.roller else ("clean" if m.measures.width.item() > 0 else "loop")
-        yield [
-            f"{slots}",
-            f"{half:g}",
-            f"{m.axes:.4f}",
-            f"{m.crank:.4f}",
-            f"{m.bottom:.3f}",
-            REGIMES[m.side],
-            f"{limit:.3f}",
-            f"{web:.2f}",
-            verdict,
-        ]
+        verdict = ", undercut" if limit <= m.roller else ("" if m.measures.width.item() > 0 else ", loop")
+        lengths = f"{m.axes:.4f}", f"{m.crank:.4f}", f"{m.bottom:.3f}"
+        yield [f"{slots}", f"{half:g}", *lengths, f"{limit:.3f}{verdict}", f"{web:.2f}"]
 
 
 def against_straight() -> Iterator[list[str]]:
@@ -141,29 +143,23 @@ def figures() -> str:
     rows = [
         [
             "1",
-            "a family of curves and its envelope, from a textbook",
-            "a wall is the envelope of the roller: *Points of the walls* above, and the picture of figure 6, "
-            "where the roller touches both walls",
+            "a family of curves and its envelope",
+            "the walls are the envelope of the roller: picture of figure 6",
         ],
-        [
-            "2, 4, 5",
-            "lost with pages 4 and 6",
-            "frames, angles and the offset angle: [Motion](../geneva.md#motion) of the family's page",
-        ],
+        ["2, 4, 5", "lost with pages 4 and 6", "angles and offset angle: [the family's page](../geneva.md)"],
         [
             "3",
-            "inversion, the wheel held: equation (2)",
-            "the roller's way on the wheel, thin in the picture of figure 6; its centre in *Points of the "
-            "walls*",
+            "inversion, the wheel fixed: equation (2)",
+            "the roller's path: thin line of figure 6",
         ],
         [
             "(a), after (30)",
-            "slots without undercut; lost with page 12, the design is ours",
+            "slots without undercut; lost with page 12",
             picture(undercut_ones[1][0], undercut_ones[1][1]),
         ],
         [
             "(b), after (30)",
-            "undercut; lost with page 12, the designs are ours",
+            "undercut; lost with page 12",
             " ".join(picture(name, shows) for name, shows, _ in (undercut_ones[0], undercut_ones[2])),
         ],
         [
@@ -173,29 +169,18 @@ def figures() -> str:
         ],
         [
             "7",
-            "named in the text before that picture, whose caption says 6; one whose own caption says 7 would "
-            "stand on the lost page 14, *2.8 Simulation*",
-            "the numbers that the text gives for 7: the first two rows of *Figure 6* above; a simulation of "
-            "any design: `motion.html`, as of [geneva-cycloidal](../../examples/geneva-cycloidal.toml)",
+            "named before figure 6; lost with page 14, *2.8 Simulation*, if it was another",
+            "its numbers: the first two rows of *Figure 6* above; moving: "
+            "[geneva-cycloidal](../../examples/geneva-cycloidal.toml)",
         ],
         [
             "8, 9",
-            "assembly, two views, without sizes",
-            "`assembly.html` and `assembly-drawing.pdf` of "
-            "[geneva-machine](../../examples/geneva-machine.toml), the prototype as a machine",
+            "assembly, two views, without dimensions",
+            "`assembly.html`, `assembly-drawing.pdf` of [geneva-machine](../../examples/geneva-machine.toml)",
         ],
-        [
-            "10",
-            "stop wheel",
-            "`locking-disc` of the machine, pale red in the pictures of 16 to 18; the wheel that it stops is "
-            "blue",
-        ],
-        ["11", "camshaft", "`shaft-driver` of the machine: drawing `shaft-driver.pdf`, in ball bearings"],
-        [
-            "12 to 15",
-            "lost with page 16: parts, by their neighbours",
-            "base, bearing plates, wheel and its shaft of the machine, each with a drawing or a program",
-        ],
+        ["10", "stop wheel", "`locking-disc`, pale red in the pictures of 16 to 18; the wheel is blue"],
+        ["11", "camshaft", "`shaft-driver` in ball bearings: `shaft-driver.pdf`"],
+        ["12 to 15", "parts; lost with page 16", "base, bearing plates, wheel and its shaft"],
         *(
             [
                 number,
@@ -204,13 +189,12 @@ def figures() -> str:
             ]
             for number, name in zip(("16", "17", "18"), geneva_machine.SHARE, strict=True)
         ),
-        ["19", "view from above", picture("geneva-machine-side", "19: from the side of the axes")],
-        ["20", "view from the side", picture("geneva-machine-end-on", "20: along the line of the axes")],
+        ["19", "view from above", picture("geneva-machine-side", "19: from the side")],
+        ["20", "view from the side", picture("geneva-machine-end-on", "20: end on")],
         [
             "text after 20",
-            "motor with reversible speed control; from the slowest to the fastest no interference",
-            '`direction = "both"`, a motor found for both; no two of the 64 bodies meet over the turn, whose '
-            "places are the same in both directions",
+            "reversible motor; no interference at any speed",
+            '`direction = "both"`; no two of the 64 bodies meet over the turn, in either direction',
         ],
     ]
     return table(["figure", "shows", "ours"], rows)
@@ -231,47 +215,36 @@ def page() -> str:
 
 <!-- written by geneva.py in this folder; do not edit -->
 
-The source is a study of a Geneva mechanism whose curved slots are the envelope of the roller under a \
-chosen motion law. \
-Only its odd pages are there: the definition of the offset angle, the sizes of the prototype and the \
-figures are missing. \
-[The page of the family](../geneva.md) has the model; this one compares.
+The source is a study of a Geneva mechanism whose curved slots are the envelope of the roller under a chosen \
+motion law. Only its odd pages survive: the definition of the offset angle, the dimensions of the prototype \
+and figures are missing. [The page of the family](../geneva.md) has the model; this page compares.
 
 ## Model
 
-The wheel's axis is the origin, the crank's axis lies at a on +x; the crank turns clockwise. θw0 and θd0 \
-are *half* \
-angles. With W = θw0 + θoff and φ = θd0 - θd:
+The wheel's axis is the origin, the crank's axis lies at a on +x, and the crank turns clockwise. θw0 and θd0 \
+are *half* angles. With W = θw0 + θoff and φ = θd0 - θd:
 
 * b = l sin W / sin θd0, a = l cos W + b cos θd0, a - b = l cos(W + θd0/2) / cos(θd0/2);
 * the roller's centre on the wheel is (a - b exp(iφ)) exp(-iθw), equation (2) with r = 0;
-* the walls lie at ± r along the normal of that way: α = atan2(a θw' sin φ, (1 + θw') b - a θw' cos φ), \
-equation (3), \
-and α + π.
+* the walls lie at ± r along the normal of that path: α = atan2(a θw' sin φ, (1 + θw') b - a θw' cos φ), \
+equation (3), and α + π.
 
-θoff is read as half the angle between the two mouths, with a sign. The source has no page left that says \
-so; with \
-θoff = 0 both ways of a slot end in one mouth, and its walls cross: the loop that the source describes.
+θoff is read as half the angle between the two mouths, with a sign; no surviving page defines it. With \
+θoff = 0 both paths of a slot end in one mouth, and its walls cross: the loop that the source describes.
 
-## What is wrong in the source
+## Errata of the source
 
 1. **Figure 6.** The loop point is printed at θd = 11.7177 and 108.2823 degrees, (57.9668, -57.9668). All \
-digits come out \
-with the 3-4-5 law, though the text chooses the cycloid, and with dθw/du in place of θw' = dθw/dθd: the \
-factor 1/(2 θd0) of \
-the chain rule is missing. That wall is no envelope: it is up to {error:.4f} mm off, and the printed point \
-lies {away:.4f} \
-mm from the roller's way, less than r = 4.
+digits follow from the 3-4-5 law, though the text chooses the cycloid, with dθw/du in place of \
+θw' = dθw/dθd. The factor 1/(2 θd0) of the chain rule is missing. That wall is no envelope: its error is \
+up to {error:.4f} mm. The printed point lies {away:.4f} mm from the roller's path, less than r = 4.
 2. **Equation (3)** needs atan2: where θw' (a cos φ - b) > b, the plain arc tangent exchanges both walls.
 3. **Equations (28) to (30)**: the terms with θw'' of ∂f/∂θd are missing, and sin φ and cos φ are exchanged \
-in the \
-brackets of the relative velocity. The printed F never comes near 0 where the wall is undercut.
-4. **F = 0** finds undercut only by touching 0, and it is 0 at a cusp of the roller's way as well, which is \
-none. \
-The sign of 1 ∓ κr decides both.
+in the brackets of the relative velocity. The printed F never comes near 0 where the wall is undercut.
+4. **F = 0** finds undercut only by touching 0. F is also 0 at a cusp of the roller's path, which is no \
+undercut. The sign of 1 ∓ κr decides both.
 5. **Equation (33)** as printed is not the cycloid of a stroke: θw = 2 θw0 (u - sin(2πu)/2π), u = θd/(2 θd0).
-6. **Equation (2)**: the signs of the lower row, as far as they can be read, do not give the inverted \
-position.
+6. **Equation (2)**: the signs of the lower row, as far as legible, do not give the inverted position.
 7. F ≠ 0 excludes undercut only. Loop, mouths, island and web are conditions of their own.
 
 ## Figure 6: where the walls of one slot meet
@@ -280,7 +253,7 @@ position.
 
 {table(["law", "θd1, deg", "θd2, deg", "x, mm", "M_crit", "r_crit, mm"], loops())}
 
-With an offset angle of at least {least:.4f} degrees the mouths part and the loop is gone: sin θoff ≥ (r/l) \
+An offset angle of at least {least:.4f} degrees parts the mouths and removes the loop: sin θoff ≥ (r/l) \
 sin(θw0 + θd0).
 
 ## F of equation (30)
@@ -295,43 +268,41 @@ At mid stroke M_crit = ((1 + p) - N p)² / ((1 + p)² - N p²) = \
 
 ## Points of the walls
 
-The same design; wheel's frame at θw = 0, mm.
+The design of the last section, in the wheel's frame at θw = 0, mm.
 
 {table(["θd, deg", "θw, deg", "centre", "wall α", "wall α + π"], walls())}
 
 ## The prototype
 
-Given are l = 70, θoff = 12 degrees, r = 5, thickness 10 mm and the cycloid; the number of slots and the \
-crank's angle are \
-not. These can be made (a, b, a - b, critical roller, web in mm):
+The source gives l = 70, θoff = 12 degrees, r = 5, thickness 10 mm and the cycloid, but neither the number \
+of slots nor the crank's angle. These can be made, without undercut or loop (lengths in mm):
 
-{table(["n", "θd0", "a", "b", "a - b", "regime", "r_crit", "web", ""], prototypes(1))}
+{table(["n", "θd0", "a", "b", "a - b", "r_crit", "web"], prototypes(1))}
 
-With θoff = -12 degrees, in regime B, the slots are shorter and the webs wider:
+All are in regime {regime(1)}. With θoff = -12 degrees, in regime {regime(-1)}, the slots are shorter and \
+the webs wider:
 
-{table(["n", "θd0", "a", "b", "a - b", "regime", "r_crit", "web", ""], prototypes(-1))}
+{table(["n", "θd0", "a", "b", "a - b", "r_crit", "web"], prototypes(-1))}
 
-`examples/geneva-prototype.toml` takes n = 4 and θd0 = 45 degrees: an inference, since it is the pair with \
-θd0 = 90 - 180/n, not a fact of the source. The pair of Figure 6, 45 and 60 degrees, is impossible with 12 \
-degrees: \
-a - b would be \
+`examples/geneva-prototype.toml` takes n = 4 and θd0 = 45 degrees. This is an inference, no fact of the \
+source: the pair has θd0 = 90 - 180/n. The pair of Figure 6, 45 and 60 degrees, is impossible with 12 \
+degrees: a - b would be \
 {mechanism_of(GenevaParams(crank_half_angle=60, offset_angle=12, entry_radius=70)).bottom:.4f} mm, less \
 than r.
 
 ## Curved against straight
 
-Peaks of θw', θw'', θw''' of the straight slot, whose jerk is infinite at its ends besides, and of θw'' \
-with the same \
-crank angle. Bold: higher than straight. From six slots on the cycloid accelerates more than the straight \
-slot.
+Peaks of θw', θw'', θw''' of the straight slot, whose jerk is infinite at its ends, and of θw'' of curved \
+slots with the same crank angle. Bold: higher than straight. From six slots on, the cycloid accelerates more \
+than the straight slot.
 
 {table(["n", "θw'", "θw''", "θw'''", "cycloidal", "modified sine", "modified trapezoid"], against_straight())}
 
 ## A driver whose speed varies
 
 Equations (6) and (7) with (8), ωd constant, and (9) are one case. In general ωw = θw' w, αw = θw'' \
-w² + θw' α, jw = θw''' w³ + 3 θw'' w α + θw' j, w, α and j signed; backwards w < 0. The design of \
-the walls above:
+w² + θw' α, jw = θw''' w³ + 3 θw'' w α + θw' j, with w, α and j signed; w < 0 backwards. The design of the \
+walls above:
 
 {table(["θd, deg", "w", "α", "j", "ωw", "αw", "jw"], driver.instants())}
 
@@ -339,26 +310,25 @@ Peaks over a stroke, rad/s, rad/s², rad/s³; harmonic is w = 2π (1 + v cos(θd
 
 {table(["driver", "time, s", "ωw", "αw", "jw"], driver.peaks())}
 
-Which wall carries follows from the torque J (θw'' w² + θw' α) with the load and from the lever, \
-which changes its sign in the middle. J = 0.01 kg m², 60 rev/min, clearance 0.08 mm; the angles of \
-the crank at which the wall changes, the wall from there on, and the speed with which the roller \
-meets it:
+The wall that carries follows from the torque J (θw'' w² + θw' α) with the load and from the lever, which \
+changes its sign at mid stroke. J = 0.01 kg m², 60 rev/min, clearance 0.08 mm. Each cell gives the crank \
+angles in degrees at which the wall changes, the wall from there on, and in brackets the roller's impact \
+speed in mm/s:
 
-{table(["case", "direction", "changes, deg"], driver.carried())}
+{table(["case", "forwards", "backwards"], driver.carried())}
 
 ![Torque over the stroke, by the wall that carries](../images/geneva-walls.svg)
 
-With inertia alone the torque and the lever change their signs together, and the right wall carries \
-all of it, forwards and backwards alike. So a machine that runs both ways needs both walls as soon \
-as it carries a load.
+With inertia alone, torque and lever change their signs together: the right wall carries everything, \
+forwards and backwards. A machine that runs both ways needs both walls as soon as it carries a load.
 
 ## Figures
 
 {figures()}
 
-The source's loop is that of its printed numbers, of another law and without the chain rule; the \
-picture has equation (33). Of its machine it prints pictures without a size; ours stands on its base \
-with upright shafts, so that what the source sees from the front is seen from above here.
+The source's loop is that of its printed numbers; our picture has equation (33). The source prints its \
+machine without dimensions. Our machine has upright shafts, so the source's front view is our view from \
+above. Designs of lost figures are ours.
 """
 
 

@@ -90,15 +90,18 @@ def peaks() -> Iterator[list[str]]:
 
 
 def carried() -> Iterator[list[str]]:
+    """Where the wall that carries changes, forwards and backwards."""
     for name, table in CARRIED:
+        cells = []
         for direction in ("forwards", "backwards"):
             m = worked(**table, driver_direction=direction)
-            said = [
-                f"{math.degrees(one.theta):.6f} to {one.wall}"
-                + (f", {one.impact:.1f} mm/s" if one.impact is not None else "")
+            changes = [
+                f"{math.degrees(one.theta):.6f} {one.wall}"
+                + (f" ({one.impact:.1f})" if one.impact is not None else "")
                 for one in switches(m)
             ]
-            yield [name, direction, "; ".join(said) or "one wall, the right"]
+            cells.append(", ".join(changes) or "right only")
+        yield [name, *cells]
 
 
 def slot(table: dict[str, object]) -> str:

@@ -102,21 +102,17 @@ def page() -> str:
         "",
         "<!-- written by offset_slider_crank.py in this folder; do not edit -->",
         "",
-        "The source constructs, with auxiliary circles, the offset slider-crank of a stroke H and a time "
-        "ratio K when "
-        "one of crank a, rod b and offset e is given as well. The code solves the same triangle in "
-        "closed form; "
-        "[the family's page](../slider-crank.md#from-stroke-and-time-ratio) has the equations. Every "
-        "exact answer "
+        "The source constructs offset slider-cranks for a stroke H and a time ratio K with auxiliary "
+        "circles. One length is given as well: crank a, rod b or offset e. The code solves the same triangle "
+        "in closed form; [the family's page](../slider-crank.md) has the equations. Every exact answer "
         "here is simulated: H and K are measured on the motion, from the reversals of the slider's velocity.",
         "",
         f"## The example: H = {STROKE:g} mm, K = {RATIO:g}",
         "",
         *answers(),
         "",
-        f"The printed answers, read off a drawing, are up to {100 * worst_error():.1f} % off, and one of "
-        f"them is "
-        "no mechanism at all.",
+        f"The printed answers, read off a drawing, have errors of up to {100 * worst_error():.1f} %. One of "
+        "them cannot turn.",
         "",
         "Figure by figure:",
         "",
@@ -131,11 +127,10 @@ def page() -> str:
         "",
         "## Where solutions exist",
         "",
-        f"For this example θ = {theta:g}°, the crank lies between {allowed.crank[0]:.6f} and "
-        f"{allowed.crank[1]:g} mm, the "
-        f"rod between {allowed.rod[0]:g} and {allowed.rod[1]:.6f} mm, the offset between 0 and "
-        f"{allowed.offset[1]:.6f} mm; at the largest offset the crank only just turns, b = a + e. In general "
-        "1 < K < 3: at K = 3 (θ = 90°) nothing is left between both ends of the ranges.",
+        f"For this example θ = {theta:g}°. The crank lies between {allowed.crank[0]:.6f} and "
+        f"{allowed.crank[1]:g} mm, the rod between {allowed.rod[0]:g} and {allowed.rod[1]:.6f} mm, the "
+        f"offset between 0 and {allowed.offset[1]:.6f} mm. At the largest offset the crank only just turns: "
+        "b = a + e. In general 1 < K < 3; at K = 3 (θ = 90°) the ranges are empty.",
         "",
         f"With none of the three given, e = {top.offset:.9f} mm has the largest least transmission angle, "
         f"{degrees(top):.6f}° (a = {top.crank:.6f}, b = {top.rod:.6f} mm).",
@@ -155,14 +150,11 @@ def page() -> str:
         "| claim | verdict |",
         "| --- | --- |",
         "| L_AF = b / cos(θ/2), from which the construction follows | true; the printed B is b |",
-        "| the crank is shorter than H/2 | true, and incomplete: a is at least (H/2) tan(θ/2) as well, "
-        "and b and e "
+        "| the crank is shorter than H/2 | true, but incomplete: a is at least (H/2) tan(θ/2), and b and e "
         "have bounds too |",
-        "| with A on the circle, e and a grow together and b the other way | **false**: da/de = -(H/4) "
-        "tan(θ/2)/a is "
-        "below 0 and db/de = (H/4) cot(θ/2)/b above; e and b go together, a the other way, as the table "
-        "above and "
-        "the source's own three answers show |",
+        "| with A on the circle, e and a grow together, b the other way | **false**: da/de = -(H/4) "
+        "tan(θ/2)/a is below 0 and db/de = (H/4) cot(θ/2)/b above. e and b grow together, a the other way, "
+        "as the table and the source's own answers show |",
         f"| the accuracy of the drawing is enough for engineering | not here: errors of up to "
         f"{100 * worst_error():.1f} %, "
         "and one answer that cannot turn |",
@@ -171,14 +163,12 @@ def page() -> str:
         "",
         "1. Equation (3) is θ = 180° (K - 1)/(K + 1); the print has lost its signs.",
         "2. Equation (2): the numerator B is the rod's length b. The introduction's a, b, c are a, b, e.",
-        "3. Section 5 refers to all steps of section 4; only the first, which finds F, can be meant, "
-        "since a is not "
-        "known yet. Its third step must read L_AB = a, not half of it.",
+        "3. Section 5 refers to all steps of section 4. Only the first, which finds F, can be meant, since a "
+        "is not known yet. Its third step must read L_AB = a, not half of it.",
         "4. F is the middle of the smaller arc over the stroke. The other one gives a point A whose "
         "angle is 180° - θ.",
         "5. The two intersections of line and circle are mirror images: the same lengths, with the quick "
-        "return the "
-        "other way. The code gives both.",
+        "return reversed. The code gives both.",
         "",
     ]
     return "\n".join(lines)

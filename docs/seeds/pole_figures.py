@@ -116,7 +116,7 @@ BESIDE = (
     ("2", "slider-crank with the same", "poles-2-slider-crank", "50, 150, e = 20 mm, crank at 150°"),
     ("3 to 5", "lost with their pages", "", "nothing in the text refers to them"),
     ("6", "slider-crank, both branches, on the ground: symmetric about Y", "poles-6-locus", "the same "
-     "linkage; the other assembly dashed; the source's lengths are lost"),
+     "linkage, other assembly dashed; lengths of the source are lost"),
     ("(9, 10 lost)", "in the coupler: symmetric about x", "poles-6-locus-coupler", "our drawing of the "
      "statement under (18)"),
     ("7, 8", "slider-crank with c = a + e, and its locus", "poles-8-locus", "50, 75, e = 25 mm: one circuit "
@@ -126,9 +126,9 @@ BESIDE = (
     ("", "", "poles-four-bar-locus-coupler", "and in the coupler"),
     ("11, Tables 2, 3", "slider-crank through two poles", "poles-11-two-poles", "poles (60, −12.6) and "
      "(41.2, 41.6), 47° apart; the tables' numbers are lost"),
-    ("12, Tables 4, 5", "crank-rocker through two poles with a given ground angle", "poles-12-three-poles",
+    ("12, Tables 4, 5", "crank-rocker through two poles, ground angle given", "poles-12-three-poles",
      "through three poles, (46.8, 81.8), (−10.6, 117.2), (59.6, 116.6)"),
-    ("Table 1", "degrees and circular points", "", "the tables of both linkages below"),
+    ("Table 1", "degrees and circular points", "", "both tables of loci below"),
 )  # fmt: skip
 """Figure, what it shows, our picture, and what is in it."""
 
@@ -137,7 +137,7 @@ def figures() -> list[str]:
     """The part of the page that goes through the figures."""
     rows = ["## Figures, one by one", "", "| figure | shows | ours | of |", "| --- | --- | --- | --- |"]
     for number, shows, name, of in BESIDE:
-        ours = f"![{shows or of}](../images/{name}.svg)" if name else "none"
+        ours = f"![{name.replace('-', ' ')}](../images/{name}.svg)" if name else "none"
         rows.append(f"| {number} | {shows} | {ours} | {of} |")
     return [*rows, ""]
 

@@ -142,20 +142,22 @@ def six_bars() -> list[str]:
     return [
         "## Six-bars",
         "",
-        "The source ends with four links. G = A − a_A/(i α − ω²) holds for any body, and a six-bar is a "
-        "four-bar with one more dyad: on a point C of the coupler (Stephenson) or of the follower (Watt), "
-        "the link C-D, held by D-E0. `mechwright.mechanics.planar` solves any such machine; the family "
-        "[`linkage`](../linkage.md) builds it. "
-        f"Four-bar 40, 120, 80, 100, E0 in ({PIVOT.real:g}, {PIVOT.imag:g}); C in (60, 50) of the coupler "
-        "from A, C-D 150, or in (60, −30) of the follower from B0, C-D 130; D-E0 110 mm. At the poles below "
-        f"differences of positions leave an acceleration of at most {on_ground:.0e} mm/rad².",
+        "The source ends with four links. G = A − a_A/(i α − ω²) holds for any body. A six-bar is a four-bar "
+        "with one more dyad: the link C-D on a point C of the coupler (Stephenson) or of the follower "
+        "(Watt), guided by D-E0. `mechwright.mechanics.planar` solves such machines; the family "
+        "[`linkage`](../linkage.md) builds them.",
+        "",
+        f"Four-bar 40, 120, 80, 100 mm, E0 in ({PIVOT.real:g}, {PIVOT.imag:g}), D-E0 110 mm. Stephenson: C "
+        "in (60, 50) of the coupler from A, C-D 150 mm. Watt: C in (60, −30) of the follower from B0, C-D "
+        f"130 mm. Differences of positions leave at most {on_ground:.0e} mm/rad² of acceleration there.",
         "",
         *table(),
         "",
-        "The same formula with the relative motion gives the pole of any link as seen from any other: the "
-        "point of C-D that has no acceleration relative to the crank, or to the link of the four-bar that it "
-        "is not pinned to, at constant speed of the crank. Of links that are pinned to each other it is the "
-        f"pin. Differences of the relative positions leave at most {of_links:.0e} mm/rad².",
+        "With the relative motion the formula gives the pole of any link relative to any other. The table "
+        "has the point of C-D without acceleration relative to two links: the crank, and the link of the "
+        "four-bar that C-D is not pinned to. The crank's speed is constant. For links pinned to each "
+        f"other the pole is the pin. Differences of the relative positions leave at most {of_links:.0e} "
+        "mm/rad².",
         "",
         *relative_table(),
         "",

@@ -131,27 +131,17 @@ def path_tables() -> list[str]:
         "",
         *paragraph(
             f"""**{count} of 14** printed numbers are the rounded ones of the model, from the printed pins.
-            The other two are one unit in the last place off, which the rounding of the pins explains. The
-            last column is the machine `examples/five-bar-published.toml`, R1 and R3 the same in both phases
-            as their links are: it misses the printed points by {np.abs(built - TABLE_2).max():.4f} at
-            most. To set phase 2 its crank is turned by {second.crank_turn:.4f}° and its rocker by
-            {second.rocker_turn:.4f}°."""
+            The other two differ by one unit in the last place, which the rounding of the pins explains. The
+            last column is the machine `examples/five-bar-published.toml`, whose links have one R1 and one R3
+            in both phases. Its coordinates differ from the printed ones by at most
+            {np.abs(built - TABLE_2).max():.4f}. Phase 2 is set by turning its crank by
+            {second.crank_turn:.4f}° and its rocker by {second.rocker_turn:.4f}°."""
         ),
         *table(
-            [
-                "position",
-                "phase",
-                "δθ",
-                "printed",
-                "computed",
-                "greatest difference",
-                "coupler angle",
-                "machine",
-            ],
+            ["position", "δθ", "printed", "computed", "difference", "coupler angle", "machine"],
             [
                 [
-                    str(n + 1),
-                    "1" if n < 4 else "2",
+                    f"{n + 1}, phase {1 if n < 4 else 2}",
                     f"{(*published_example.ANGLES, *published_example.ANGLES_N)[n]:g}°",
                     numbers(published_example.TABLE_2[n]),
                     numbers(found[n], 6),
@@ -171,27 +161,25 @@ def path_tables() -> list[str]:
         "## Tables 3 and 4: projected path points and pins",
         "",
         *paragraph(
-            f"""Length and radius are not in the extract; d = 5 and r = 1 are the only ones that give these
-            digits. **{on_path + on_pins} of 42** agree: {on_path} of 21 path coordinates and {on_pins}
-            of 21 pin coordinates. The last column is the machine
-            `examples/spherical-five-bar-refined.toml`, with one R1 and one R3, at the printed crank angles:
-            it misses the projected points by {np.abs(machine - path).max():.6f} of a coordinate at most. To
-            set phase 2 {spherical_machine.setting()}."""
+            f"""Length and radius are not in the extract; only d = 5 and r = 1 give these digits.
+            **{on_path + on_pins} of 42** agree: {on_path} of 21 path coordinates and {on_pins} of 21 pin
+            coordinates. The last column is the machine `examples/spherical-five-bar-refined.toml`, with one
+            R1 and one R3, at the printed crank angles. Its coordinates differ from the projected ones by
+            {np.abs(machine - path).max():.6f} at most. For phase 2 {spherical_machine.setting()}."""
         ),
         *table(
-            ["point", "printed", "computed", "", "machine"],
+            ["point", "printed", "computed", "machine"],
             [
                 [
                     f"p{n + 1}",
                     numbers(TABLE_3[n]),
-                    numbers(path[n], 6),
-                    verdict(path[n], TABLE_3[n]),
+                    numbers(path[n], 6) + verdict(path[n], TABLE_3[n]),
                     numbers(machine[n], 6),
                 ]
                 for n in range(7)
             ]
             + [
-                [name, numbers(TABLE_4[name]), numbers(at, 6), verdict(at, TABLE_4[name]), ""]
+                [name, numbers(TABLE_4[name]), numbers(at, 6) + verdict(at, TABLE_4[name]), "-"]
                 for name, at in pins.items()
             ],
         ),
@@ -200,13 +188,13 @@ def path_tables() -> list[str]:
 
 
 def verdict(found: Array, wanted: Sequence[float]) -> str:
-    """Which coordinates differ."""
+    """Which coordinates differ from the printed ones; empty where none does."""
     bad = [
-        f"{axis}: {w:.4f} printed, {f:.4f} computed"
+        f" ({axis}: **{f:.4f}** for {w:.4f})"
         for axis, f, w in zip("xyz", found, wanted, strict=True)
         if round(float(f), 4) != w
     ]
-    return "; ".join(bad) or "agrees"
+    return "".join(bad)
 
 
 def dyad_table() -> list[str]:
@@ -230,8 +218,8 @@ def dyad_table() -> list[str]:
         "## Planar synthesis",
         "",
         *paragraph(
-            """From the source's first guesses. The source writes five equations per dyad and leaves the
-            two positions of adjustment out; with them there are seven, solved by least squares, and
+            """The search starts from the source's first guesses. The source writes five equations per dyad
+            and omits the two positions of adjustment. With them there are seven, solved by least squares and
             better conditioned. Points of four decimals carry no digit of a0y."""
         ),
         *table(["", "a0y, a1, a1n", "condition", "c1, c1n, R3", "condition"], rows),
@@ -266,24 +254,22 @@ def error_tables() -> list[str]:
     return [
         "## Structural error over the projection length",
         "",
-        "Error times d, which is the error at the scale of the plane; each phase with its own arcs.",
+        "Error times d is the error at the scale of the plane. Each phase has its own arcs.",
         "",
         "![Structural error times d over d](../images/spherical-structural-error.svg)",
         "",
         *table(["d", *(f"position {n}" for n in MOVING), "rms of all"], rows),
         *paragraph(
-            f"""Position 7, the one that figure 12 shows, rises to {top[1]:.5f} at d = {top[0]:.4f} and then
-            falls for ever; position 4 is the worst one at every length, {worst[1]:.4f} at d =
-            {worst[0]:.2f}. **There is no optimum**: for long projections the error times d goes with
-            K/d², K = {said}. What can be said is the length from which on a tolerance is met:"""
+            f"""Position 7, which figure 12 shows, rises to {top[1]:.5f} at d = {top[0]:.4f} and then falls
+            without end. Position 4 is the worst at every length: {worst[1]:.4f} at d = {worst[0]:.2f}.
+            **There is no optimum**: for long projections the error times d goes with K/d², K = {said}. Each
+            tolerance is met from a certain length on:"""
         ),
         *table(["tolerance", "position 7", "all positions", "all, with the best centre"], smallest),
         *paragraph(
-            "The source puts the projection's centre on a0, a corner of the mechanism. Moving it is free:"
+            "The source puts the projection's centre on a0, a corner of the mechanism. Better centres:"
         ),
-        *table(
-            ["d", "best centre", "worst error × d, centre (0, 0)", "with the best centre", "gain"], centres
-        ),
+        *table(["d", "best centre", "worst error × d at (0, 0)", "at the best", "gain"], centres),
     ]
 
 
@@ -303,16 +289,16 @@ def lost_arcs() -> list[str]:
         "## Lengths after the projection",
         "",
         *paragraph(
-            f"""R1 is {r1:.4f}° in phase 1 and {r1n:.4f}° in phase 2, R3 is {r3:.4f}° and {r3n:.4f}°: the
-            projected Table 4 is no mechanism of constant R3, although the planar one is. With the mean
-            arcs the rms error at d = 5 is {equal:.4e} in place of {own:.4e}. The coupler's slots run
+            f"""R1 is {r1:.4f}° in phase 1 and {r1n:.4f}° in phase 2; R3 is {r3:.4f}° and {r3n:.4f}°. The
+            projected Table 4 therefore has no constant R3, although the planar mechanism has one. With the
+            mean arcs the rms error at d = 5 is {equal:.4e} in place of {own:.4e}. The coupler's slots run
             about a0 over {slots[0]:.4f}° and about b1 over {slots[1]:.4f}°."""
         ),
         *paragraph(
-            f"""The axes a0 and b0 meet at {math.degrees(shafts):.4f}°, so that the "2:1 gear ratio" is a
-            bevel drive, and both links turn the same way: an internal pair with pitch cones of
-            {cones[0]:.4f}° and {cones[1]:.4f}°, or an external one ({cones[2]:.4f}° and {cones[3]:.4f}°
-            if they touched) with an idler."""
+            f"""The axes a0 and b0 meet at {math.degrees(shafts):.4f}°, so the "2:1 gear ratio" is a bevel
+            drive. Both links turn the same way: an internal pair with pitch cones of {cones[0]:.4f}° and
+            {cones[1]:.4f}°, or an external one ({cones[2]:.4f}° and {cones[3]:.4f}° if they touched) with an
+            idler."""
         ),
     ]
 
@@ -339,14 +325,14 @@ def fits() -> list[str]:
         "## Direct synthesis on the sphere",
         "",
         *paragraph(
-            """Six unknowns: R1, R3 and the azimuths of a1, a1n, c1, c1n, with a0, b0 and b1 as they are;
-            R1 and R3 are common to both phases by construction. Twelve: the axes a0, b0 and the pin b1
-            as well, two more than there are equations. Greatest errors on the unit sphere:"""
+            """Six unknowns are R1, R3 and the azimuths of a1, a1n, c1, c1n, with a0, b0 and b1 as they are.
+            R1 and R3 are common to both phases by construction. Twelve unknowns add the axes a0, b0 and the
+            pin b1: two more than there are equations. Greatest errors on the unit sphere:"""
         ),
         *table(["d", "projected", "six unknowns", "times better", "twelve unknowns"], rows),
         *paragraph(
-            f"""At d = 5 the six unknowns bring the rms error to {best.rms:.3e}. The error of the projection
-            method can be avoided altogether, and with it the reason for a large d."""
+            f"""At d = 5 the six unknowns bring the rms error to {best.rms:.3e}. Twelve unknowns avoid the
+            error of the projection, and with it the reason for a large d."""
         ),
         *table(["pin, d = 5", "projected", "six unknowns"], pins),
     ]
@@ -354,20 +340,20 @@ def fits() -> list[str]:
 
 ERRATA = """## Errata of the source
 
-1. Equation 4: the "2x y d" is √(x² + y² + d²) with its exponents detached; there is no factor 2.
+1. Equation 4: the "2x y d" is √(x² + y² + d²) with detached exponents; there is no factor 2.
 2. Equation 2: the condition d ≤ r contradicts the example (d = 5, r = 1) and is not needed.
-3. Length and radius of the example are not in the extract: 5 and 1.
-4. Table 3, position 6: z is printed 0.9322, the projection of Table 2 gives 0.9323.
-5. Table 3 is headed "prescribed", but is the projection of the *achieved* points of Table 2.
+3. Length and radius of the example are missing: 5 and 1.
+4. Table 3, position 6: z is printed 0.9322; the projection of Table 2 gives 0.9323.
+5. Table 3 is headed "prescribed" and holds the projection of the *achieved* points of Table 2.
 6. "Five of the five unknowns in b1, c1 and c1n": b1 follows from b0, R4 and φ1; the unknowns are c1, c1n, R3.
-7. Five equations leave out both positions of adjustment; with them each dyad is over-determined by two.
-8. R3 is printed as 1.3016; the pins of phase 2 give 1.3015: rounding.
-9. Constant R3 is lost by the projection, see above.
-10. "Optimised" d: the plotted quantity has no minimum, and is plotted for a position that is not the worst.
+7. Five equations omit both positions of adjustment; with them each dyad is over-determined by two.
+8. R3 is printed as 1.3016; the pins of phase 2 give 1.3015, by rounding.
+9. The projection loses the constant R3: *Lengths after the projection*.
+10. "Optimised" d: the plotted quantity has no minimum, and its position is not the worst.
 11. A "2:1 gear ratio" for two links that turn alike needs an internal pair or an idler; here, of bevels.
-12. The introduction has 3 + 3 points (p1 p2 p3, p1 p4 p5), the example 4 + 3 with p5 = p1: p4 and p5 mean
-    different things in the two places.
-13. Figure 2(a) shows a four-bar with b1 and b1n; there are no numbers of it in the extract.
+12. The introduction has 3 + 3 points (p1 p2 p3, p1 p4 p5), the example 4 + 3 with p5 = p1. p4 and p5 have
+    two meanings.
+13. Figure 2(a) shows a four-bar with b1 and b1n; the extract has no numbers of it.
 14. Names of authors in the references look misspelt.
 """
 
@@ -378,10 +364,10 @@ INTRODUCTION = [
     "",
     *paragraph(
         """The source is a report on adjustable spherical five-bar path generators by projection. Only its
-        odd pages survive: the equations of synthesis and analysis, the prescribed points and the results are
-        not in the extract. What the code computes from the printed pins confirms the reading: crank a0-a1,
-        coupler a1-c1 with the path point p, rocker c1-b1, arm b0-b1 geared to the crank by δφ = 0.5 δθ, both
-        the same way; the machine is adjusted in position 1 = 5."""
+        odd pages survive: equations, prescribed points and results are missing. The code, run on the printed
+        pins, confirms this reading. Crank a0-a1, coupler a1-c1 with the path point p, rocker c1-b1, and arm
+        b0-b1, which gears turn with the crank by δφ = 0.5 δθ in the same sense. The machine is adjusted in
+        position 1 = 5."""
     ),
 ]
 

@@ -181,42 +181,36 @@ def pictures(design: PlanarDesign) -> dict[str, Callable[[], str]]:
 
 
 FIGURES = """
-1 | a five-bar as a tooling mechanism, the tool on the coupler | the planar machine of figure 10 below, the
-tool in the coupler's point; on the sphere `examples/spherical-five-bar-refined.toml`
+1 | five-bar as a tooling mechanism, tool on the coupler | figure 10 below; on the sphere
+`examples/spherical-five-bar-refined.toml`
 
-2 (a) | a four-bar, a1, a1n, b1, b1n, points p1 to p8 with p5 = p1; no numbers | picture below: points of
-our own. Family `four-bar`, `phases` and the requirement `adjustable-path`, built in
-`examples/four-bar-slots.toml`, on the sphere in `examples/spherical-four-bar-slots.toml`
+2 (a) | four-bar, a1, a1n, b1, b1n, points p1 to p8, p5 = p1; no numbers | below, with points of ours;
+`examples/four-bar-slots.toml`, on the sphere `examples/spherical-four-bar-slots.toml`
 
-2 (b) | a five-bar, a1, a1n, c1, c1n, b1 kept | picture below, from the printed pins; with three phases
+2 (b) | five-bar, a1, a1n, c1, c1n, b1 kept | below, from the printed pins; three phases:
 `examples/five-bar-three-phases.toml`
 
-3 | a spherical 4R linkage | `kind = "four-bar"`
+3, 5 | spherical 4R linkage; Infinity Fan, a 4R that carries a body, without numbers | `kind = "four-bar"`
 
-4 | the Agile Eye | not in reach: three degrees of freedom, neither a four- nor a five-bar
+4 | Agile Eye | none: it has three degrees of freedom
 
-5 | the Infinity Fan | a 4R that carries a body: `kind = "four-bar"`; there are no numbers of it
+6, 7 | the projection in space, and its section | below, with two lengths
 
-6, 7 | the projection in space and its section | picture below, with two lengths; `projection.project`
+8 | lost: displacement of a dyad | Planar synthesis
 
-8 | lost with its page: the displacement of a dyad, by what refers to it | `planar_synthesis.displaced`;
-section Planar synthesis
+9 | driving angles, unknowns, first guesses, results | Planar synthesis
 
-9 | driving angles, unknowns, first guesses, results | section Planar synthesis, five and seven equations
+Table 1 | lost: prescribed points and coupler angles | angles of Table 2
 
-Table 1 | lost: prescribed points and coupler angles | angles in Table 2 below, as computed
+10, Table 2 | planar five-bar, seven points, 2:1 gears | below:
+`examples/five-bar-published.toml`, with its gears
 
-10, Table 2 | the planar five-bar, seven points, 2:1 gears | picture below: the machine with its gears,
-`examples/five-bar-published.toml`; Table 2 below
+11 | lost: structural error of another position | below: all positions of phase 1
 
-11 | lost: structural error of another position, by its neighbour | picture below: all positions of phase
-1
+12 | structural error times d of position 7, axis to 0.040 | below: all positions of phase 2
 
-12 | structural error times d of position 7, axis to 0.040 | picture below: all positions of phase 2
-
-13, Tables 3, 4 | the spherical mechanism, pins and points | picture below and
-`examples/spherical-five-bar-refined.toml`, one machine for both phases; tables below; the gap of R3, 0.1403°,
-in Lengths after the projection
+13, Tables 3, 4 | spherical mechanism, pins and points | below; `examples/spherical-five-bar-refined.toml`,
+one machine for both phases; the gap of R3 is 0.1403°
 """
 """Figure, what the source has, and what answers it here; blocks that a blank line parts."""
 
@@ -239,5 +233,6 @@ def figure_lines() -> list[str]:
     lines = ["## Figure by figure", "", "| figure | the source | here |", "| --- | --- | --- |"]
     lines += [f"| {' '.join(block.split())} |" for block in FIGURES.strip().split("\n\n")]
     for name, said in CAPTIONS.items():
-        lines += ["", f"![{said}](../images/{name})", "", said]
+        figure = said.partition(":")[0]
+        lines += ["", f"![{figure}](../images/{name})", "", said]
     return [*lines, ""]

@@ -80,8 +80,7 @@ def test_the_page_is_what_the_code_says():
 
 def test_the_pictures_are_what_the_code_draws():
     pictures = script(ROOT / "docs" / "pictures.py")
-    for name in ("elliptic-pair.svg", "figure-eight.svg"):
-        draw = pictures.PICTURES[name]
+    for name, draw in pictures.PICTURES.items():
         drawn = (pictures.IMAGES / name).read_text(encoding="utf-8")
         assert drawn == draw(), f"{name}: run: python docs/pictures.py"
 

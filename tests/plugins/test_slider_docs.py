@@ -39,12 +39,17 @@ def test_the_page_of_a_seed_is_up_to_date(name):
     sys.modules[name] = module
     spec.loader.exec_module(module)
     assert module.PAGE.read_text(encoding="utf-8") == module.page(), f"run: python docs/seeds/{name}.py"
+    if name == "acceleration_poles":
+        assert module.FURTHER.read_text(encoding="utf-8") == module.further(), (
+            f"run: python docs/seeds/{name}.py"
+        )
 
 
 def test_pictures_of_the_poles_are_up_to_date_and_on_the_page():
     import pole_figures
 
-    page = (ROOT / "docs" / "seeds" / "acceleration-poles.md").read_text(encoding="utf-8")
+    pages = ("acceleration-poles", "acceleration-poles-further")
+    page = "".join((ROOT / "docs" / "seeds" / f"{one}.md").read_text(encoding="utf-8") for one in pages)
     for name, make in pole_figures.DRAWN.items():
         picture = (pole_figures.IMAGES / f"{name}.svg").read_text(encoding="utf-8")
         assert picture == make() + "\n", "run: python docs/seeds/acceleration_poles.py"
