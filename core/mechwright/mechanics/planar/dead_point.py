@@ -71,9 +71,9 @@ def cluster_limits(
     """
     curve = _Curve.of(machine, order)
     start = curve.drawn()
-    courses = [curve.course(start, 1.0, bounds[1])]
+    courses = [curve.from_drawn(start, 1.0, bounds[1])]
     if share > 0 or not turns or courses[0].end is not None:
-        courses.append(curve.course(start, -1.0, bounds[0]))
+        courses.append(curve.from_drawn(start, -1.0, bounds[0]))
     greatest = max(max(one.sines) for one in courses)
     ends = [curve.cut(one, share * greatest) for one in courses]
     return (ends[1] if len(ends) > 1 else None), ends[0]
@@ -119,7 +119,7 @@ class _Curve:
             raise KinematicsError(f"{', '.join(self.cluster.links)} do not close in the drawn pose")
         return found
 
-    def course(self, start: Array, sense: float, bound: float) -> _Course:
+    def from_drawn(self, start: Array, sense: float, bound: float) -> _Course:
         """The curve from the drawn pose on, followed once for all limits."""
         key, known = ("curve", self.cluster.links, sense, bound), self.machine.followed
         if key not in known:
