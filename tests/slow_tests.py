@@ -13,19 +13,14 @@ from xml.etree import ElementTree
 LIST = Path(__file__).with_name("slow_tests.txt")
 """Names of tests, one a line, as pytest gives them after ``tests/``."""
 
-SLOW, SLOW_ALONE = 0.2, 0.5
+SLOW, SLOW_ALONE = 0.12, 0.4
 """Seconds from which a case waits for the night, and from which the fastest case of a function does."""
 
 BY_DAY = (
     "test_cli.py::test_a_build_is_complete_and_the_same_every_time",
     "test_python.py::test_the_lines_of_the_readme_run",
-    "cam/test_pygcode.py::test_every_operation[fanuc]",
-    "cam/test_live_saving.py::test_one_of_several_saves_wins_over_two_servers",
-    "plugins/test_five_bar_contract.py::TestFiveBars::test_synthesis",
-    "plugins/test_elliptic_as_made.py::test_what_check_cannot_know_build_finds_out",
-    "plugins/test_frames.py::test_no_plate_of_a_machine_meets_another[geneva-machine]",
 )
-"""Slow tests that are run by day all the same: whole builds, and machines of several parts."""
+"""Slow tests that are run by day all the same: whole builds."""
 
 
 def listed() -> frozenset[str]:
