@@ -13,8 +13,8 @@ from xml.etree import ElementTree
 LIST = Path(__file__).with_name("slow_tests.txt")
 """Names of tests, one a line, as pytest gives them after ``tests/``."""
 
-SLOW, SLOW_ALONE = 0.12, 0.4
-"""Seconds from which a case waits for the night, and from which the fastest case of a function does."""
+SLOW, SLOW_ALONE, SLOW_FILE = 0.1, 0.3, 2.0
+"""Seconds from which a case waits for the night, the fastest case of a function, and the fastest test of a file."""
 
 BY_DAY = (
     "test_cli.py::test_a_build_is_complete_and_the_same_every_time",
@@ -43,7 +43,8 @@ def slow(times: Iterable[tuple[str, float]]) -> list[str]:
         first, *rest = sorted(several)
         found += [name for seconds, name in [first] if seconds >= SLOW_ALONE]
         found += [name for seconds, name in rest if seconds >= SLOW]
-    return sorted(set(found) - set(BY_DAY) - {min(tests)[1] for tests in files.values()})
+    fastest = {name for seconds, name in map(min, files.values()) if seconds < SLOW_FILE}
+    return sorted(set(found) - set(BY_DAY) - fastest)
 
 
 def read(report: Path) -> list[tuple[str, float]]:

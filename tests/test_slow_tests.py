@@ -27,8 +27,8 @@ def test_every_slow_test_is_there():
 
 def test_the_fastest_case_and_one_test_of_a_file_stay():
     times = [("a.py::test[1]", 9.0), ("a.py::test[2]", 0.01), ("a.py::other", 2.0), ("b.py::test", 30.0)]
-    assert slow_tests.slow(times) == ["a.py::other", "a.py::test[1]"]
-    assert slow_tests.slow([*times, ("b.py::quick", 0.01)]) == ["a.py::other", "a.py::test[1]", "b.py::test"]
+    assert slow_tests.slow(times) == ["a.py::other", "a.py::test[1]", "b.py::test"]
+    assert slow_tests.slow([*times, ("b.py::one", 1.5)]) == ["a.py::other", "a.py::test[1]", "b.py::test"]
 
 
 def test_a_report_is_read(tmp_path):

@@ -164,8 +164,8 @@ class _Way:
         off, way = (np.abs(each * scale).max(axis=-1) for each in (found - ahead[count:], two - one))
         sure = off <= QUARTER * way + 1e-6
         x[count:][sure] = found[sure]
-        closes = np.isfinite(x[:count]).all(axis=-1)
-        unsure = np.logical_not(sure | ~(closes[low, rows] | closes[high, rows]))
+        closes = np.asarray(np.isfinite(x[:count]).all(axis=-1))
+        unsure = ~sure & (closes[low, rows] | closes[high, rows])
         for row in np.flatnonzero(unsure.any(axis=0)).tolist():
             doubtful = unsure.T[row]
             for step in np.unique(low[doubtful, row]).tolist():
