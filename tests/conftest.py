@@ -48,8 +48,33 @@ YOUNG = 10_000
 and hypothesis make them by the thousand."""
 
 
+QUICK = (
+    "core/test_*.py",
+    "plugins/test_*_reference.py",
+    "cam/test_interpreter.py",
+    "cam/test_block_words.py",
+    "test_house.py",
+    "test_slow_tests.py",
+)
+"""Files of ``pytest -m quick``, which takes less than a minute: figures of every family, words of every control."""
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Read no other files for ``-m quick``."""
+    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+        return None
+    return True if not _is_quick(collection_path) else None
+
+
+def _is_quick(path: Path) -> bool:
+    return any(path.match(f"tests/{pattern}") for pattern in QUICK)
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave slow tests to the night, unless they are asked for by their file."""
+    """Mark quick tests, and leave slow ones to the night unless they are asked for by their file."""
+    for item in items:
+        if _is_quick(item.path):
+            item.add_marker("quick")
     if NIGHT or [Path(one).name for one in config.args] != config.getini("testpaths"):
         return
     slow = {f"tests/{name}" for name in listed()}
