@@ -9,10 +9,10 @@ import numpy as np
 from harness import require
 
 from mechwright_four_bar.kinematics.locus import locus
-from mechwright_four_bar.paths.asked import Limits, PathProblem
-from mechwright_four_bar.paths.search import search as path_search
-from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import search as pole_search
+from mechwright_four_bar.synthesis.paths.asked import Limits, PathProblem
+from mechwright_four_bar.synthesis.paths.search import search as path_search
+from mechwright_four_bar.synthesis.poles.equations import PoleProblem
+from mechwright_four_bar.synthesis.poles.search import search as pole_search
 
 LINE = 20 + 1j * np.arange(20.0, 46.0, 5.0)
 CLOSED = np.array(

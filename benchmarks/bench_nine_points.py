@@ -9,11 +9,11 @@ import time
 import numpy as np
 from harness import require
 
-from mechwright_four_bar.burmester.rectify import Way, way_through
-from mechwright_four_bar.nine.solving import all_triples
-from mechwright_four_bar.nine.start import start
-from mechwright_four_bar.nine.synthesis import drawn
-from mechwright_four_bar.nine.triples import TRIPLES, members
+from mechwright_four_bar.synthesis.burmester.rectify import Way, way_through
+from mechwright_four_bar.synthesis.nine.solving import all_triples
+from mechwright_four_bar.synthesis.nine.start import start
+from mechwright_four_bar.synthesis.nine.synthesis import drawn
+from mechwright_four_bar.synthesis.nine.triples import TRIPLES, members
 
 SECONDS = 30.0
 

@@ -18,10 +18,10 @@ from harness import require
 from known_paths import Problem, five_bar, kind_of, passed, quiet, slider_crank, spherical
 
 from mechwright_four_bar.kinematics.dimensions import FourBar
-from mechwright_four_bar.paths.asked import Limits, PathProblem
-from mechwright_four_bar.paths.search import ROUND as FOUR_BAR_ROUND
-from mechwright_four_bar.paths.search import path, search
-from mechwright_four_bar.paths.starts import link_lengths
+from mechwright_four_bar.synthesis.paths.asked import Limits, PathProblem
+from mechwright_four_bar.synthesis.paths.search import ROUND as FOUR_BAR_ROUND
+from mechwright_four_bar.synthesis.paths.search import path, search
+from mechwright_four_bar.synthesis.paths.starts import link_lengths
 
 NEAR = 1e-6
 SECONDS = 10.0

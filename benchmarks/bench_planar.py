@@ -10,9 +10,9 @@ from fractions import Fraction
 import numpy as np
 from harness import race, report, require
 
+from mechwright_slider_crank.kinematics.locus import locus
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.locus import locus
-from mechwright_slider_crank.poles_synthesis import through_poles
+from mechwright_slider_crank.synthesis.poles.synthesis import through_poles
 
 POSITIONS = 100_000
 SLIDER = SliderCrank(50.0, 150.0, 20.0)

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from mechwright.mechanics.tracing.search import ROUND, search
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.paths.room import Limits, SliderRoom
+from mechwright_slider_crank.synthesis.paths.room import Limits, SliderRoom
 from mechwright_spherical.kinematics.mobility import mobility
 from mechwright_spherical.requirements import FourBarPathRequirement
 from mechwright_spherical.synthesis.five_bar_limits import ARCS, FiveBarRoom

@@ -202,7 +202,7 @@ def test_the_ends_of_the_family_of_slider_cranks():
 def test_the_poles_of_the_slider_crank_lie_on_their_locus(crank, rod, offset):
     from fractions import Fraction
 
-    from mechwright_slider_crank.locus import locus
+    from mechwright_slider_crank.kinematics.locus import locus
 
     exact = [Fraction(value) for value in (crank, rod, offset)]
     curve = locus(*exact, "fixed")[0]

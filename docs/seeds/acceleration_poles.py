@@ -20,11 +20,11 @@ from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.locus import locus as four_bar_locus
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import search
+from mechwright_four_bar.synthesis.poles.equations import PoleProblem
+from mechwright_four_bar.synthesis.poles.search import search
+from mechwright_slider_crank.kinematics.locus import Plane, locus
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.locus import Plane, locus
-from mechwright_slider_crank.poles_synthesis import through_poles
+from mechwright_slider_crank.synthesis.poles.synthesis import through_poles
 
 PAGE = Path(__file__).parent / "acceleration-poles.md"
 FURTHER = PAGE.with_name("acceleration-poles-further.md")

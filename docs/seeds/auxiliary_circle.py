@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mechwright.pipeline.figures import Grid
-from mechwright_slider_crank import construction_pictures as pictures
-from mechwright_slider_crank.circle import AuxiliaryCircle, Found
-from mechwright_slider_crank.construction_page import numbers, solutions
 from mechwright_slider_crank.kinematics.limits import crank_turns
+from mechwright_slider_crank.kinematics.simulated_stroke import simulated
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.stroke import Lengths, from_crank, from_offset, from_rod
+from mechwright_slider_crank.pages import construction_pictures as pictures
+from mechwright_slider_crank.pages.circle import AuxiliaryCircle, Found
+from mechwright_slider_crank.pages.construction import numbers, solutions
+from mechwright_slider_crank.synthesis.stroke import Lengths, from_crank, from_offset, from_rod
 
 HERE = Path(__file__).parent
 IMAGES = HERE.parent / "images"

@@ -10,9 +10,9 @@ from auxiliary_circle import EXAMPLES
 
 from mechwright.errors import KinematicsError
 from mechwright_slider_crank.kinematics.limits import crank_turns, least_transmission_angle
+from mechwright_slider_crank.kinematics.simulated_stroke import simulated
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.stroke import (
+from mechwright_slider_crank.synthesis.stroke import (
     Lengths,
     best,
     from_crank,

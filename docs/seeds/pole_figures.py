@@ -13,8 +13,8 @@ from mechwright.pipeline.poles import NAME, Coupler, planes
 from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.poles_page import FourBarPoles
+from mechwright_slider_crank.pages.poles import SliderCrankPoles
 from mechwright_slider_crank.parameters import SliderCrankParams
-from mechwright_slider_crank.poles_page import SliderCrankPoles
 
 IMAGES = Path(__file__).parents[1] / "images"
 

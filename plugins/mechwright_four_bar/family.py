@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, ClassVar, cast
 import numpy as np
 
 from mechwright import Family, Parameters, Stage, refuse
-from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
-from mechwright_four_bar.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import (
     AdjustablePathRequirement,
@@ -17,6 +15,8 @@ from mechwright_four_bar.requirements import (
     PolesRequirement,
     SwingRequirement,
 )
+from mechwright_four_bar.synthesis.burmester.requirements import FunctionRequirement, PosesRequirement
+from mechwright_four_bar.synthesis.nine.requirement import NinePointsRequirement
 
 if TYPE_CHECKING:
     from mechwright import (
@@ -112,13 +112,13 @@ class FourBars(Family[FourBarParams]):
 
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
-        from mechwright_four_bar.tolerances import as_made
+        from mechwright_four_bar.parts.tolerances import as_made
 
         return as_made(self.table(params), made)
 
     def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the follower's angle and of the coupler point, from links and pins."""
-        from mechwright_four_bar.tolerances import FourBarTolerances
+        from mechwright_four_bar.parts.tolerances import FourBarTolerances
 
         return FourBarTolerances(self.table(params), tolerances)
 
@@ -157,29 +157,29 @@ class FourBars(Family[FourBarParams]):
     ) -> "Synthesis[FourBarParams]":
         """Linkages with wanted paths, poses, answers of the follower, or acceleration poles."""
         if kind == "path":
-            from mechwright_four_bar.paths.synthesis import through_points
+            from mechwright_four_bar.synthesis.paths.synthesis import through_points
 
             return through_points(PathRequirement.model_validate(requirement), progress)
         if kind == "nine-points":
-            from mechwright_four_bar.nine.synthesis import through_nine
+            from mechwright_four_bar.synthesis.nine.synthesis import through_nine
 
             return through_nine(NinePointsRequirement.model_validate(requirement), progress)
         if kind == "adjustable-path":
-            from mechwright_four_bar.adjustable_synthesis import through_phases
+            from mechwright_four_bar.synthesis.adjustable import through_phases
 
             return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)
         if kind == "poses":
-            from mechwright_four_bar.burmester.guiding import through_poses
+            from mechwright_four_bar.synthesis.burmester.guiding import through_poses
 
             return through_poses(PosesRequirement.model_validate(requirement), progress)
         if kind == "function":
-            from mechwright_four_bar.burmester.answering import through_angles
+            from mechwright_four_bar.synthesis.burmester.answering import through_angles
 
             return through_angles(FunctionRequirement.model_validate(requirement), progress)
         if kind == "swing":
-            from mechwright_four_bar.swing import swinging
+            from mechwright_four_bar.synthesis.swing import swinging
 
             return swinging(SwingRequirement.model_validate(requirement), progress)
-        from mechwright_four_bar.pole_synthesis import through_poles
+        from mechwright_four_bar.synthesis.poles.synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)

@@ -94,7 +94,7 @@ class Linkages(Family[LinkageParams]):
 
     def design_targets(self, params: LinkageParams) -> "Sequence[Target]":
         """The points of a drawn linkage in its drawn position."""
-        from mechwright_linkage.drag import point_handles
+        from mechwright_linkage.sketch.drag import point_handles
 
         return point_handles(params)
 

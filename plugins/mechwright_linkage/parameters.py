@@ -19,8 +19,8 @@ from mechwright_linkage.catalogue.slides import ScissorLift, ScotchYoke, ToggleP
 from mechwright_linkage.catalogue.stephenson_two import StephensonTwo
 from mechwright_linkage.catalogue.straight_lines import Chebyshev, Hoecken, Peaucellier, Roberts, WattLine
 from mechwright_linkage.catalogue.wipers import Wiper
-from mechwright_linkage.sketch import refuse_loose_driver, refuse_strangers
-from mechwright_linkage.sketch_tables import GearTable, PointTable, SlideTable, Word
+from mechwright_linkage.sketch.sketch import refuse_loose_driver, refuse_strangers
+from mechwright_linkage.sketch.tables import GearTable, PointTable, SlideTable, Word
 
 DRAWING = frozenset({"points", "scale", "links", "slides", "gears", "driver", "driver_on"})
 """Fields of a drawn linkage."""

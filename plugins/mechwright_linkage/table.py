@@ -12,7 +12,7 @@ from mechwright.mechanics.planar.efforts import PointLoad
 from mechwright.mechanics.planar.machine import Drive
 from mechwright.mechanics.planar.springs import AnySpring, Spring
 from mechwright_linkage.parameters import LinkageParams
-from mechwright_linkage.sketch import drawn_linkage, refuse_coincident
+from mechwright_linkage.sketch.sketch import drawn_linkage, refuse_coincident
 
 MILLI = 1e-3
 APART = 0.01

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from mechwright.mechanics.algebra.command import locus_command
-from mechwright_slider_crank.locus import locus
+from mechwright_slider_crank.kinematics.locus import locus
 
 LENGTHS = {"crank": "a", "rod": "c", "offset": "e"}
 

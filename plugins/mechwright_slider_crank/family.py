@@ -137,14 +137,14 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         self, kind: str, requirement: Parameters, progress: "Progress"
     ) -> "Synthesis[SliderCrankParams]":
         """From stroke and time ratio, from acceleration poles, or from a path of the rod's point."""
-        from mechwright_slider_crank.synthesis import from_poles, from_stroke
+        from mechwright_slider_crank.synthesis.designs import from_poles, from_stroke
 
         if isinstance(requirement, StrokeRequirement):
             return from_stroke(requirement)
         if isinstance(requirement, PolesRequirement):
             return from_poles(requirement, progress)
         if isinstance(requirement, PathRequirement):
-            from mechwright_slider_crank.paths.synthesis import through_points
+            from mechwright_slider_crank.synthesis.paths.synthesis import through_points
 
             return through_points(requirement, progress)
         return super().synthesise(kind, requirement, progress)
@@ -153,6 +153,6 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         """The ends of the stroke, or the poles."""
         if not isinstance(requirement, StrokeRequirement):
             return super().targets(kind, requirement)
-        from mechwright_slider_crank.targets import ends_of
+        from mechwright_slider_crank.synthesis.targets import ends_of
 
         return ends_of(requirement)

@@ -1,9 +1,9 @@
 """What this plugin registers."""
 
 from mechwright import Plugin, hookimpl
-from mechwright_slider_crank.construction_page import ConstructionPage
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.poles_page import SliderCrankPoles
+from mechwright_slider_crank.pages.construction import ConstructionPage
+from mechwright_slider_crank.pages.poles import SliderCrankPoles
 
 
 @hookimpl

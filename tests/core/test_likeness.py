@@ -8,7 +8,7 @@ import pytest
 from mechwright import Candidate, Scalar
 from mechwright.plugins.host import host
 from mechwright.testing.likeness import repeated
-from mechwright_four_bar.cognates import cognates
+from mechwright_four_bar.kinematics.cognates import cognates
 from mechwright_four_bar.kinematics.dimensions import FourBar
 
 LINKS = {"crank": 40.0, "coupler": 120.0, "follower": 80.0, "ground": 100.0}

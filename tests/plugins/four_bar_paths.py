@@ -7,8 +7,8 @@ import pytest
 
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_four_bar.paths.asked import Limits, PathProblem
-from mechwright_four_bar.paths.search import path
+from mechwright_four_bar.synthesis.paths.asked import Limits, PathProblem
+from mechwright_four_bar.synthesis.paths.search import path
 
 CLOSED = np.array(
     [

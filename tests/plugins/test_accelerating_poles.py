@@ -15,11 +15,11 @@ from mechwright.testing.commands import run
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.kinematics.reach import bar_of
-from mechwright_four_bar.pole_equations import PoleProblem as FourBarProblem
 from mechwright_four_bar.poles_page import FourBarPoles
+from mechwright_four_bar.synthesis.poles.equations import PoleProblem as FourBarProblem
 from mechwright_slider_crank.family import SliderCrankFamily
-from mechwright_slider_crank.pole_equations import PoleProblem as SliderProblem
-from mechwright_slider_crank.poles_page import SliderCrankPoles
+from mechwright_slider_crank.pages.poles import SliderCrankPoles
+from mechwright_slider_crank.synthesis.poles.equations import PoleProblem as SliderProblem
 
 
 def silent(done, what):

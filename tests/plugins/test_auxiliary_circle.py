@@ -10,11 +10,11 @@ import pytest
 
 from mechwright.errors import GeometryError
 from mechwright.testing.commands import run
-from mechwright_slider_crank.circle import AuxiliaryCircle
-from mechwright_slider_crank.construction_page import constructed, page
+from mechwright_slider_crank.kinematics.simulated_stroke import simulated
+from mechwright_slider_crank.pages.circle import AuxiliaryCircle
+from mechwright_slider_crank.pages.construction import constructed, page
 from mechwright_slider_crank.parameters import SliderCrankParams
-from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.stroke import from_crank, from_offset, from_rod, ranges
+from mechwright_slider_crank.synthesis.stroke import from_crank, from_offset, from_rod, ranges
 
 ROOT = Path(__file__).parents[2]
 FACTS = json.loads((ROOT / "tests" / "data" / "auxiliary-circle.json").read_text(encoding="utf-8"))["facts"]

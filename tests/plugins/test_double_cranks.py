@@ -26,8 +26,8 @@ from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.tolerances import FourBarTolerances, as_made
 from mechwright_four_bar.table import FourBarTable
-from mechwright_four_bar.tolerances import FourBarTolerances, as_made
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "double-crank.toml"
 DRAG = {"crank": 70, "coupler": 60, "follower": 75, "ground": 30}

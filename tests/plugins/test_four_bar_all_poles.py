@@ -11,13 +11,13 @@ from mechwright.mechanics.continuation import closed, read
 from mechwright.mechanics.continuation.loops import new_ones
 from mechwright.mechanics.continuation.paths import tracked
 from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
-from mechwright_four_bar.all_poles import CUT, FILE, SOLUTIONS, all_linkages
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import completed, search
-from mechwright_four_bar.pole_system import MOVING, TWO_POLES, any_parameters, any_solution
 from mechwright_four_bar.requirements import PolesRequirement
+from mechwright_four_bar.synthesis.poles.all_poles import CUT, FILE, SOLUTIONS, all_linkages
+from mechwright_four_bar.synthesis.poles.equations import PoleProblem
+from mechwright_four_bar.synthesis.poles.search import completed, search
+from mechwright_four_bar.synthesis.poles.system import MOVING, TWO_POLES, any_parameters, any_solution
 
 TWO = [case for case in SYNTHESIS if "two_poles" in case["kind"]]
 SIZE = 30.0

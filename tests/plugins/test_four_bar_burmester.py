@@ -14,15 +14,15 @@ from synthesis_reference import fact, facts
 from mechwright import Scalar
 from mechwright.contracts.finding import errors
 from mechwright.contracts.synthesis import ALIKE
-from mechwright_four_bar.burmester import dyads, freudenstein, kept
-from mechwright_four_bar.burmester.dyads import Poses
-from mechwright_four_bar.burmester.kept import Option, driven
-from mechwright_four_bar.burmester.rectify import Way, way_through
-from mechwright_four_bar.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.kinematics.reach import bar_of
+from mechwright_four_bar.synthesis.burmester import dyads, freudenstein, kept
+from mechwright_four_bar.synthesis.burmester.dyads import Poses
+from mechwright_four_bar.synthesis.burmester.kept import Option, driven
+from mechwright_four_bar.synthesis.burmester.rectify import Way, way_through
+from mechwright_four_bar.synthesis.burmester.requirements import FunctionRequirement, PosesRequirement
 from mechwright_four_bar.table import FourBarTable
 
 FIVE = ((7, -6, -27), (14, -17, -40), (23, -24, -61), (28, -25, -72), (37, -19, -91))

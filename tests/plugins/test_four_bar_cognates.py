@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from synthesis_reference import facts
 
-from mechwright_four_bar.cognates import cognates, third_pivot
+from mechwright_four_bar.kinematics.cognates import cognates, third_pivot
 from mechwright_four_bar.kinematics.dimensions import FourBar
-from mechwright_four_bar.paths.search import path
+from mechwright_four_bar.synthesis.paths.search import path
 
 
 def of(given):

@@ -9,10 +9,10 @@ from flint import arb, ctx, fmpq
 from four_bar_reference import FACTS, LOCI
 
 from mechwright.errors import GeometryError
-from mechwright_four_bar.certificate import pole_ball
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.locus import locus
 from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.synthesis.poles.certificate import pole_ball
 
 PLANES = ("fixed", "coupler")
 SPECIAL = [

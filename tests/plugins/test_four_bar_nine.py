@@ -9,20 +9,20 @@ from pydantic import ValidationError
 from synthesis_reference import fact, facts
 
 from mechwright.testing.likeness import repeated
-from mechwright_four_bar.burmester.rectify import Way, way_through
-from mechwright_four_bar.cognates import cognates
 from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.kinematics.cognates import cognates
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_four_bar.nine.equations import evaluate
-from mechwright_four_bar.nine.make_start import any_linkage, looped, moved
-from mechwright_four_bar.nine.precise import certificate, followed, points_of
-from mechwright_four_bar.nine.requirement import NinePointsRequirement
-from mechwright_four_bar.nine.solving import Triples, all_triples
-from mechwright_four_bar.nine.special import CIRCLE, infinite, special
-from mechwright_four_bar.nine.start import any_points, start
-from mechwright_four_bar.nine.synthesis import drawn, through_nine
-from mechwright_four_bar.nine.triples import TRIPLES, fingerprints, members, new_ones
+from mechwright_four_bar.synthesis.burmester.rectify import Way, way_through
+from mechwright_four_bar.synthesis.nine.equations import evaluate
+from mechwright_four_bar.synthesis.nine.make_start import any_linkage, looped, moved
+from mechwright_four_bar.synthesis.nine.precise import certificate, followed, points_of
+from mechwright_four_bar.synthesis.nine.requirement import NinePointsRequirement
+from mechwright_four_bar.synthesis.nine.solving import Triples, all_triples
+from mechwright_four_bar.synthesis.nine.special import CIRCLE, infinite, special
+from mechwright_four_bar.synthesis.nine.start import any_points, start
+from mechwright_four_bar.synthesis.nine.synthesis import drawn, through_nine
+from mechwright_four_bar.synthesis.nine.triples import TRIPLES, fingerprints, members, new_ones
 
 BAR, POINT = FourBar(40, 120, 80, 100, 0.3), 60 + 35j
 

@@ -10,13 +10,13 @@ from synthesis_reference import fact, facts
 
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
-from mechwright_four_bar.paths.asked import Limits
-from mechwright_four_bar.paths.descent import in_order, polish, screen
-from mechwright_four_bar.paths.kernels import linear
-from mechwright_four_bar.paths.limits import COUNT, broken
-from mechwright_four_bar.paths.refit import fitted
-from mechwright_four_bar.paths.search import PathSolution, path, search, unknowns
-from mechwright_four_bar.paths.starts import link_lengths, random_shapes
+from mechwright_four_bar.synthesis.paths.asked import Limits
+from mechwright_four_bar.synthesis.paths.descent import in_order, polish, screen
+from mechwright_four_bar.synthesis.paths.kernels import linear
+from mechwright_four_bar.synthesis.paths.limits import COUNT, broken
+from mechwright_four_bar.synthesis.paths.refit import fitted
+from mechwright_four_bar.synthesis.paths.search import PathSolution, path, search, unknowns
+from mechwright_four_bar.synthesis.paths.starts import link_lengths, random_shapes
 
 # ---- against the independent check
 

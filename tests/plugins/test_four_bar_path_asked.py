@@ -12,10 +12,10 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import Severity, errors
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.reach import bar_of
-from mechwright_four_bar.paths.asked import Limits
-from mechwright_four_bar.paths.search import path
-from mechwright_four_bar.paths.starts import link_lengths
 from mechwright_four_bar.requirements import PathRequirement
+from mechwright_four_bar.synthesis.paths.asked import Limits
+from mechwright_four_bar.synthesis.paths.search import path
+from mechwright_four_bar.synthesis.paths.starts import link_lengths
 from mechwright_four_bar.table import FourBarTable
 
 LINE = 20 + 1j * np.arange(20.0, 46.0, 5.0)

@@ -9,14 +9,14 @@ from four_bar_reference import SYNTHESIS, poles_of
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity
-from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.kinematics.reach import bar_of
-from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import RESIDUAL, search
 from mechwright_four_bar.requirements import PolesRequirement
+from mechwright_four_bar.synthesis.poles.certificate import certain_residual, polished
+from mechwright_four_bar.synthesis.poles.equations import PoleProblem
+from mechwright_four_bar.synthesis.poles.search import RESIDUAL, search
 
 STARTS = 5000
 

@@ -13,7 +13,7 @@ from mechwright_four_bar.kinematics.dimensions import FourBar, Kind
 from mechwright_four_bar.kinematics.reach import bar_of
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import SwingRequirement
-from mechwright_four_bar.swing import smallest, widest
+from mechwright_four_bar.synthesis.swing import smallest, widest
 
 
 def asked(**table: Any) -> Synthesis[FourBarParams]:

@@ -15,8 +15,8 @@ from mechwright.mechanics.planar.sensitivity import Change, Pose, changed, sensi
 from mechwright.mechanics.tolerance import analyse
 from mechwright.testing.tolerances import tolerance_faults
 from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.tolerances import FourBarTolerances
 from mechwright_four_bar.table import FourBarTable
-from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_linkage.family import Linkages
 from mechwright_linkage.parameters import LinkageParams
 from mechwright_linkage.table import LinkageTable

@@ -15,8 +15,8 @@ from mechwright_cam.pages.as_made.plot import plot
 from mechwright_four_bar.kinematics.dimensions import FourBar
 from mechwright_four_bar.kinematics.loop import close
 from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.parts.tolerances import FourBarTolerances
 from mechwright_four_bar.table import FourBarTable
-from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_slider_crank.as_made.plates import as_made as slider_as_made
 from mechwright_slider_crank.as_made.tolerances import SliderCrankTolerances
 from mechwright_slider_crank.parameters import SliderCrankParams

@@ -13,13 +13,13 @@ from mechwright.mechanics.continuation.loops import new_ones
 from mechwright.mechanics.continuation.paths import tracked
 from mechwright.mechanics.continuation.trace import EXACT, read_cut, trace
 from mechwright.mechanics.planar import acceleration_pole
-from mechwright_slider_crank.all_poles import CUT, FILE, SOLUTIONS, all_linkages
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.pole_equations import PoleProblem
-from mechwright_slider_crank.pole_system import MOVING, TWO_POLES, any_parameters, any_solution
-from mechwright_slider_crank.poles_synthesis import completed, through_poles
 from mechwright_slider_crank.requirements import PolesRequirement
-from mechwright_slider_crank.synthesis import from_poles
+from mechwright_slider_crank.synthesis.designs import from_poles
+from mechwright_slider_crank.synthesis.poles.all_poles import CUT, FILE, SOLUTIONS, all_linkages
+from mechwright_slider_crank.synthesis.poles.equations import PoleProblem
+from mechwright_slider_crank.synthesis.poles.synthesis import completed, through_poles
+from mechwright_slider_crank.synthesis.poles.system import MOVING, TWO_POLES, any_parameters, any_solution
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())
 TWO = [item for item in DATA["synthesis"] if item["kind"].startswith("slider") and "dphi_deg" in item]

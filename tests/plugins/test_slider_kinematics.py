@@ -22,9 +22,9 @@ from mechwright_slider_crank.kinematics.limits import (
     limits,
     transmission_angle,
 )
+from mechwright_slider_crank.kinematics.simulated_stroke import simulated
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.stroke import rocking_angle
+from mechwright_slider_crank.synthesis.stroke import rocking_angle
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())
 EXPECTED = {fact["name"]: fact["expected"] for fact in DATA["facts"]}

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from mechwright.errors import GeometryError
 from mechwright.mechanics.planar import acceleration_pole
+from mechwright_slider_crank.kinematics.locus import locus
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.locus import locus
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())
 POLYNOMIALS = {

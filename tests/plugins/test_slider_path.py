@@ -11,8 +11,8 @@ from mechwright.contracts.finding import errors
 from mechwright.mechanics.tracing.descent import squares
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.paths.room import Limits, SliderRoom
 from mechwright_slider_crank.requirements import PathRequirement
+from mechwright_slider_crank.synthesis.paths.room import Limits, SliderRoom
 
 FAMILY = SliderCrankFamily()
 LINK = SliderCrank(40.0, 120.0, 15.0, 0.4, -1)

@@ -15,13 +15,20 @@ from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.kinematics.limits import crank_turns, least_transmission_angle, limits
+from mechwright_slider_crank.kinematics.simulated_stroke import simulated
 from mechwright_slider_crank.kinematics.slider_crank import SliderCrank
-from mechwright_slider_crank.pole_equations import PoleProblem
-from mechwright_slider_crank.poles_synthesis import through_poles
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
-from mechwright_slider_crank.simulate import simulated
-from mechwright_slider_crank.stroke import best, from_crank, from_offset, from_rod, ranges, rocking_angle
-from mechwright_slider_crank.synthesis import from_poles, from_stroke
+from mechwright_slider_crank.synthesis.designs import from_poles, from_stroke
+from mechwright_slider_crank.synthesis.poles.equations import PoleProblem
+from mechwright_slider_crank.synthesis.poles.synthesis import through_poles
+from mechwright_slider_crank.synthesis.stroke import (
+    best,
+    from_crank,
+    from_offset,
+    from_rod,
+    ranges,
+    rocking_angle,
+)
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())
 EXPECTED = {fact["name"]: fact["expected"] for fact in DATA["facts"]}

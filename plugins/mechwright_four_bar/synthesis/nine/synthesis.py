@@ -1,0 +1,188 @@
+"""Synthesis of every four-bar whose coupler point passes through nine points."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Finding, Progress, Scalar, Synthesis
+from mechwright.mechanics.planar import Plane
+from mechwright_four_bar.kinematics.dimensions import FourBar
+from mechwright_four_bar.kinematics.loop import close
+from mechwright_four_bar.parameters import FourBarParams
+from mechwright_four_bar.synthesis.burmester.kept import Option, designs, driven
+from mechwright_four_bar.synthesis.burmester.rectify import Way, linkage, way_through
+from mechwright_four_bar.synthesis.nine.requirement import NinePointsRequirement
+from mechwright_four_bar.synthesis.nine.solving import Triples, all_triples
+from mechwright_four_bar.synthesis.nine.special import infinite, special
+from mechwright_four_bar.synthesis.nine.triples import TRIPLES, members
+
+SOLVED = 0.8
+"""Part of the work that finds the triples."""
+
+KEPT = 4
+"""Sets of points whose triples are kept: other limits then cost nothing."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A real four-bar with its joints at the nine points.
+
+    Parameters
+    ----------
+    triple, member
+        Which triple, from 1, and which of its three four-bars.
+    a0, b0
+        Fixed pivots, mm.
+    a, b
+        (9,) joints, mm.
+    points
+        (9,) the points, mm.
+    """
+
+    triple: int
+    member: int
+    a0: complex
+    b0: complex
+    a: Plane
+    b: Plane
+    points: Plane
+
+    @property
+    def bar(self) -> FourBar:
+        """Its dimensions, driven at A0."""
+        return linkage(self.a0, self.b0, self.a, self.b)
+
+    @property
+    def driven_at_b0(self) -> "Drawn":
+        """The same four-bar, driven at its other pivot."""
+        return Drawn(self.triple, self.member, self.b0, self.a0, self.b, self.a, self.points)
+
+
+_solved: dict[tuple[tuple[str, str], ...], Triples] = {}
+"""The triples of the last sets of points, by their coordinates."""
+
+
+def solved(points: Sequence[tuple[float, float]], progress: Progress) -> Triples:
+    """All triples of nine points [x, y], mm, that stand for the decimal numbers that they are written as."""
+    texts = tuple((repr(float(x)), repr(float(y))) for x, y in points)
+    if texts not in _solved:
+        found = all_triples(texts, lambda part: progress(SOLVED * part, "four-bars through nine points"))
+        while len(_solved) >= KEPT:
+            del _solved[next(iter(_solved))]
+        _solved[texts] = found
+    return _solved[texts]
+
+
+def drawn(triples: Triples, points: Plane) -> list[Drawn]:
+    """The three four-bars of each real triple, at points (9,), mm."""
+    deltas = (points - points[0]) / triples.size
+    found: list[Drawn] = []
+    for number, one in enumerate(triples.real, start=1):
+        for member, z in enumerate(members(one.z[None])[0], start=1):
+            x, a, y, b = z[::2]
+            turns = _turns(x, a, y, b, deltas)
+            first, last = (points + turns * joint * triples.size for joint in (x, y))
+            a0, b0 = (complex(points[0] + pivot * triples.size) for pivot in (a, b))
+            found.append(Drawn(number, member, a0, b0, first, last, points))
+    return found
+
+
+def _turns(x: complex, a: complex, y: complex, b: complex, deltas: Plane) -> Plane:
+    """Turns of the coupler (9,) from the first point to each.
+
+    |δ + x T - a| = |x - a| and the same of the other dyad are two linear equations for T.
+    """
+    rows, right = [], []
+    for joint, pivot in ((x, a), (y, b)):
+        off = deltas - pivot
+        by = np.conj(off) * joint
+        rows.append(np.stack((by.real, -by.imag), axis=-1))
+        right.append((abs(joint - pivot) ** 2 - abs(joint) ** 2 - np.abs(off) ** 2) / 2)
+    # At the first point both say T = 1 where the dyads are parallel to it; it is known.
+    answer = np.ones(deltas.size, dtype=complex)
+    solution = np.linalg.solve(np.stack(rows, axis=1)[1:], np.stack(right, axis=1)[1:, :, None])[..., 0]
+    answer[1:] = solution[:, 0] + 1j * solution[:, 1]
+    return answer
+
+
+def through_nine(wanted: NinePointsRequirement, progress: Progress) -> Synthesis[FourBarParams]:
+    """Every four-bar through the points that keeps the limits, the best transmission angle leading.
+
+    Each real four-bar is driven at either pivot, and of the cognates of a triple, which draw one curve, the
+    one that builds best is given. Those that would have to be taken apart, that cannot come
+    from one point to the next, or that pass the points in another order, are counted and left out. The first
+    finding says how many triples of how many are known.
+    """
+    points = np.array([complex(x, y) for x, y in wanted.points])
+    triples = solved(wanted.points, progress)
+    bars = drawn(triples, points)
+    defects: Counter[str] = Counter()
+    options: list[Option] = []
+    for one in bars:
+        for each in (one, one.driven_at_b0):
+            way = way_through(each.a0, each.b0, each.a, each.b, wanted.order == "kept")
+            if isinstance(way, str):
+                defects[way] += 1
+            else:
+                options.append(_option(way, each))
+    options.sort(key=lambda one: -driven(one.way, wanted).least_angle)
+    full = sum(option.way.full for option in options)
+    result = designs(
+        "nine-points",
+        options,
+        dict(defects),
+        wanted,
+        lambda: (
+            f"{_count(triples, infinite(points))}; {len(triples.real)} of them are real, with {len(bars)} "
+            "four-bars, driven "
+            f"without a defect in {len(options)} ways, in {full} of them by a crank that turns fully"
+        ),
+        lambda part: progress(SOLVED + (1 - SOLVED) * part, "designs"),
+    )
+    return Synthesis(result.candidates, (*result.findings, *_doubts(triples, points)), result.rejected)
+
+
+def _count(triples: Triples, infinite_: bool) -> str:
+    """How many were found; all only where nothing else is known to be there."""
+    found = len(triples.certified)
+    said = "all of them" if triples.complete and not infinite_ else "at least these"
+    return f"{found} found of {TRIPLES} triples of cognates, {said}, each certified"
+
+
+def _doubts(triples: Triples, points: Plane) -> Iterator[Finding]:
+    """What is not known of points that are not in general position."""
+    open_ones = sum(one.real is None for one in triples.certified)
+    if open_ones:
+        yield Finding.warning(
+            "nine-points.undecided",
+            "points",
+            f"of {open_ones} triples it is not decided whether they are real",
+        )
+    why = special(points)
+    if triples.complete and not infinite(points):
+        return
+    yield Finding.warning(
+        "nine-points.incomplete",
+        "points",
+        (f"{why}: " if why else "")
+        + f"{len(triples.certified)} found of {TRIPLES} triples: as far as can be seen {triples.far} run to "
+        f"infinity and {triples.singular} end in singular solutions, which have no certificate; "
+        f"{triples.lost} are lost",
+        float(len(triples.certified)),
+        float(TRIPLES),
+        "",
+        "move the points a little, for which the count is complete",
+    )
+
+
+def _option(way: Way, one: Drawn) -> Option:
+    """A linkage with the distance by which it misses the points: rounding."""
+    along = one.b[0] - one.a[0]
+    point = complex((one.points[0] - one.a[0]) / along) * way.bar.coupler
+    loop = close(way.bar, way.phi)
+    places = one.a0 + loop.joint_a + point * loop.coupler.direction
+    error = float(np.sqrt(np.mean(np.abs(places - one.points) ** 2)))
+    figures = {"triple": Scalar(float(one.triple), ""), "cognate": Scalar(float(one.member), "")}
+    return Option(way, Scalar(error, "mm"), figures, one.a0, point, one.triple)

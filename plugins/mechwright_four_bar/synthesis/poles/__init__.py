@@ -1,0 +1,1 @@
+"""Four-bars whose coupler has its acceleration pole in prescribed places."""

@@ -1,0 +1,1 @@
+"""Linkages that are drawn: points, links, slides and gears in one position."""

@@ -1,0 +1,1 @@
+"""Pages of a slider-crank: its construction with the auxiliary circle, and its acceleration poles."""

@@ -1,0 +1,1 @@
+"""Slider-cranks whose rod has its acceleration pole in prescribed places."""
