@@ -25,8 +25,8 @@ from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.contracts.family import Family
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.plugins.host import host
-from mechwright.studies.draw import drawn
 from mechwright.studies.study import Study, study_of
+from mechwright.studies.task import drawn
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

@@ -12,7 +12,7 @@ from typing import Any
 from mechwright.designs.design import load
 from mechwright.mechanics.peak import Peak
 from mechwright.plugins.host import host
-from mechwright_elliptic_gears.as_made.joint import phase_sensitivity
+from mechwright_elliptic_gears.as_made.pairs import phase_sensitivity
 from mechwright_elliptic_gears.kinematics.equations import phase_offset, ratio
 from mechwright_elliptic_gears.kinematics.figures import point_peaks, point_window
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque

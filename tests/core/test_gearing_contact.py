@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from mechwright.mechanics.gearing.contact import depths
-from mechwright.mechanics.gearing.crossings import turns_to_edges
+from mechwright.mechanics.gearing.contact import depths, turns_to_edges
 
 
 def test_turns_to_the_edges_of_a_wedge():

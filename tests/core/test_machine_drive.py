@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from mechwright import GROUND, Channel, Instance, Joint, Load, Loop, Motion, Outline, Part, Poses, circle
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.machine import MachineSettings, drive_of
-from mechwright.machine.course import course_of
+from mechwright.machine.course import course_of, differences, over_time
 from mechwright.machine.drive import GRAVITY
-from mechwright.machine.rates import differences, over_time
 from mechwright.mechanics.planar import BodyMotion, Turning
 
 SAMPLES = 721

@@ -14,11 +14,11 @@ from mechwright.contracts.evaluation import Batch
 from mechwright.plugins.host import host
 from mechwright.scripting.pareto import front_of, spread
 from mechwright.studies import page
-from mechwright.studies.draw import drawn
 from mechwright.studies.front import Front, around
 from mechwright.studies.page import page_of
 from mechwright.studies.shard import Counts, read, shard_of
 from mechwright.studies.study import study_of
+from mechwright.studies.task import drawn
 
 
 @given(arrays(float, st.tuples(st.integers(0, 60), st.integers(1, 4)), elements=st.integers(0, 6).map(float)))

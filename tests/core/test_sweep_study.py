@@ -10,8 +10,8 @@ from pydantic import Field
 
 from mechwright import DesignError, Stage
 from mechwright.contracts.evaluation import Batch, one_by_one
-from mechwright.studies.draw import drawn
 from mechwright.studies.study import study_of
+from mechwright.studies.task import drawn
 
 SHAPES = {"ranges": {"shape": {"values": ["round", "square"]}}}
 

@@ -13,9 +13,9 @@ from mechwright.contracts.pairs import pair_of
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.contracts.tolerances import DISTRIBUTIONS
 from mechwright.mechanics.tolerance import analyse, check_keys, share_of
-from mechwright.mechanics.tolerance.drawing import draw
 from mechwright.mechanics.tolerance.first_order import farthest, limits, variances
 from mechwright.mechanics.tolerance.places import worst_place
+from mechwright.mechanics.tolerance.trials import draw
 from mechwright.pipeline.tolerances.report import remarks
 
 HANDBOOK = {

@@ -10,8 +10,8 @@ from mechwright import Engraving, GeometryError
 from mechwright.contracts.marking import engraved_dots
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.parameters import EllipticGearParams
-from mechwright_elliptic_gears.parts.fitting_marks import meeting_teeth
 from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of
+from mechwright_elliptic_gears.parts.gear_parts import meeting_teeth
 
 DESIGNS = [
     {},

@@ -9,7 +9,7 @@ from test_elliptic_phase_joint import FAMILY, PINS, VARIABLE, Params, at
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
-from mechwright_elliptic_gears.as_made.joint import going_in, joint_figures, phase_sensitivity
+from mechwright_elliptic_gears.as_made.pairs import going_in, joint_figures, phase_sensitivity
 from mechwright_elliptic_gears.kinematics.equations import Turning, coupler, train
 from mechwright_elliptic_gears.kinematics.figures import point_window
 from mechwright_elliptic_gears.kinematics.joint_load import greatest_torque, joint_torque, masses_of

@@ -12,7 +12,7 @@ from mechwright.contracts.finding import errors
 from mechwright_five_bar.family import FiveBars
 from mechwright_five_bar.kinematics.dimensions import bar_of
 from mechwright_five_bar.kinematics.phases import in_phase, phases_of, set_joints, settings_of
-from mechwright_five_bar.parts import scales
+from mechwright_five_bar.parts import parts
 from mechwright_five_bar.parts.hub import hub_of
 from mechwright_five_bar.parts.layout import poses_of, screw_places
 from mechwright_five_bar.parts.parts import parts_of
@@ -102,12 +102,12 @@ def test_places_that_are_near_are_set_in_arc_slots_about_a0_and_b1():
 def test_marks_stand_at_the_angles_that_are_written_beside_them(monkeypatch, angle):
     seen = []
     monkeypatch.setattr(
-        scales, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
+        parts, "scale", lambda _, slot, places, written, __: seen.append((slot, places, written))
     )
     phases = ({"crank_turn": 6, "rocker_turn": 11}, {"crank_turn": -4, "rocker_turn": -5})
     params = in_phase(reference(phases=phases, setting_angle=angle))
     seen.clear()  # the width of its gears, left out, follows from what stands in its plates
-    scales.scales(params)
+    parts.scales(params)
     rocker = bar_of(params).at(math.radians(angle)).bodies["rocker"]
     arms = (cmath.rect(1, math.radians(angle)), rocker.turning.direction.item())
     turns = ([0, 6, -4], [0, 11, -5])

@@ -19,9 +19,8 @@ from mechwright_four_bar.synthesis.nine.make_start import any_linkage, looped, m
 from mechwright_four_bar.synthesis.nine.precise import certificate, followed, points_of
 from mechwright_four_bar.synthesis.nine.requirement import NinePointsRequirement
 from mechwright_four_bar.synthesis.nine.solving import Triples, all_triples
-from mechwright_four_bar.synthesis.nine.special import CIRCLE, infinite, special
 from mechwright_four_bar.synthesis.nine.start import any_points, start
-from mechwright_four_bar.synthesis.nine.synthesis import drawn, through_nine
+from mechwright_four_bar.synthesis.nine.synthesis import CIRCLE, drawn, infinite, special, through_nine
 from mechwright_four_bar.synthesis.nine.triples import TRIPLES, fingerprints, members, new_ones
 
 BAR, POINT = FourBar(40, 120, 80, 100, 0.3), 60 + 35j

@@ -21,8 +21,8 @@ from mechwright_geneva.kinematics.slot_limits import FINE_SAMPLES, measure
 from mechwright_geneva.kinematics.straight_slot import StraightSlot
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.locking_disc import lock_loop
+from mechwright_geneva.parts.parts import Wheel
 from mechwright_geneva.parts.slot_outline import Slot
-from mechwright_geneva.parts.wheel_outline import Wheel
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "geneva.json").read_text(encoding="utf-8"))["facts"]
 NAMES = {

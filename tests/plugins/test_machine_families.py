@@ -13,8 +13,8 @@ from by_night import by_night
 from mechwright import Load, host
 from mechwright.designs.design import load
 from mechwright.machine import MachineSettings, drive_of
+from mechwright.machine.course import over_time
 from mechwright.machine.drive import SAMPLES
-from mechwright.machine.rates import over_time
 from mechwright.testing.frames import mounting_faults
 from mechwright_elliptic_gears.family import EllipticGears
 

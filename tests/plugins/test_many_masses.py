@@ -9,8 +9,8 @@ from by_night import examples
 
 from mechwright.contracts.evaluation import Batch, one_by_one
 from mechwright.plugins.host import host
-from mechwright.studies.draw import drawn
 from mechwright.studies.study import study_of
+from mechwright.studies.task import drawn
 from mechwright.testing.evaluation import assert_same
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -103,7 +103,7 @@ def test_sets_are_put_together_without_collision(seed):
 def test_planets_that_stand_a_hair_aside_collide():
     """The test above bites: half a pitch of the sun is seen."""
     m = table_of(planetary(teeth=24, mate_teeth=18, bore=0))
-    from mechwright_spur_gears.kinematics.planetary import starts
+    from mechwright_spur_gears.kinematics.motion import starts
     from mechwright_spur_gears.parts.parts import parts_of
 
     shapes = {part.name: part.outline.polygon() for part in parts_of(m) if part.outline is not None}

@@ -1,4 +1,7 @@
-"""The motion of a design: channels and poses over one turn of gear 2; its figures stand in ``figures``."""
+"""The motion of a design: channels and poses over one turn of gear 2; its figures stand in ``figures``.
+
+What holds the gears of a pair or a train, and what is fixed to them.
+"""
 
 import math
 from collections.abc import Mapping
@@ -7,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Channel, Curve, Load, Motion, Poses, Trace
+from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Poses, Trace
 from mechwright.contracts.figure import scalars
+from mechwright.contracts.joint import fixed
 from mechwright.contracts.stretch import Samples, travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import along, turning_channels
@@ -21,7 +25,6 @@ from mechwright_elliptic_gears.kinematics.equations import (
     train,
 )
 from mechwright_elliptic_gears.kinematics.figures import figures_of
-from mechwright_elliptic_gears.kinematics.joints import held_by
 from mechwright_elliptic_gears.kinematics.point import place, point_of_coupler
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.clamp import clamp_of
@@ -33,10 +36,41 @@ from mechwright_elliptic_gears.parts.layout import (
     PIN_KEEPER,
     clamp_screws,
     dividing_of,
+    joining_bodies,
     keeper_of,
     layout_of,
 )
 from mechwright_elliptic_gears.table import GearTable, table_of
+
+
+def held_by(params: EllipticGearParams) -> dict[str, Joint]:
+    """Joints of all bodies of the motion; the ratio of elliptic gears changes over the turn."""
+    a = ellipse_of(params).semi_major
+    focus = (2 * a * params.eccentricity, 0.0, 0.0)
+    if params.phase_angle is None:
+        return {
+            "o2": Joint("revolute", GROUND, "gear-2", drives=True),
+            "o4": Joint("revolute", GROUND, "gear-4", (2 * a, 0.0, 0.0)),
+            "mesh": Joint("gear", "gear-2", "gear-4"),
+            **_coupler("gear-2", "gear-4", focus),
+        }
+    return {
+        **fixed(GROUND, "base", "axis-2", "axis-5"),
+        "o2": Joint("revolute", "base", "gear-2", (-2 * a, 0.0, 0.0), drives=True),
+        "o4": Joint("revolute", "base", "gear-3"),
+        "o5": Joint("revolute", "base", "gear-5", (2 * a, 0.0, 0.0)),
+        **fixed("gear-3", "gear-4", *joining_bodies(params)),
+        **fixed("gear-4", "joint-j"),
+        **fixed("gear-5", "joint-k"),
+        "mesh": Joint("gear", "gear-2", "gear-3"),
+        "second-mesh": Joint("gear", "gear-3", "gear-5"),
+        **_coupler("gear-4", "gear-5", focus),
+    }
+
+
+def _coupler(one: str, two: str, focus: tuple[float, float, float]) -> dict[str, Joint]:
+    """The link between the free foci of two gears, 2a long."""
+    return {"j": Joint("revolute", one, "coupler", focus), "k": Joint("revolute", two, "coupler", focus)}
 
 
 def motion_of(params: EllipticGearParams, samples: Samples) -> Motion:

@@ -1,12 +1,34 @@
-"""All parts of a design. Gears: which are alike, where their keyways stand, and which holes they have."""
+"""All parts of a design. Gears: which are alike, where their keyways stand, and which holes they have.
+
+Marks on gears: which tooth meets which space as the driver's far vertex is on the line of centres.
+"""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Measure, Outline, Part, Profile, circle, kept
+import numpy as np
+
+from mechwright import (
+    Bore,
+    Colour,
+    Feature,
+    FittingMark,
+    Instance,
+    Loop,
+    Measure,
+    Outline,
+    Part,
+    Point,
+    Profile,
+    circle,
+    kept,
+)
+from mechwright.arrays import Array
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.mechanics.gearing import gear_measures, tip_sites
+from mechwright.mechanics.gearing.usual import DOT
 from mechwright.mechanics.openings import opening_of
 from mechwright_elliptic_gears.kinematics.equations import phase_offset
 from mechwright_elliptic_gears.parameters import EllipticGearParams
@@ -21,11 +43,76 @@ from mechwright_elliptic_gears.parts.clamp_parts import (
     threads,
 )
 from mechwright_elliptic_gears.parts.dividing import START
-from mechwright_elliptic_gears.parts.fitting_marks import gear_marks
-from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of, teeth_of
+from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of, rack_of, teeth_of
 from mechwright_elliptic_gears.parts.layout import DOWELS, Layout, dividing_of, keeper_of, layout_of
 from mechwright_elliptic_gears.parts.plates import base_part, coupler_part
 from mechwright_elliptic_gears.parts.turned import keeper_parts, round_parts
+
+
+def gear_marks(
+    params: EllipticGearParams, name: str, bodies: Collection[str], key: float | None
+) -> tuple[FittingMark, ...]:
+    """One dot under the tooth with which a gear drives, two about the space in which it is driven.
+
+    A part whose copies do both has both. ``key`` is the direction of the keyway, rad.
+    """
+    tooth, space = meeting_teeth(params)
+    drivers = {"gear-2"} if params.stages == 1 else {"gear-2", "gear-4"}
+    marks = []
+    if drivers & set(bodies):
+        marks.append(
+            FittingMark(
+                f"Where {name} drives, its one dot goes between the two dots of the gear that it drives, "
+                "once a turn.",
+                (tooth,),
+            )
+        )
+    if set(bodies) - drivers:
+        marks.append(
+            FittingMark(
+                f"Where {name} is driven, the one dot of its driver goes between its two dots.", space
+            )
+        )
+    if key is not None:
+        angle = math.degrees(key) % 360
+        marks.append(
+            FittingMark(
+                f"The keyway of {name} stands at {angle:.1f}° to its long axis, counted from its far vertex."
+            )
+        )
+    return tuple(marks)
+
+
+def meeting_teeth(params: EllipticGearParams) -> tuple[Point, tuple[Point, Point]]:
+    """The dot of a driving gear, and those of the driven one, in the frame that all gears share, mm.
+
+    With the far vertex of the driver on the line of centres, its tooth nearest to that line stands in the
+    space of its mate between the two teeth nearest to it.
+    """
+    tips = _tips(params)
+    apart = 2 * ellipse_of(params).semi_major
+    driver = int(np.argmin(np.abs(np.angle(tips))))
+    there = tips[driver] - apart  # the same place, seen from the mate, which stands unturned
+    away = np.abs(np.angle(tips / there))
+    one, two = np.argsort(away)[:2]
+    dots = _below(tips, params)
+    first, second = sorted((int(one), int(two)))
+    return dots[driver], (dots[first], dots[second])
+
+
+def _tips(params: EllipticGearParams) -> Array:
+    """Middles of all tips (z,), x + i y, mm."""
+    places = [segment.at(0.5)[0] for segment in outline_of(params).outer.segments if segment.tag == "tip"]
+    return np.array([complex(x, y) for x, y in places])
+
+
+def _below(tips: Array, params: EllipticGearParams) -> list[Point]:
+    """A place under each tooth."""
+    rack = rack_of(params)
+    deep = rack.addendum + rack.dedendum + DOT
+    inwards = tips * (1 - deep / np.abs(tips))
+    return [(round(float(at.real), 4), round(float(at.imag), 4)) for at in inwards]
+
 
 COLOURS: dict[str, Colour] = {
     "gear-2": (0.45, 0.58, 0.70),

@@ -1,15 +1,21 @@
-"""The parts: plates, gears, shafts, pins, studs, bushings, clamps and posts, each where it stands."""
+"""The parts: plates, gears, shafts, pins, studs, bushings, clamps and posts, each where it stands.
 
+The scales of the coupler's slots: angles of crank and rocker from X in the pose of setting.
+"""
+
+import math
 from collections.abc import Mapping
 
-from mechwright import Colour, Instance, Part, Step, Turned
+from mechwright import Colour, Engraving, Instance, Part, Step, Turned
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.part import Bore
 from mechwright.mechanics.gearing import gear_measures
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
+from mechwright.mechanics.linkage.scale import scale
 from mechwright.mechanics.linkage.turned import SHAFT, STEEL
 from mechwright.standards.screws import washer
+from mechwright_five_bar.kinematics.phases import pose_angles, settings_of
 from mechwright_five_bar.kinematics.train import gear_teeth
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.parts.frames import fixed_frames
@@ -17,8 +23,24 @@ from mechwright_five_bar.parts.hardware import clamp_of_design, head_of, running
 from mechwright_five_bar.parts.hub import Hub, hub_of
 from mechwright_five_bar.parts.joints import joints_of, slotted
 from mechwright_five_bar.parts.layout import Layout, post_radius
-from mechwright_five_bar.parts.scales import scales
 from mechwright_five_bar.table import FiveBarTable
+
+
+def scales(params: FiveBarParams) -> Mapping[str, tuple[Engraving, ...]]:
+    """Plate to its engravings; ``params`` shows its first phase."""
+    clamp = clamp_of_design(params)
+    if not params.phases or clamp is None:
+        return {}
+    found = []
+    for (one, places), first, name in zip(
+        settings_of(params), pose_angles(params), ("crank_turn", "rocker_turn"), strict=True
+    ):
+        if one.slot is not None:
+            turns = [0.0, *(float(getattr(row, name)) for row in params.phases)]
+            angles = [math.remainder(first + turn, 360.0) for turn in turns]
+            found.append(scale(f"scale-{one.name.lower()}", one.slot, places, angles, clamp.reach))
+    return {"coupler": tuple(found)} if found else {}
+
 
 BELOW = 2.0
 """Air between the lowest head and what the posts stand on, mm."""

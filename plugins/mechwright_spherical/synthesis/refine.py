@@ -4,19 +4,68 @@ R1 and R3 are common to both phases by construction: a1 and a1n lie on one circl
 circle about b1. The residuals are the path points' distances from their targets; positions 1 and 5 are met by
 construction. With a0, b0 and b1 kept there are six unknowns (R1, two azimuths, R3, two azimuths). With those
 three axes free as well there are twelve, which is more than ten equations: such a path can be met exactly.
+
+Least squares from one start, for residuals that are computed for many designs at once.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from mechwright import Array, KinematicsError
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.kinematics.five_bar import AdjustableFiveBar, mean
 from mechwright_spherical.kinematics.vectors import column, cross, dot, norm, perpendicular
-from mechwright_spherical.synthesis.fit import assembled, fitted
+
+SLOPE = 1e-6
+"""Step of central differences, rad: their error is 1e-10, and Newton's steps converge all the same."""
+
+ABSURD = 10.0
+"""Residual of a design that cannot be assembled: five diameters of the sphere, so that no step there is
+taken."""
+
+
+def assembled(residuals: Array) -> Array:
+    """The residuals, with ``ABSURD`` for those of a design that cannot be assembled."""
+    return np.where(np.isfinite(residuals), residuals, ABSURD)
+
+
+def fitted(residuals: Callable[[Array], Array], x: Array, precision: float, most: int, **how: Any) -> Array:
+    """The unknowns (k,) with the least sum of squares near the start ``x``.
+
+    Parameters
+    ----------
+    residuals
+        Unknowns (k, designs) to residuals (designs, m).
+    precision
+        All tolerances of the solver.
+    most
+        Evaluations, at most.
+    how
+        Method or bounds of the solver.
+    """
+    steps = SLOPE * np.concatenate([np.eye(x.size), -np.eye(x.size)], axis=1)
+
+    def jacobian(at: Array) -> Array:
+        values = residuals(at[:, None] + steps)
+        return np.asarray((values[: x.size] - values[x.size :]).T / (2 * SLOPE))
+
+    found = least_squares(
+        lambda at: residuals(at[:, None])[0],
+        x,
+        jac=jacobian,
+        xtol=precision,
+        ftol=precision,
+        gtol=precision,
+        max_nfev=most,
+        **how,
+    )
+    return np.asarray(found.x)
+
 
 _AXES = ("a0", "b0", "b1")
 

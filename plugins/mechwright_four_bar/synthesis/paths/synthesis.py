@@ -1,24 +1,94 @@
-"""Synthesis of a path: a coupler point through points, timed or untimed, within limits."""
+"""Synthesis of a path: a coupler point through points, timed or untimed, within limits.
+
+The points of a path as they are asked for: as numbers.
+
+Which designs on a path are one: near-identical ones, cognates, images under a symmetry.
+"""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import permutations
 
 import numpy as np
 
-from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright import Array, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.contracts.synthesis import ALIKE
+from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.tracing.points import all_angles, in_plane, thinned
-from mechwright.mechanics.tracing.requirement import faults
+from mechwright.mechanics.tracing.requirement import SENSES, faults
 from mechwright.mechanics.tracing.search import EXACT, MORE, SEARCH
-from mechwright_four_bar.kinematics.cognates import Drawing, cognates
+from mechwright.mechanics.tracing.symmetry import Image, symmetries
+from mechwright_four_bar.kinematics.cognates import Drawing, cognates, third_pivot
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement
 from mechwright_four_bar.synthesis.candidates import GOOD_ANGLE, Found, buildable, building
-from mechwright_four_bar.synthesis.paths.asked import PathProblem
-from mechwright_four_bar.synthesis.paths.points import problem_of
+from mechwright_four_bar.synthesis.paths.asked import Limits, PathProblem
 from mechwright_four_bar.synthesis.paths.refit import fitted, rounded
-from mechwright_four_bar.synthesis.paths.same import distinct
 from mechwright_four_bar.synthesis.paths.search import PathSearch, PathSolution, path, search
+
+
+def signature(one: PathSolution) -> tuple[Plane, Array]:
+    """The pivots (3,) of the cognates and the two links (3, 2), shorter first, that turn about each."""
+    bar, share = one.bar, one.point / one.bar.coupler
+    a, c, b, _ = bar.lengths
+    ground = bar.ground * complex(math.cos(bar.ground_angle), math.sin(bar.ground_angle))
+    pivots = np.array([one.pivot, one.pivot + ground, third_pivot(bar, one.pivot, one.point)])
+    near, far = abs(share), abs(1 - share)
+    return pivots, np.sort([[a, near * c], [b, far * c], [near * b, far * a]], axis=1)
+
+
+def distinct(found: Sequence[PathSolution], problem: PathProblem, most: int) -> list[PathSolution]:
+    """The first ``most`` designs, none near-identical to, a cognate of, or an image of an earlier one."""
+    images: list[Image] = [lambda z: z, *symmetries(problem.targets, problem.closed, problem.turns)]
+    kept: list[PathSolution] = []
+    taken: list[tuple[Plane, Array]] = []
+    for one in found:
+        pivots, links = signature(one)
+        room = ALIKE * max(problem.size, min(one.bar.lengths))
+        if not any(_same(pivots, links, *other, images, room) for other in taken):
+            kept.append(one)
+            taken.append((pivots, links))
+            if len(kept) == most:
+                break
+    return kept
+
+
+def _same(
+    pivots: Plane, links: Array, others: Plane, other_links: Array, images: Sequence[Image], room: float
+) -> bool:
+    for order in permutations(range(3)):
+        index = list(order)
+        if np.abs(links[index] - other_links).max() < room:
+            for image in images:
+                if np.abs(image(pivots)[index] - others).max() < room:
+                    return True
+    return False
+
+
+def problem_of(wanted: PathRequirement) -> PathProblem:
+    """The requirement in complex numbers and radians.
+
+    A first point that comes again at the end closes the path.
+    """
+    targets = np.array([complex(x, y) for x, y in wanted.points])
+    turns = None if wanted.crank_turns is None else np.radians(wanted.crank_turns)
+    again = targets.size > 3 and targets[0] == targets[-1] and turns is None
+    return PathProblem(
+        targets[:-1] if again else targets,
+        turns,
+        SENSES[wanted.sense],
+        wanted.closed or bool(again),
+        math.radians(wanted.order_tolerance),
+        Limits(
+            wanted.shortest_link,
+            wanted.longest_link,
+            math.radians(wanted.least_transmission_angle),
+            wanted.frame,
+        ),
+    )
+
 
 TIED = 1e-12
 """rad. Crank angles nearer than this are one: two points share it because their order would be another."""
