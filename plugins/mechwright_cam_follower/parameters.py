@@ -122,7 +122,7 @@ class CamParams(Parameters):
     )
     swings: Annotated[tuple[Swing, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
         None,
-        description="The same of a lever, as angles; left out, 20, 20, 0, 0.",
+        description="The same of a lever, as angles. Default: 20, 20, 0, 0.",
         json_schema_extra=FIRST,
     )
     laws: Annotated[tuple[LawName, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
@@ -158,7 +158,7 @@ class CamParams(Parameters):
         json_schema_extra=FIRST,
     )
     roller_radius: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Radius of the rollers; left out, 8.", json_schema_extra=FIRST
+        None, description="Radius of the rollers. Default: 8.", json_schema_extra=FIRST
     )
     offset: Annotated[float, Field(ge=-500, le=500), Unit("mm")] | None = Field(
         None,
@@ -171,7 +171,7 @@ class CamParams(Parameters):
     centre_distance: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
         None,
         description=(
-            "From the cam's axis to the lever's; left out, it grows with the cam: 90 for the usual one, "
+            "From the cam's axis to the lever's. Default: it grows with the cam: 90 for the usual one, "
             "68 with a flat face."
         ),
         json_schema_extra=FIRST,
@@ -179,51 +179,51 @@ class CamParams(Parameters):
     arm_length: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
         None,
         description=(
-            "From the lever's axis to its roller; left out, it grows with the cam: 75 for the usual one."
+            "From the lever's axis to its roller. Default: it grows with the cam: 75 for the usual one."
         ),
         json_schema_extra=FIRST,
     )
     face_offset: Annotated[float, Field(ge=2, le=300), Unit("mm")] | None = Field(
         None,
         description=(
-            "From a lever's axis to its flat face, towards the cam; left out, half the width of the follower."
+            "From a lever's axis to its flat face, towards the cam. Default: half the width of the follower."
         ),
     )
     face_margin: Annotated[float, Field(ge=0.2, le=50), Unit("mm")] | None = Field(
-        None, description="How far a flat face goes on beyond its last contact on either side; left out, 2."
+        None, description="How far a flat face goes on beyond its last contact on either side. Default: 2."
     )
     turning: Literal["ccw", "cw"] = Field("ccw", description="How the cam turns, seen from above.")
     pressure_limit: Annotated[float, Field(ge=5, le=80), Unit("deg")] | None = Field(
         None,
-        description="Greatest pressure angle that is no warning; left out, 30, of a lever 35.",
+        description="Greatest pressure angle that is no warning. Default: 30, of a lever 35.",
         json_schema_extra=GIVEN,
     )
     speed: RevPerMin = Field(
         120.0, ge=0.01, le=20000, description="Constant speed of the cam.", json_schema_extra=FIRST
     )
     mass: Annotated[float, Field(ge=0.001, le=1000), Unit("kg")] | None = Field(
-        None, description="All that slides with the follower; left out, 0.3.", json_schema_extra=FIRST
+        None, description="All that slides with the follower. Default: 0.3.", json_schema_extra=FIRST
     )
     inertia: Annotated[float, Field(ge=1e-7, le=1000), Unit("kg*m^2")] | None = Field(
-        None, description="All that swings with the lever; left out, 0.001."
+        None, description="All that swings with the lever. Default: 0.001."
     )
     load: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N")] | None = Field(
-        None, description="Constant force that presses a follower to the cam; left out, 0."
+        None, description="Constant force that presses a follower to the cam. Default: 0."
     )
     load_torque: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N*m")] | None = Field(
-        None, description="Constant torque that presses a lever to the cam; left out, 0."
+        None, description="Constant torque that presses a lever to the cam. Default: 0."
     )
     spring_preload: Annotated[float, Field(ge=0, le=1e5), Unit("N")] | None = Field(
-        None, description="Force of the spring at the lowest place; left out, 60."
+        None, description="Force of the spring at the lowest place. Default: 60."
     )
     spring_rate: Annotated[float, Field(ge=0, le=1e4), Unit("N/mm")] | None = Field(
-        None, description="What the spring's force gains with the lift; left out, 4."
+        None, description="What the spring's force gains with the lift. Default: 4."
     )
     spring_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] | None = Field(
-        None, description="Torque of a lever's spring at the lowest place; left out, 4."
+        None, description="Torque of a lever's spring at the lowest place. Default: 4."
     )
     spring_stiffness: Annotated[float, Field(ge=0, le=1e4), Unit("N*m/rad")] | None = Field(
-        None, description="What that torque gains with the swing; left out, 4."
+        None, description="What that torque gains with the swing. Default: 4."
     )
     thickness: Millimetres = Field(
         10.0, ge=1, le=100, description="Thickness of a cam, and length of a roller.", json_schema_extra=FIRST
@@ -237,7 +237,7 @@ class CamParams(Parameters):
         8.0,
         ge=1,
         le=100,
-        description="Stud of a roller, and its hole in the follower; left out, 8, and less in small rollers.",
+        description="Stud of a roller, and its hole in the follower. Default: 8, and less in small rollers.",
         json_schema_extra=FITTED,
     )
     pivot_bore: Millimetres = Field(10.0, ge=2, le=100, description="Bore of a lever for its shaft.")
@@ -254,7 +254,7 @@ class CamParams(Parameters):
         15.0,
         ge=0,
         le=300,
-        description="Shaft bore of the cam; 0 for none; left out, 15, and less in small cams.",
+        description="Shaft bore of the cam; 0 for none. Default: 15, and less in small cams.",
         json_schema_extra={**FIRST, **FITTED},
     )
     keyway_width: KeywayWidth = Field(

@@ -47,10 +47,10 @@ class SizeRequirement(Parameters):
         (120.0, 60.0, 120.0, 60.0), description="Segments of the turn, 360 together.", json_schema_extra=FIRST
     )
     lifts: Annotated[tuple[Lift, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
-        None, description="Lift at the end of each segment; left out, 15, 15, 0, 0.", json_schema_extra=FIRST
+        None, description="Lift at the end of each segment. Default: 15, 15, 0, 0.", json_schema_extra=FIRST
     )
     swings: Annotated[tuple[Swing, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
-        None, description="The same of a lever; left out, 20, 20, 0, 0.", json_schema_extra=FIRST
+        None, description="The same of a lever. Default: 20, 20, 0, 0.", json_schema_extra=FIRST
     )
     laws: Annotated[tuple[LawName, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
         ("cycloidal",),
@@ -69,16 +69,16 @@ class SizeRequirement(Parameters):
         json_schema_extra=FIRST,
     )
     roller_radius: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Radius of the rollers; left out, 8.", json_schema_extra=FIRST
+        None, description="Radius of the rollers. Default: 8.", json_schema_extra=FIRST
     )
     offset: Annotated[float, Field(ge=-500, le=500), Unit("mm")] | None = Field(
-        None, description="Offset of a slide; left out, the best."
+        None, description="Offset of a slide. Default: the best."
     )
     arm_length: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="Arm of a lever with a roller; left out, 75."
+        None, description="Arm of a lever with a roller. Default: 75."
     )
     centre_distance: Annotated[float, Field(ge=5, le=2000), Unit("mm")] | None = Field(
-        None, description="Between the axes of cam and lever; left out, the best."
+        None, description="Between the axes of cam and lever. Default: the best."
     )
     bore: Millimetres = Field(
         15.0, ge=0, le=300, description="Shaft bore of the cam; 0 for none.", json_schema_extra=FIRST

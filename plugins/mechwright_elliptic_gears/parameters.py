@@ -102,7 +102,7 @@ class EllipticGearParams(Parameters):
     )
     phase: Phase | None = Field(
         None,
-        description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90.",
+        description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0. Default: 90.",
         json_schema_extra=FIRST,
     )
     phase_joint: Literal["fixed", "pins", "clamp"] | None = Field(
@@ -114,7 +114,7 @@ class EllipticGearParams(Parameters):
         ),
     )
     phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=MOST_PHASES)] | None = Field(
-        None, description="Phase angles that the joint can be set to; left out, 0, 45, 90, 135, 180."
+        None, description="Phase angles that the joint can be set to. Default: 0, 45, 90, 135, 180."
     )
     eccentricity: Ratio = Field(
         0.4,
@@ -127,7 +127,7 @@ class EllipticGearParams(Parameters):
         25,
         ge=LEAST_TEETH,
         le=MOST_TEETH,
-        description="Number of teeth of each gear; left out, 25, or the least greater one without undercut.",
+        description="Number of teeth of each gear. Default: 25, or the least greater one without undercut.",
         json_schema_extra={**FIRST, **FITTED},
     )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
@@ -142,7 +142,7 @@ class EllipticGearParams(Parameters):
         None,
         description=(
             "Arc from the far vertex to the middle of a tooth, in pitches: 0 or 0.5 for an odd number of "
-            "teeth, 0.25 or 0.75 for an even one; left out, the smaller."
+            "teeth, 0.25 or 0.75 for an even one. Default: the smaller."
         ),
     )
     pressure_angle: Degrees = Field(20.0, ge=10, le=30, description="Pressure angle of the generating rack.")
@@ -151,21 +151,21 @@ class EllipticGearParams(Parameters):
         1.25,
         ge=0.4,
         le=2,
-        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
+        description="Depth below the pitch curve, in modules. Default: 1.25, or 0.25 above a high addendum.",
         json_schema_extra=FITTED,
     )
     tip_radius: Ratio = Field(
         0.38,
         ge=0,
         le=0.6,
-        description="Radius at the tip of the generating rack, in modules; left out, 0.38, or what its tooth "
+        description="Radius at the tip of the generating rack, in modules. Default: 0.38, or what its tooth "
         "has room for.",
         json_schema_extra=FITTED,
     )
     backlash: Backlash | None = Field(
         None,
         description=(
-            "Circumferential play of the pair on the pitch curve, a quarter per flank; left out, the least "
+            "Circumferential play of the pair on the pitch curve, a quarter per flank. Default: the least "
             "with which gears as made turn: 0.067 at e = 0.4, of a train 0.107."
         ),
     )
@@ -173,7 +173,7 @@ class EllipticGearParams(Parameters):
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: ShaftBore = Field(
         10.0,
-        description="Diameter of the shaft bore, 0 for none; left out, 10, or the largest standard one below "
+        description="Diameter of the shaft bore, 0 for none. Default: 10, or the largest standard one below "
         "that leaves the rim of a small gear.",
     )
     keyway_width: KeywayWidth = Field(
@@ -196,63 +196,63 @@ class EllipticGearParams(Parameters):
     )
     band: Annotated[float, Field(gt=0, le=1e6), Unit("mm/s")] | None = Field(
         None,
-        description="Spread of Q's speed that still counts as constant; left out, 0.02 semi_major × speed.",
+        description="Spread of Q's speed that still counts as constant. Default: 0.02 semi_major × speed.",
     )
     gap: Annotated[float, Field(ge=0.2, le=50), Unit("mm")] | None = Field(
-        None, description="Height of the spacers between the plates of a train; left out, 2."
+        None, description="Height of the spacers between the plates of a train. Default: 2."
     )
     pin_diameter: Annotated[float, Field(ge=0.5, le=100), Unit("mm")] | None = Field(
-        None, description="Joints J and K of the coupler; left out, half the bore."
+        None, description="Joints J and K of the coupler. Default: half the bore."
     )
     coupler_thickness: Annotated[float, Field(ge=0.3, le=100), Unit("mm")] | None = Field(
-        None, description="Plate of the coupler; left out, 6."
+        None, description="Plate of the coupler. Default: 6."
     )
     tracer_diameter: Annotated[float, Field(ge=0, le=100), Unit("mm")] | None = Field(
-        None, description="Hole at Q for a pen or a tool, 0 for none; left out, the pin's."
+        None, description="Hole at Q for a pen or a tool, 0 for none. Default: the pin's."
     )
     base_thickness: Annotated[float, Field(ge=0.3, le=200), Unit("mm")] | None = Field(
-        None, description="Base plate; left out, 10."
+        None, description="Base plate. Default: 10."
     )
     bushes: bool | None = Field(
         None,
-        description="Sintered bronze bushes (ISO 2795) wherever something turns on or in a plate; left out, "
+        description="Sintered bronze bushes (ISO 2795) wherever something turns on or in a plate. Default: "
         "plates and shafts run on each other.",
     )
     stub_diameter: Annotated[float, Field(ge=0.5, le=300), Unit("mm")] | None = Field(
-        None, description="Of the input's shaft below the base plate; left out, the bore's."
+        None, description="Of the input's shaft below the base plate. Default: the bore's."
     )
     stub_length: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
-        None, description="How far it stands out there; left out, two bores."
+        None, description="How far it stands out there. Default: two bores."
     )
     screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
         None,
-        description="Holes in the corners of the base plate, for the screws of a frame; left out, four under "
+        description="Holes in the corners of the base plate, for the screws of a frame. Default: four under "
         "the gears fix it.",
     )
     screw_offset: Annotated[float, Field(ge=0, le=5000), Unit("mm")] | None = Field(
         None,
-        description="Distance of those holes from the axes of gears 2 and 5; left out, 8 beyond the teeth.",
+        description="Distance of those holes from the axes of gears 2 and 5. Default: 8 beyond the teeth.",
     )
     dowel_diameter: Annotated[float, Field(ge=0.5, le=50), Unit("mm")] | None = Field(
         None,
         description=(
-            "Three dowels that join gears 3 and 4 without a key, or the pin of a dividing circle; left out, "
+            "Three dowels that join gears 3 and 4 without a key, or the pin of a dividing circle. Default: "
             "a third of the bore."
         ),
     )
     dowel_circle: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
         None,
         description=(
-            "Diameter of the circle of the dowels, or of the inner dividing circle; left out, as small as "
+            "Diameter of the circle of the dowels, or of the inner dividing circle. Default: as small as "
             "the spacer allows, or the walls between the holes of one circle."
         ),
     )
 
     clamp_screw: Annotated[float, Field(ge=2, le=12), Unit("mm")] | None = Field(
-        None, description="Thread of the clamp's screws, M2 to M12; left out, at most a third of the bore."
+        None, description="Thread of the clamp's screws, M2 to M12. Default: at most a third of the bore."
     )
     clamp_screws: Annotated[int, Field(ge=3, le=8)] | None = Field(
-        None, description="Number of the clamp's screws; left out, 4."
+        None, description="Number of the clamp's screws. Default: 4."
     )
 
     def fitted(self) -> Mapping[str, Any]:

@@ -21,7 +21,7 @@ class PhaseTable(Parameters):
         0.0, ge=-360, le=360, description="Of the crank from phase 1 to this one, the gears open."
     )
     rocker_turn: Degrees = Field(0.0, ge=-360, le=360, description="Of the rocker about B1, likewise.")
-    swing_from: Angle | None = Field(None, description="One end of the crank's swing; left out, as phase 1.")
+    swing_from: Angle | None = Field(None, description="One end of the crank's swing. Default: as phase 1.")
     swing_to: Angle | None = Field(None, description="The other end of that swing.")
 
 
@@ -90,7 +90,7 @@ class FiveBarParams(Parameters):
         20,
         ge=LEAST_TEETH,
         le=MOST_TEETH,
-        description="Teeth of the crank's gear; left out, 20, or with a module half as many as the arm's, "
+        description="Teeth of the crank's gear. Default: 20, or with a module half as many as the arm's, "
         "which reach over the ground.",
         json_schema_extra={**FIRST, **FITTED},
     )
@@ -98,19 +98,19 @@ class FiveBarParams(Parameters):
         40,
         ge=LEAST_TEETH,
         le=MOST_TEETH,
-        description="Teeth of the arm's gear; left out, 40, or with a module twice as many as the crank's.",
+        description="Teeth of the arm's gear. Default: 40, or with a module twice as many as the crank's.",
         json_schema_extra={**FIRST, **FITTED},
     )
     idler_teeth: int = Field(
         20,
         ge=0,
         le=MOST_TEETH,
-        description="Teeth of the idler that lets both turn the same way, 0 for none; left out, 20, or with "
+        description="Teeth of the idler that lets both turn the same way, 0 for none. Default: 20, or with "
         "a module as many as reach from gear to gear.",
         json_schema_extra={**FIRST, **FITTED},
     )
     module: Annotated[float, Field(ge=0.3, le=50), Unit("mm")] | None = Field(
-        None, description="Module of the gears; left out, the one with which their axes stand in line."
+        None, description="Module of the gears. Default: the one with which their axes stand in line."
     )
     backlash: Millimetres = Field(0.08, ge=0, le=2, description="Play of two gears along the pitch circle.")
     speed: fields.Speed = 60.0
@@ -137,13 +137,13 @@ class FiveBarParams(Parameters):
         USUAL_FACE,
         ge=1,
         le=100,
-        description="Of the gears and their clamp; left out, 8, or up to 12 modules as the load asks for it.",
+        description="Of the gears and their clamp. Default: 8, or up to 12 modules as the load asks for it.",
         json_schema_extra=FITTED,
     )
     ground_thickness: fields.GroundThickness = 10.0
     screw_hole: Annotated[float, Field(ge=1, le=50), Unit("mm")] | None = Field(
         None,
-        description="Holes in the corners of the ground plate, for the screws of a frame; left out, it "
+        description="Holes in the corners of the ground plate, for the screws of a frame. Default: it "
         "stands on posts that are pressed into it.",
     )
     post_offset: Millimetres = Field(
@@ -153,7 +153,7 @@ class FiveBarParams(Parameters):
         8.0,
         ge=1,
         le=200,
-        description="Pins and shafts of all joints; left out, 8, or the largest of 5, 4, 3, 2, 1.5 and 1 "
+        description="Pins and shafts of all joints. Default: 8, or the largest of 5, 4, 3, 2, 1.5 and 1 "
         "with which the bores of links and gears leave their rims.",
         json_schema_extra={**FIRST, **FITTED},
     )
@@ -164,7 +164,7 @@ class FiveBarParams(Parameters):
         12.0,
         ge=1,
         le=500,
-        description="Width of straight links between their bosses; left out, 12, or less as the pins.",
+        description="Width of straight links between their bosses. Default: 12, or less as the pins.",
         json_schema_extra=FITTED,
     )
     clearance: fields.Clearance = 1.0

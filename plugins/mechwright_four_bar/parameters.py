@@ -67,7 +67,7 @@ class FourBarParams(Parameters):
     pivot_y: fields.PivotY = 0.0
     coupler_point_x: Place | None = Field(
         None,
-        description="Coupler point along the coupler, from A towards B; left out, there is none.",
+        description="Coupler point along the coupler, from A towards B. Default: none.",
         json_schema_extra=FIRST,
     )
     coupler_point_y: Place | None = Field(
@@ -108,7 +108,7 @@ class FourBarParams(Parameters):
         6.0,
         ge=1,
         le=200,
-        description="Pins of all joints; left out, 6, or the largest of 5, 4, 3, 2, 1.5 and 1 with which the "
+        description="Pins of all joints. Default: 6, or the largest of 5, 4, 3, 2, 1.5 and 1 with which the "
         "bores leave their rims.",
         json_schema_extra={**FIRST, **FITTED},
     )
@@ -119,7 +119,7 @@ class FourBarParams(Parameters):
         10.0,
         ge=1,
         le=500,
-        description="Width of straight and bent links between their bosses; left out, 10, or less as the "
+        description="Width of straight and bent links between their bosses. Default: 10, or less as the "
         "pins.",
         json_schema_extra=FITTED,
     )
@@ -137,7 +137,7 @@ class FourBarParams(Parameters):
     )
     screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
-        description="Diameter of the holes in the corners of the ground plates; left out, that of the pins. "
+        description="Diameter of the holes in the corners of the ground plates. Default: that of the pins. "
         "Through those of two plates go the bolts of their posts, which it gives ends for a frame's pillars.",
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(

@@ -34,7 +34,7 @@ class PathRequirement(PlanePath):
     frame: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
         None,
         description="Rectangle [least x, least y, greatest x, greatest y] in which both fixed pivots "
-        "stand; left out, anywhere.",
+        "stand. Default: anywhere.",
     )
 
 
@@ -95,10 +95,10 @@ class PolesRequirement(Parameters):
         "counter-clockwise positive, or one for all.",
     )
     ground_angle: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
-        None, description="Direction from A0 to B0; left out, any."
+        None, description="Direction from A0 to B0. Default: any."
     )
     ground: Annotated[float, Field(ge=1, le=5000), Unit("mm")] | None = Field(
-        None, description="Distance from A0 to B0, only with ground_angle; left out, any."
+        None, description="Distance from A0 to B0, only with ground_angle. Default: any."
     )
     least_transmission_angle: Degrees = Field(
         1.0, ge=0.5, le=80, description="Least transmission angle of the designs."

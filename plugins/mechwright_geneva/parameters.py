@@ -66,7 +66,7 @@ class GenevaParams(Parameters):
     crank_half_angle: Annotated[float, Field(ge=5, le=120), Unit("deg")] | None = Field(
         None,
         description=(
-            "Half the crank's angle of a stroke; left out, 90 - 180/n for straight slots, usual for others."
+            "Half the crank's angle of a stroke. Default: 90 - 180/n for straight slots, usual for others."
         ),
     )
     offset_angle: Annotated[float, Field(ge=-60, le=60), Unit("deg")] | None = Field(
@@ -79,18 +79,18 @@ class GenevaParams(Parameters):
     entry_radius: Annotated[float, Field(ge=5, le=1000), Unit("mm")] | None = Field(
         None,
         description=(
-            "Radius of the wheel, where the roller's centre enters; left out, as centre_distance wants it, "
+            "Radius of the wheel, where the roller's centre enters. Default: as centre_distance wants it, "
             "or 100, and more where the driver needs room."
         ),
         json_schema_extra=FIRST,
     )
     centre_distance: Annotated[float, Field(ge=5, le=3000), Unit("mm")] | None = Field(
-        None, description="Distance of the axes; left out, as wheel and angles give it."
+        None, description="Distance of the axes. Default: as wheel and angles give it."
     )
     roller_radius: Annotated[float, Field(ge=0.5, le=100), Unit("mm")] | None = Field(
         None,
         description=(
-            "Radius of the rollers; left out, the largest standard one up to a twentieth of entry_radius "
+            "Radius of the rollers. Default: the largest standard one up to a twentieth of entry_radius "
             "with which the slots are sound."
         ),
         json_schema_extra=FIRST,
@@ -102,7 +102,7 @@ class GenevaParams(Parameters):
         1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.", json_schema_extra=FIRST
     )
     lock_radius: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
-        None, description="Radius of the locking disc; left out, the largest that leaves the least wall."
+        None, description="Radius of the locking disc. Default: the largest that leaves the least wall."
     )
     lock_clearance: Millimetres = Field(
         0.1, ge=0.005, le=2, description="Gap between the locking disc and the wheel."
@@ -110,7 +110,7 @@ class GenevaParams(Parameters):
     least_wall: Annotated[float, Field(ge=0.2, le=50), Unit("mm")] | None = Field(
         None,
         description=(
-            "Thinnest wall that may stay anywhere: webs, horns, islands, hubs; left out, 2, less on wheels "
+            "Thinnest wall that may stay anywhere: webs, horns, islands, hubs. Default: 2, less on wheels "
             "below 70."
         ),
     )
@@ -129,7 +129,7 @@ class GenevaParams(Parameters):
         ge=0.2,
         le=100,
         description=(
-            "Thickness of the floor under the grooves, or of the backing plate; left out, 3, or three tenths "
+            "Thickness of the floor under the grooves, or of the backing plate. Default: 3, or three tenths "
             "of a wheel below 10."
         ),
         json_schema_extra=FITTED,
@@ -137,7 +137,7 @@ class GenevaParams(Parameters):
     bore: Annotated[float, Field(ge=0, le=300), Unit("mm")] | None = Field(
         None,
         description=(
-            "Shaft bore of the wheel, 0 for none; left out, the largest standard one up to 0.12 "
+            "Shaft bore of the wheel, 0 for none. Default: the largest standard one up to 0.12 "
             "entry_radius that leaves the walls."
         ),
         json_schema_extra=FIRST,
@@ -161,7 +161,7 @@ class GenevaParams(Parameters):
     hub_height: Millimetres = Field(8.0, ge=1, le=200, description="Height of the hub plate.")
     driver_bore: Annotated[float, Field(ge=0, le=300), Unit("mm")] | None = Field(
         None,
-        description="Shaft bore of the driver, 0 for none; left out, found as bore is.",
+        description="Shaft bore of the driver, 0 for none. Default: found as bore is.",
         json_schema_extra=FIRST,
     )
     driver_keyway_width: KeywayWidth = Field(
@@ -170,12 +170,12 @@ class GenevaParams(Parameters):
     keyway_relief: KeywayRelief = 0.0
     crank_thickness: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
         None,
-        description="Thickness of the crank plate; left out, 8, with pins below 2 three and a half of them.",
+        description="Thickness of the crank plate. Default: 8, with pins below 2 three and a half of them.",
     )
     pin_diameter: Annotated[float, Field(ge=0.5, le=150), Unit("mm")] | None = Field(
         None,
         description=(
-            "Diameter of the rollers' pins, and of their holes in the crank; left out, the largest standard "
+            "Diameter of the rollers' pins, and of their holes in the crank. Default: the largest standard "
             "one up to 1.2 roller_radius."
         ),
     )
@@ -189,7 +189,7 @@ class GenevaParams(Parameters):
     fixing: Annotated[float, Field(ge=0, le=30), Unit("mm")] | None = Field(
         None,
         description=(
-            "Diameter of the dowels that join stacked plates, 0 for none; left out, 4, or the largest "
+            "Diameter of the dowels that join stacked plates, 0 for none. Default: 4, or the largest "
             "standard one that the driver has room for."
         ),
     )
@@ -225,7 +225,7 @@ class GenevaParams(Parameters):
     load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] | None = Field(
         None,
         description=(
-            "Moment of inertia that turns with the wheel, its own included; left out, 0.01, and of wheels "
+            "Moment of inertia that turns with the wheel, its own included. Default: 0.01, and of wheels "
             "below 100 less, with the fourth power of entry_radius."
         ),
         json_schema_extra=FIRST,

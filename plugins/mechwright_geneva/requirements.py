@@ -36,18 +36,18 @@ class IndexingRequirement(Parameters):
     )
     wheel_diameter: Annotated[float, Field(ge=10, le=2000), Unit("mm")] | None = Field(
         None,
-        description="Diameter of the wheel; left out, as large as the rest allows.",
+        description="Diameter of the wheel. Default: as large as the rest allows.",
         json_schema_extra=FIRST,
     )
     centre_distance: Annotated[float, Field(ge=5, le=3000), Unit("mm")] | None = Field(
         None,
-        description="Distance of the axes, instead of wheel_diameter; left out, any.",
+        description="Distance of the axes, instead of wheel_diameter. Default: any.",
         json_schema_extra=FIRST,
     )
     overall_length: Annotated[float, Field(ge=20, le=5000), Unit("mm")] | None = Field(
         None,
         description=(
-            "Longest side of the mechanism: wheel and crank along their axes; left out, 300, or any if wheel "
+            "Longest side of the mechanism: wheel and crank along their axes. Default: 300, or any if wheel "
             "or centre distance is given."
         ),
         json_schema_extra=FIRST,
@@ -59,10 +59,10 @@ class IndexingRequirement(Parameters):
         0.0, description="Constant torque against the wheel's turning.", json_schema_extra=FIRST
     )
     pressure_limit: Annotated[float, Field(gt=0, le=1e5), Unit("MPa")] | None = Field(
-        None, description="Greatest Hertz pressure; left out, the one at which the softer material yields."
+        None, description="Greatest Hertz pressure. Default: the one at which the softer material yields."
     )
     acceleration_limit: Annotated[float, Field(gt=0, le=1e9), Unit("rad/s^2")] | None = Field(
-        None, description="Greatest acceleration of the wheel; left out, any."
+        None, description="Greatest acceleration of the wheel. Default: any."
     )
     laws: tuple[SmoothLaw, ...] = Field(
         ("cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"),

@@ -61,7 +61,7 @@ class LoadTable(Parameters):
     """What pushes and turns a link from outside, all along."""
 
     link: Word = Field("", description="The link that it acts on.")
-    point: Word = Field("", description="The point of the link at which the force acts; left out, its first.")
+    point: Word = Field("", description="The point of the link at which the force acts. Default: its first.")
     force_x: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N")] = Field(0.0, description="Force along X.")
     force_y: Annotated[float, Field(ge=-1e5, le=1e5), Unit("N")] = Field(0.0, description="Force along Y.")
     torque: Annotated[float, Field(ge=-1e4, le=1e4), Unit("N*m")] = Field(
@@ -145,16 +145,16 @@ class LinkageParams(Parameters):
     slides: tuple[SlideTable, ...] = Field((), max_length=8, description="Slides of a drawn linkage.")
     gears: tuple[GearTable, ...] = Field((), max_length=8, description="Gear pairs of a drawn linkage.")
     driver: Word = Field(
-        "", description="The link of a drawn linkage that the input moves; left out, the one called crank."
+        "", description="The link of a drawn linkage that the input moves. Default: the one called crank."
     )
     driver_on: Word = Field(GROUND, description="The link against which the driver moves.")
     output: Word = Field(
-        "", description="The link that the linkage is for; left out, that of the catalogue, or the last one."
+        "", description="The link that the linkage is for. Default: that of the catalogue, or the last one."
     )
     pairs: Annotated[tuple[tuple[Word, Word], ...], Field(max_length=8)] = Field(
         (),
         description='Pairs of links whose acceleration poles are wanted, as [["coupler", "ground"]]: of the '
-        "first as seen from the second; left out, of the output seen from the ground, or of another link if "
+        "first as seen from the second. Default: of the output seen from the ground, or of another link if "
         "the output is joined to the ground.",
     )
     speed: fields.Speed = 60.0
@@ -163,7 +163,7 @@ class LinkageParams(Parameters):
     swing_to: fields.SwingTo = None
     stroke_from: Annotated[float, Field(ge=-5000, le=5000), Unit("mm")] | None = Field(
         None,
-        description="One end of the stroke of a driver that slides, from where it is drawn; left out, it "
+        description="One end of the stroke of a driver that slides, from where it is drawn. Default: it "
         "goes as far as it can.",
     )
     stroke_to: Annotated[float, Field(ge=-5000, le=5000), Unit("mm")] | None = Field(
@@ -204,7 +204,7 @@ class LinkageParams(Parameters):
         description="Ground plates: one below the links, two with the links between, or one where that goes.",
     )
     screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Diameter of the holes in the corners of the ground plates; left out, of the pins."
+        None, description="Diameter of the holes in the corners of the ground plates. Default: of the pins."
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,

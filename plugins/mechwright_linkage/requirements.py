@@ -145,7 +145,7 @@ class PathRequirement(LinkageSearch):
     input_angles: tuple[Input, ...] | None = Field(
         None,
         max_length=60,
-        description="Angle of the input at each point from the first; left out, any, within a turn.",
+        description="Angle of the input at each point from the first. Default: any, within a turn.",
     )
     tolerance: Millimetres = Field(
         0.5, ge=0, le=100, description="Distance in the mean (root mean square) that counts as met."

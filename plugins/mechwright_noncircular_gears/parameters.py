@@ -78,7 +78,7 @@ class NoncircularParams(Parameters):
     sines: Annotated[tuple[Amplitude, ...], Field(max_length=MOST_HARMONICS)] | None = Field(
         None,
         description=(
-            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier"; left out, 15, with more than two '
+            'Amplitudes of sin(N1 φ), sin(2 N1 φ), ... for law = "fourier". Default: 15, with more than two '
             "mate_lobes 30 over their number, or none beside cosines."
         ),
         json_schema_extra=FIRST,
@@ -87,18 +87,18 @@ class NoncircularParams(Parameters):
         None, description='Amplitudes of 1 - cos(N1 φ), 1 - cos(2 N1 φ), ... for law = "fourier".'
     )
     window_ratio: Annotated[float, Field(gt=0, le=20), Unit("")] | None = Field(
-        None, description='Constant ratio, output over input, for law = "window"; left out, 0.85.'
+        None, description='Constant ratio, output over input, for law = "window". Default: 0.85.'
     )
     window: Annotated[float, Field(gt=0, lt=360), Unit("deg")] | None = Field(
         None,
         description=(
             "Angle of the driver over which ratio or slider speed is constant, or a Geneva wheel goes on by "
-            "a slot; left out, 100, of a slider 150, of a Geneva wheel 180."
+            "a slot. Default: 100, of a slider 150, of a Geneva wheel 180."
         ),
     )
     blend: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
         None,
-        description="Angle of the driver on each side of the window for the change; left out, 90, geneva 60.",
+        description="Angle of the driver on each side of the window for the change. Default: 90, geneva 60.",
     )
     nodes: Annotated[tuple[tuple[Turned, Turned], ...], Field(min_length=2, max_length=720)] | None = Field(
         None,
@@ -122,49 +122,49 @@ class NoncircularParams(Parameters):
         ),
     )
     rod_ratio: Annotated[float, Field(gt=1, le=100), Unit("")] | None = Field(
-        None, description='Rod over crank for law = "slider"; left out, 4.'
+        None, description='Rod over crank for law = "slider". Default: 4.'
     )
     stroke_start: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
         None,
-        description="Crank from its outer dead centre where constant speed begins; left out, 50.",
+        description="Crank from its outer dead centre where constant speed begins. Default: 50.",
     )
     stroke_end: Annotated[float, Field(gt=0, lt=180), Unit("deg")] | None = Field(
-        None, description="Crank where it ends; left out, 130."
+        None, description="Crank where it ends. Default: 130."
     )
     slots: Annotated[int, Field(ge=3, le=24)] | None = Field(
-        None, description='Slots of the straight wheel behind the pair for law = "geneva"; left out, 4.'
+        None, description='Slots of the straight wheel behind the pair for law = "geneva". Default: 4.'
     )
     ramp: Annotated[float, Field(ge=0.02, le=0.45), Unit("")] | None = Field(
         None,
         description=(
             "Half the share of the index over which the wheel's acceleration changes its sign; the smaller, "
-            "the less acceleration and the sharper the pitch curves; left out, 0.145."
+            "the less acceleration and the sharper the pitch curves. Default: 0.145."
         ),
     )
     first_ratio: Annotated[float, Field(ge=0.05, le=20), Unit("")] | None = Field(
-        None, description='Ratio at φ = 0 for law = "spiral"; left out, 0.7.'
+        None, description='Ratio at φ = 0 for law = "spiral". Default: 0.7.'
     )
     last_ratio: Annotated[float, Field(ge=0.05, le=20), Unit("")] | None = Field(
-        None, description='Ratio at the end of the travel for law = "spiral"; left out, 1.4.'
+        None, description='Ratio at the end of the travel for law = "spiral". Default: 1.4.'
     )
     eccentricity: Annotated[float, Field(ge=0, le=0.9), Unit("")] | None = Field(
         None,
         description=(
             "Shape of the driver's pitch curve: of an ellipse its eccentricity, of a limacon the change of "
-            "its radius, of a circle the place of its axis, in mean radii; left out, 0.2."
+            "its radius, of a circle the place of its axis, in mean radii. Default: 0.2."
         ),
     )
     sector: Annotated[float, Field(ge=5, le=MOST_SECTOR), Unit("deg")] | None = Field(
         None,
         description=(
-            "Travel of the driver where both gears are sectors, from φ = 0 there and back; left out, they go "
+            "Travel of the driver where both gears are sectors, from φ = 0 there and back. Default: they go "
             'all the way round. For law = "ratio", "angle", "table" and "spiral", which need not close then.'
         ),
         json_schema_extra=FIRST,
     )
     sector_hub: Annotated[float, Field(ge=2, le=1000), Unit("mm")] | None = Field(
         None,
-        description="Diameter of both sectors' hubs; left out, what the shaft's opening needs.",
+        description="Diameter of both sectors' hubs. Default: what the shaft's opening needs.",
     )
     teeth: int = Field(
         40,
@@ -194,17 +194,17 @@ class NoncircularParams(Parameters):
         json_schema_extra=FIRST,
     )
     ring_addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
-        None, description="Tooth height of the ring, in modules; left out, 0.6: hollow tips reach farther."
+        None, description="Tooth height of the ring, in modules. Default: 0.6: hollow tips reach farther."
     )
     ring_outside: Annotated[float, Field(ge=10, le=3000), Unit("mm")] | None = Field(
         None,
-        description="Diameter of the ring; left out, what its rim and holes need, in whole millimetres.",
+        description="Diameter of the ring. Default: what its rim and holes need, in whole millimetres.",
     )
     ring_holes: Annotated[int, Field(ge=0, le=24)] | None = Field(
-        None, description="Holes in the ring's rim, by which it is screwed on; left out, 6."
+        None, description="Holes in the ring's rim, by which it is screwed on. Default: 6."
     )
     ring_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
-        None, description="Their diameter; left out, 5.5, for M5."
+        None, description="Their diameter. Default: 5.5, for M5."
     )
     tooth_offset: Annotated[float, Field(ge=0, lt=1), Unit("")] = Field(
         0.0,
@@ -219,28 +219,28 @@ class NoncircularParams(Parameters):
         ),
     )
     shaper_radius: Annotated[float, Field(ge=4, le=100), Unit("")] | None = Field(
-        None, description="Pitch radius of the shaper's cutter, in modules; left out, 9."
+        None, description="Pitch radius of the shaper's cutter, in modules. Default: 9."
     )
     addendum: Annotated[float, Field(ge=0.3, le=1.5), Unit("")] | None = Field(
         None,
-        description="Tooth height over the pitch curve, in modules; left out, 1, with a shaper 0.8.",
+        description="Tooth height over the pitch curve, in modules. Default: 1, with a shaper 0.8.",
     )
     dedendum: Ratio = Field(
         1.25,
         ge=0.4,
         le=2,
-        description="Depth below the pitch curve, in modules; left out, 1.25, or 0.25 above a high addendum.",
+        description="Depth below the pitch curve, in modules. Default: 1.25, or 0.25 above a high addendum.",
         json_schema_extra=FITTED,
     )
     tip_radius: Annotated[float, Field(ge=0, le=0.6), Unit("")] | None = Field(
         None,
-        description="Radius at the tip of the cutter, in modules; left out, 0.38, with a shaper 0.2, "
+        description="Radius at the tip of the cutter, in modules. Default: 0.38, with a shaper 0.2, "
         "or what its tooth has room for.",
     )
     backlash: Backlash | None = Field(
         None,
         description=(
-            "Circumferential play on the pitch curves, a quarter per flank; left out, the least with which "
+            "Circumferential play on the pitch curves, a quarter per flank. Default: the least with which "
             "gears as made turn."
         ),
     )
@@ -248,7 +248,7 @@ class NoncircularParams(Parameters):
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: ShaftBore = Field(
         10.0,
-        description="Diameter of both shaft bores, 0 for none; left out, 10, or the largest standard one "
+        description="Diameter of both shaft bores, 0 for none. Default: 10, or the largest standard one "
         "below that leaves the rim of a small gear, or what a chain asks for.",
     )
     keyway_width: KeywayWidth = Field(

@@ -72,7 +72,7 @@ class SliderCrankParams(Parameters):
     clockwise: bool = Field(False, description="Whether the crank turns clockwise, or a lever begins so.")
     swing_from: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
         None,
-        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
+        description="One end of the swing of a crank that is a lever, counter-clockwise from X. Default: it "
         "turns fully, or goes as far as it can.",
     )
     swing_to: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
@@ -86,7 +86,7 @@ class SliderCrankParams(Parameters):
         json_schema_extra=FIRST,
     )
     coupler_x: Annotated[float, Field(ge=-LONGEST, le=LONGEST), Unit("mm")] | None = Field(
-        None, description="Coupler point along the rod from the crank pin; left out, the rod's middle."
+        None, description="Coupler point along the rod from the crank pin. Default: the rod's middle."
     )
     coupler_y: Millimetres = Field(
         0.0, ge=-LONGEST, le=LONGEST, description="Coupler point to the left of the rod."
@@ -106,42 +106,42 @@ class SliderCrankParams(Parameters):
     crank_shape: Literal["disc", "arm"] = Field("disc", description="Whether the crank is a disc or an arm.")
     pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
-        description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20, or for short "
+        description="Diameter of both joint pins. Default: an eighth of the crank, 2 to 20, or for short "
         "ones 1.5 or 1; thicker where the load asks for it and the crank has room.",
     )
     shaft: Annotated[float, Field(ge=1, le=300), Unit("mm")] | None = Field(
-        None, description="Diameter of the crank's shaft; left out, one and a half pins."
+        None, description="Diameter of the crank's shaft. Default: one and a half pins."
     )
     bushing: Millimetres = Field(
         1.0, ge=0, le=20, description="Wall of the bushings in rod and base; 0 for none."
     )
     wall: Annotated[float, Field(ge=0.5, le=200), Unit("mm")] | None = Field(
-        None, description="Material around the bores; left out, half a pin, at least 2."
+        None, description="Material around the bores. Default: half a pin, at least 2."
     )
     rod_width: Annotated[float, Field(ge=0.5, le=400), Unit("mm")] | None = Field(
-        None, description="Width of the rod between its bosses; left out, as wide as they are."
+        None, description="Width of the rod between its bosses. Default: as wide as they are."
     )
     rod_bend: Millimetres = Field(
         0.0, ge=-LONGEST, le=LONGEST, description="How far a bent rod leaves the straight line, to its left."
     )
     slider_length: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
-        None, description="Length of the slider along the guide; left out, one and a half times its width."
+        None, description="Length of the slider along the guide. Default: one and a half times its width."
     )
     slider_width: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
-        None, description="Width of the slider between the rails; left out, a pin and four walls."
+        None, description="Width of the slider between the rails. Default: a pin and four walls."
     )
     rail: Annotated[float, Field(ge=1, le=400), Unit("mm")] | None = Field(
-        None, description="Width of the guide's rails; left out, a dowel of 0.6 pins and two walls."
+        None, description="Width of the guide's rails. Default: a dowel of 0.6 pins and two walls."
     )
     rail_overhang: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
         None,
-        description="How far the rails go on beyond the slider's ends; left out, by their width, or until "
+        description="How far the rails go on beyond the slider's ends. Default: by their width, or until "
         "their dowels stand outside of the crank's way where the layers need it.",
     )
     screw_hole: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
         description="Diameter of holes in the corners of the base, which then goes on legs: it reaches under "
-        "all that moves, and the shaft's end fits a coupling; left out, there are none.",
+        "all that moves, and the shaft's end fits a coupling. Default: none.",
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,

@@ -42,8 +42,8 @@ class PhaseTable(Parameters):
     crank_turn: Degrees = Field(
         0.0, ge=-360, le=360, description="Of the crank about its axis, from phase 1 to this one."
     )
-    start: Start = Field(None, description="As of phase 1; left out, the same.")
-    travel: Travel = Field(None, description="As of phase 1; left out, the same.")
+    start: Start = Field(None, description="As of phase 1. Default: the same.")
+    travel: Travel = Field(None, description="As of phase 1. Default: the same.")
     path: tuple[Direction, ...] = Field(
         (), max_length=MOST_POSITIONS, description="Prescribed path points of this phase, as directions."
     )
@@ -113,7 +113,7 @@ class FourBarTable(Parameters):
     )
     travel: Travel = Field(
         None,
-        description="How far the input turns from there; left out, a turn, or as far as it can and back.",
+        description="How far the input turns from there. Default: a turn, or as far as it can and back.",
         json_schema_extra=FIRST,
     )
     input_axis: Direction = Field((0.0, 0.0, 1.0), description="Direction of the input axis.")
@@ -286,7 +286,7 @@ class SphericalParams(Parameters):
     )
     path_tolerance: Annotated[float, Field(gt=0, le=100), Unit("mm")] | None = Field(
         None,
-        description="Allowed distance of the path from its prescribed points; left out, it is only reported.",
+        description="Allowed distance of the path from its prescribed points. Default: it is only reported.",
         json_schema_extra={**FIRST, **GIVEN},
     )
     least_transmission: Degrees = Field(

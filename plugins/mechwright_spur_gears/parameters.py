@@ -98,19 +98,19 @@ class SpurGearParams(Parameters):
     )
     centre_distance: Annotated[float, Field(ge=2, le=3000), Unit("mm")] | None = Field(
         None,
-        description="Distance of the axes, from which the sum of the shifts follows; left out, what the "
+        description="Distance of the axes, from which the sum of the shifts follows. Default: what the "
         "shifts make of it. Of a rack the distance of the pinion's axis from its reference line, r + x m.",
         json_schema_extra=FIRST,
     )
     shift: Shift | None = Field(
         None,
-        description="Profile shift x1 of the driver, in modules; left out, chosen by shift_rule.",
+        description="Profile shift x1 of the driver, in modules. Default: chosen by shift_rule.",
         json_schema_extra=FIRST,
     )
     mate_shift: Shift | None = Field(
         None,
-        description="Profile shift x2 of the driven gear, in modules; left out, chosen by shift_rule. Of a "
-        "ring it is above 0 where teeth get thicker (DIN 3960); left out, that of the driver taken away.",
+        description="Profile shift x2 of the driven gear, in modules. Default: chosen by shift_rule. Of a "
+        "ring it is above 0 where teeth get thicker (DIN 3960). Default: that of the driver taken away.",
         json_schema_extra=FIRST,
     )
     shift_rule: Literal["no-undercut", "equal-sliding"] | None = Field(
@@ -127,33 +127,33 @@ class SpurGearParams(Parameters):
         TIP_RADIUS,
         ge=0,
         le=0.5,
-        description="Radius at the tip of the rack, in modules; left out, 0.38, or what there is room for.",
+        description="Radius at the tip of the rack, in modules. Default: 0.38, or what there is room for.",
         json_schema_extra=FITTED,
     )
     ring_addendum: Annotated[float, Field(ge=0.2, le=1.3), Unit("")] | None = Field(
         None,
-        description="Height of the ring's teeth, in modules; left out, addendum, or what keeps them off the "
+        description="Height of the ring's teeth, in modules. Default: addendum, or what keeps them off the "
         "feet of the pinion's flanks.",
         json_schema_extra=FITTED,
     )
     ring_outside: Annotated[float, Field(gt=0, le=4000), Unit("mm")] | None = Field(
         None,
-        description="Diameter of the ring; left out, what its rim needs.",
+        description="Diameter of the ring. Default: what its rim needs.",
         json_schema_extra=FITTED,
     )
     ring_holes: Annotated[int, Field(ge=0, le=60)] | None = Field(
-        None, description="Holes by which the ring is screwed on; left out, 6.", json_schema_extra=FITTED
+        None, description="Holes by which the ring is screwed on. Default: 6.", json_schema_extra=FITTED
     )
     ring_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
-        None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
+        None, description="Diameter of these holes. Default: 5.5.", json_schema_extra=FITTED
     )
     ring_teeth: Annotated[int, Field(ge=18, le=1800)] | None = Field(
         None,
-        description="Teeth of the ring about the planets; left out, teeth + 2 mate_teeth.",
+        description="Teeth of the ring about the planets. Default: teeth + 2 mate_teeth.",
         json_schema_extra=FITTED,
     )
     planets: Annotated[int, Field(ge=1, le=12)] | None = Field(
-        None, description="Number of planets; left out, 3.", json_schema_extra=FITTED
+        None, description="Number of planets. Default: 3.", json_schema_extra=FITTED
     )
     planet_spacing: Literal["equal", "nearest"] | None = Field(
         None,
@@ -161,61 +161,61 @@ class SpurGearParams(Parameters):
         "them at which they mesh.",
     )
     fixed_member: Member | None = Field(
-        None, description="What stands still; left out, the ring.", json_schema_extra=FITTED
+        None, description="What stands still. Default: the ring.", json_schema_extra=FITTED
     )
     driving_member: Member | None = Field(
-        None, description="What is driven from outside; left out, the sun.", json_schema_extra=FITTED
+        None, description="What is driven from outside. Default: the sun.", json_schema_extra=FITTED
     )
     pin_diameter: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,
-        description="Of the pins on which planets run; left out, 10, or the largest standard one below that "
+        description="Of the pins on which planets run. Default: 10, or the largest standard one below that "
         "leaves the rim of a planet.",
         json_schema_extra=FITTED,
     )
     carrier_thickness: Annotated[float, Field(ge=0.5, le=200), Unit("mm")] | None = Field(
         None,
-        description="Of the carrier's plate; left out, 8, or less with thinner gears.",
+        description="Of the carrier's plate. Default: 8, or less with thinner gears.",
         json_schema_extra=FITTED,
     )
     rack_teeth: Annotated[int, Field(ge=2, le=4000)] | None = Field(
         None,
-        description="Teeth of the rack; left out, the fewest with which flanks touch all over the travel.",
+        description="Teeth of the rack. Default: the fewest with which flanks touch all over the travel.",
         json_schema_extra=FITTED,
     )
     travel: Annotated[float, Field(gt=0, le=3000), Unit("mm")] | None = Field(
         None,
-        description="Way of the rack there, and back again; left out, 100, or what rack_teeth allow.",
+        description="Way of the rack there, and back again. Default: 100, or what rack_teeth allow.",
         json_schema_extra=FITTED,
     )
     rack_addendum: Annotated[float, Field(ge=0.2, le=1.3), Unit("")] | None = Field(
         None,
-        description="Height of the rack's teeth over its reference line, in modules; left out, addendum, or "
+        description="Height of the rack's teeth over its reference line, in modules. Default: addendum, or "
         "what keeps them off the fillets of the pinion.",
         json_schema_extra=FITTED,
     )
     rack_height: Annotated[float, Field(gt=0, le=1000), Unit("mm")] | None = Field(
         None,
-        description="Height of the rack's body below its roots; left out, what its rim needs.",
+        description="Height of the rack's body below its roots. Default: what its rim needs.",
         json_schema_extra=FITTED,
     )
     rack_holes: Annotated[int, Field(ge=0, le=200)] | None = Field(
         None,
-        description="Holes by which the rack is screwed on; left out, 2, or fewer in a short rack.",
+        description="Holes by which the rack is screwed on. Default: 2, or fewer in a short rack.",
         json_schema_extra=FITTED,
     )
     rack_hole: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
-        None, description="Diameter of these holes; left out, 5.5.", json_schema_extra=FITTED
+        None, description="Diameter of these holes. Default: 5.5.", json_schema_extra=FITTED
     )
     backlash: Backlash | None = Field(
         None,
-        description="Circumferential play on the operating pitch circles; left out, the least with which "
+        description="Circumferential play on the operating pitch circles. Default: the least with which "
         "gears as made turn.",
     )
     thickness: FaceWidth = 10.0
     material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
     bore: ShaftBore = Field(
         10.0,
-        description="Diameter of the shaft bores, 0 for none; left out, 10, or the largest standard one "
+        description="Diameter of the shaft bores, 0 for none. Default: 10, or the largest standard one "
         "below that leaves the rim of the smaller gear.",
     )
     keyway_width: KeywayWidth = Field(

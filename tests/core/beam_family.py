@@ -25,7 +25,7 @@ class BeamParams(Parameters):
     holes: int = Field(2, ge=0, le=40, description="Number of holes.")
     tilt: Degrees = Field(0.0, ge=-90, le=90, description="Angle of the end.")
     kind: Literal["plain", "bent", "forked"] = Field("plain", description="Shape.")
-    collar: Millimetres | None = Field(None, ge=1, le=50, description="Collar; left out, none.")
+    collar: Millimetres | None = Field(None, ge=1, le=50, description="Collar. Default: none.")
     collar_width: Millimetres | None = Field(None, ge=1, le=50, description="Its width.")
     pins: Pins = Field(Pins(), description="Its pins.")
 

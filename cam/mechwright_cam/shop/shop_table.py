@@ -41,7 +41,7 @@ class ShopTable(Table[Shop | None]):
 
     def schema(self) -> dict[str, Any]:
         """A text."""
-        return {"type": "string", "description": f"The shop file; left out, that which {VARIABLE} names."}
+        return {"type": "string", "description": f"The shop file. Default: that which {VARIABLE} names."}
 
     def file_schema(self) -> dict[str, Any]:
         """That of a shop file."""

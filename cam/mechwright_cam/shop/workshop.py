@@ -36,7 +36,7 @@ class Plates(Parameters):
         min_length=1, max_length=100, description="Thicknesses."
     )
     length: Millimetres | None = Field(
-        None, gt=0, le=10000, description="Of ready blanks; left out, pieces are sawn off as parts ask."
+        None, gt=0, le=10000, description="Of ready blanks. Default: pieces are sawn off as parts ask."
     )
     width: Millimetres | None = Field(None, gt=0, le=10000, description="Of ready blanks.")
 

@@ -12,7 +12,7 @@ FaceWidth = Annotated[
     Field(
         ge=0.1,
         le=200,
-        description="Face width; left out, 10, or with a module below 1.5 what fine mills reach.",
+        description="Face width. Default: 10, or with a module below 1.5 what fine mills reach.",
         json_schema_extra={**FIRST, **FITTED},
     ),
 ]

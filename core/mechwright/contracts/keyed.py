@@ -9,7 +9,7 @@ from mechwright.units import Millimetres, Unit
 KeywayWidth = Annotated[Millimetres, Field(ge=0, le=60)]
 KeywayDepth = Annotated[
     Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None,
-    Field(description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width."),
+    Field(description="Hub depth t2 over the bore (DIN 6885). Default: the standard one of this width."),
 ]
 KeywayRelief = Annotated[
     Millimetres,

@@ -170,7 +170,7 @@ class GroundPlate:
     neck
         How far down the shaft is thicker than its end, or carries something, mm below the plate.
     offset
-        What that key says, mm; left out, the distance of the holes from y = 0.
+        What that key says, mm. Default: the distance of the holes from y = 0.
     outwards
         By how much a millimetre of the offset moves a hole along x and y, mm.
     length_key

@@ -222,7 +222,7 @@ class Part:
     machined
         Features in the order of the drawing; empty means: those of the outline.
     build
-        Makes the solid of a part that is no plate; left out, what ``turned`` or ``bought`` has.
+        Makes the solid of a part that is no plate. Default: what ``turned`` or ``bought`` has.
     details
         Chamfers, threads and engravings of a plate's top face.
     turned

@@ -48,15 +48,15 @@ class ToleranceSettings(Parameters):
             "2768-1 f, m, c."
         ),
     )
-    length: Plus | None = Field(None, description="Of all lengths, plus and minus; left out, by general.")
+    length: Plus | None = Field(None, description="Of all lengths, plus and minus. Default: general.")
     angle: Angle | None = Field(
-        None, description="Of all angles of links, plus and minus; left out, by general, proof as fine."
+        None, description="Of all angles of links, plus and minus. Default: by general, proof as fine."
     )
     centre: Plus | None = Field(
-        None, description="Of distances between axes, plus and minus; left out, by general."
+        None, description="Of distances between axes, plus and minus. Default: general."
     )
     eccentricity: Plus | None = Field(
-        None, description="Of a profile to its bore, half the run-out; left out, by general."
+        None, description="Of a profile to its bore, half the run-out. Default: general."
     )
     gouge: Annotated[float, Field(ge=0, le=1), Unit("mm")] = Field(
         TOLERANCES.gouge, description="Deepest cut into a wall: what the proof lets pass."
@@ -66,7 +66,7 @@ class ToleranceSettings(Parameters):
     )
     input: Degrees = Field(0.0, ge=0, le=10, description="Of the input angle, plus and minus.")
     fit: FitName | None = Field(
-        None, description='ISO 286 fit of all pins, such as "H7/g6"; left out, the design\'s.'
+        None, description='ISO 286 fit of all pins, such as "H7/g6". Default: the design\'s.'
     )
     clearance: Annotated[float, Field(ge=0, le=5), Unit("mm")] | None = Field(
         None, description="Clearance of all pins, on the diameter, the same in each; in the place of a fit."
@@ -81,10 +81,10 @@ class ToleranceSettings(Parameters):
         (), description="Input angles at which mechanisms are tried; none for the worst ones."
     )
     limit_angle: Annotated[float, Field(gt=0, le=180), Unit("deg")] | None = Field(
-        None, description="Allowed error of angles, for the yield; left out, no yield."
+        None, description="Allowed error of angles, for the yield. Default: no yield."
     )
     limit_length: Bound | None = Field(
-        None, description="Allowed error of lengths and points, for the yield; left out, no yield."
+        None, description="Allowed error of lengths and points, for the yield. Default: no yield."
     )
     samples: int = Field(
         100_000, ge=100, le=MOST_SAMPLES, description="Mechanisms that are made and tried at random."

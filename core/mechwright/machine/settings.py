@@ -27,7 +27,7 @@ class MachineSettings(FrameKeys):
 
     speed: Annotated[RevPerMin, Field(ge=0.001, le=20000)] | None = Field(
         None,
-        description="Mean speed of the input, of a lever its swings there and back; left out, as the "
+        description="Mean speed of the input, of a lever its swings there and back. Default: as the "
         "mechanism's own parameters have it.",
     )
     direction: Literal["both", "forwards", "backwards"] = Field(
@@ -39,7 +39,7 @@ class MachineSettings(FrameKeys):
     )
     output: Annotated[str, Field(max_length=64)] = Field(
         "",
-        description="Body with that load; left out, the one that turns in the frame undriven.",
+        description="Body with that load. Default: the one that turns in the frame undriven.",
     )
     up: Literal["none", "x", "-x", "y", "-y", "z", "-z"] = Field(
         "none", description="Direction of the mechanism that points up; none leaves weights out."

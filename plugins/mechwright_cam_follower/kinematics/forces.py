@@ -50,7 +50,7 @@ def spring_of(m: Mechanism) -> tuple[Any, Any, Any]:
 def force_at(m: Mechanism, rates: Rates, acceleration: Array | None = None) -> Array:
     """F or T: below 0 a follower with a spring leaves its cam.
 
-    ``acceleration`` of the follower, mm/s² or rad/s²; left out, that at the cam's own constant speed.
+    ``acceleration`` of the follower, mm/s² or rad/s². Default: that at the cam's own constant speed.
     """
     if acceleration is None:
         acceleration = rates.a * m.omega**2

@@ -133,7 +133,7 @@ class Clamp:
 
 @kept
 def clamp_of(params: EllipticGearParams) -> Clamp:
-    """As small as screws of that size allow; left out, four that are a third of the bore."""
+    """As small as screws of that size allow. Default: four that are a third of the bore."""
     sizes = cap_screws()
     screw = params.clamp_screw or max((size for size in sizes if 3 * size <= params.bore), default=sizes[0])
     screws, of = params.clamp_screws or 4, screw_size(screw)

@@ -32,7 +32,7 @@ Fails = Failure[GearTable]
 def pin_play(params: EllipticGearParams, holes: float | None = None, pin: float | None = None) -> float:
     """Free turn, rad, of gear 4 against gear 3: the play of the pin in both holes over its radius.
 
-    ``holes`` and ``pin`` are diameters, mm; left out, those of the middles of their fits.
+    ``holes`` and ``pin`` are diameters, mm. Default: those of the middles of their fits.
     """
     dividing = dividing_of(params)
     holes = dividing.hole_size.middle if holes is None else holes

@@ -83,7 +83,7 @@ class Entry(Parameters):
         return Drive("crank")
 
     def linkage(self, output: str = "") -> Linkage:
-        """Give the linkage with these dimensions, for the motion of ``output``; left out, of its own.
+        """Give the linkage with these dimensions, for the motion of ``output``. Default: of its own.
 
         Raises
         ------

@@ -34,7 +34,7 @@ class SlideTable(Parameters):
 
     what: ClassVar[str] = "slides"
 
-    name: Word = Field("", description="Of the slide; left out, slide-1, slide-2, ...")
+    name: Word = Field("", description="Of the slide. Default: slide-1, slide-2, ...")
     block: Word = Field("", description="The link that slides.")
     guide: Word = Field(GROUND, description="The link on whose line it slides.")
     point: Word = Field("", description="The point of the block that stays on the line.")
@@ -53,7 +53,7 @@ class GearTable(Parameters):
 
     what: ClassVar[str] = "gears"
 
-    name: Word = Field("", description="Of the pair; left out, gears-1, gears-2, ...")
+    name: Word = Field("", description="Of the pair. Default: gears-1, gears-2, ...")
     one: Word = Field("", description="The first link.")
     two: Word = Field("", description="The second link, which turns ratio times as far.")
     carrier: Word = Field(GROUND, description="The link that holds both centres.")

@@ -19,7 +19,7 @@ class HardwareTable(Parameters):
         8.0,
         ge=1,
         le=200,
-        description="Width of the links, across; left out, less where links or pins have no room.",
+        description="Width of the links, across. Default: less where links or pins have no room.",
         json_schema_extra={**FIRST, **FITTED},
     )
     section: Literal["rectangle", "shell"] = Field(
@@ -30,7 +30,7 @@ class HardwareTable(Parameters):
         12.0,
         ge=2,
         le=200,
-        description="Diameter of the bosses around the pins; left out, less where they have no room, and "
+        description="Diameter of the bosses around the pins. Default: less where they have no room, and "
         "more about thick pins.",
         json_schema_extra=FITTED,
     )
@@ -41,7 +41,7 @@ class HardwareTable(Parameters):
         6.0,
         ge=1,
         le=100,
-        description="Diameter of pins and shafts; left out, less where they have no room.",
+        description="Diameter of pins and shafts. Default: less where they have no room.",
         json_schema_extra={**FIRST, **FITTED},
     )
     fit: Millimetres = Field(
@@ -94,7 +94,7 @@ class FlatTable(Parameters):
 
     make: bool | None = Field(
         None,
-        description="Whether drawings and programs of the strips are made; left out, where all can be bent.",
+        description="Whether drawings and programs of the strips are made. Default: where all can be bent.",
     )
     thickness: Millimetres = Field(3.0, ge=0.3, le=20, description="Thickness of the strips.")
     bend_radius: Millimetres = Field(3.0, ge=0.1, le=50, description="Inside radius of the bends.")

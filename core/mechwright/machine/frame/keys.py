@@ -30,7 +30,7 @@ class FrameKeys(Parameters):
         ),
     )
     plate_thickness: Annotated[float, Field(ge=4, le=60), Unit("mm")] | None = Field(
-        None, description="Of the bearing plates; left out, as their bearings need."
+        None, description="Of the bearing plates. Default: as their bearings need."
     )
     plates: tuple[Annotated[float, Field(ge=1, le=200), Unit("mm")], ...] = Field(
         (),

@@ -31,7 +31,7 @@ class StageTable(Parameters):
         0.0, ge=-360, le=360, description="By how much the stage is turned about its input's shaft."
     )
     gap: Annotated[float, Field(ge=0.1, le=500), Unit("mm")] | None = Field(
-        None, description="Air between the planes of the stage before and of this one; left out, 1."
+        None, description="Air between the planes of the stage before and of this one. Default: 1."
     )
     most_ca: Annotated[float, Field(gt=4, le=1000), Unit("")] | None = Field(
         None, description="Greatest Ca = α T²/Δ that its moves from rest to rest may have; no law has 4."

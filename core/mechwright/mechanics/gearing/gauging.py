@@ -34,7 +34,7 @@ def gear_measures(
     middle
         The point of the body frame across which spaces are opposite, mm.
     backlash
-        Of the pair, mm, from which limits follow; left out, the rack's.
+        Of the pair, mm, from which limits follow. Default: the rack's.
     inside
         Whether it is a ring.
     turn

@@ -30,7 +30,7 @@ Direction = Annotated[
 SwingFrom = Annotated[
     Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None,
     Field(
-        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
+        description="One end of the swing of a crank that is a lever, counter-clockwise from X. Default: it "
         "turns fully, or goes as far as it can."
     ),
 ]
@@ -49,7 +49,7 @@ BushingWall = Annotated[
     Field(
         ge=0,
         le=50,
-        description="Wall of the plain bushings in the turning joints, 0 for none; left out, 1, or less as "
+        description="Wall of the plain bushings in the turning joints, 0 for none. Default: 1, or less as "
         "the pins.",
         json_schema_extra=FITTED,
     ),
@@ -66,7 +66,7 @@ Rim = Annotated[
     Field(
         ge=0.5,
         le=100,
-        description="Material of the plates around the bores; left out, 4, or less as the pins.",
+        description="Material of the plates around the bores. Default: 4, or less as the pins.",
         json_schema_extra=FITTED,
     ),
 ]

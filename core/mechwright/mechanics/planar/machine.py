@@ -151,7 +151,7 @@ class Machine:
     drives
         As many as the machine has degrees of freedom.
     branches
-        Name of the inner joint of a dyad to +1 or -1; left out, +1. Revolute between two bars: +1 if the pin
+        Name of the inner joint of a dyad to +1 or -1. Default: +1. Revolute between two bars: +1 if the pin
         is to the left of the way from the outer pin of the first bar to that of the second, in the order of
         the joint's links. Slide at one end: the side to which the bar points along the slide. Slide between
         two bars: the side of the second pin from the first along the slide.

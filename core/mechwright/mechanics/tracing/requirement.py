@@ -46,7 +46,7 @@ class PlanePath(Parameters):
         None,
         min_length=3,
         max_length=MOST_POINTS,
-        description="Crank angle at each point from that at the first, the first 0; left out, any.",
+        description="Crank angle at each point from that at the first, the first 0. Default: any.",
     )
     sense: Literal["ccw", "cw", "any"] = Field(
         "any", description="Sense of the crank, where crank_turns does not say it."
@@ -74,7 +74,7 @@ class PlanePath(Parameters):
     frame: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
         None,
         description="Rectangle [least x, least y, greatest x, greatest y] in which the crank's fixed pivot "
-        "stands; left out, anywhere.",
+        "stands. Default: anywhere.",
     )
     length_step: Millimetres = Field(
         0.0,
