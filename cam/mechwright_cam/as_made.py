@@ -11,7 +11,7 @@ from mechwright.contracts.made_part import MadePart
 from mechwright.pipeline import Build
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.machining import Machining
-from mechwright_cam.proof.made_parts import parts_as_made, placed_in, with_undersides
+from mechwright_cam.proof.as_made_parts import parts_as_made, placed_in, with_undersides
 
 OPEN = TOLERANCES.leftover
 """A wall is not cut where more than this stays on it, mm: the outline is not closed there."""

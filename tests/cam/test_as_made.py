@@ -22,7 +22,7 @@ from mechwright_cam.pages.as_made.drawing import made_drawing
 from mechwright_cam.pages.as_made.picture import exaggeration, made_picture
 from mechwright_cam.pages.as_made.plot import plot
 from mechwright_cam.planning import plan
-from mechwright_cam.proof.made_parts import parts_as_made
+from mechwright_cam.proof.as_made_parts import parts_as_made
 from mechwright_cam.proof.rings import circle_ring
 from mechwright_cam.proof.scene import in_work
 from mechwright_cam.setup.nest import Placed, make_nest

@@ -31,7 +31,7 @@ def step_times(run: Run, machine: Machine, motion: Motion | None = None) -> Arra
     return seconds
 
 
-def stretches(run: Run) -> list[tuple[str, int, int]]:
+def operation_steps(run: Run) -> list[tuple[str, int, int]]:
     """Name, first step and step after the last of each operation.
 
     They go from one operation comment to the next, or where there are none, from tool to tool.
@@ -50,10 +50,10 @@ def stretches(run: Run) -> list[tuple[str, int, int]]:
 
 
 def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
-    """Times by operation, see :func:`stretches`."""
+    """Times by operation, see :func:`operation_steps`."""
     path = np.where(run.cutting, np.nan_to_num(run.length, posinf=0.0), 0.0)
     out = []
-    for name, first, last in stretches(run):
+    for name, first, last in operation_steps(run):
         # After the last cut the next file may already have named its tool.
         cuts = np.flatnonzero(run.cutting[first:last])
         tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])

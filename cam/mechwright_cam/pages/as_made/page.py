@@ -21,7 +21,7 @@ class AsMadeFiles(Page):
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """The page, the data, and a drawing of every copy on a plate."""
         from mechwright_cam.pages.file_names import machined
-        from mechwright_cam.proof.made_parts import placed_on
+        from mechwright_cam.proof.as_made_parts import placed_on
 
         machining = machined(build)
         if machining is None:
