@@ -7,7 +7,7 @@ dwells and tool changes come to that. Stops for the operator are not counted.
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright_cam.controls.lookahead import USUAL, Motion
+from mechwright_cam.controls.lookahead import DEFAULT_LOOKAHEAD, Motion
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof.report import OperationTime
@@ -26,7 +26,7 @@ def step_times(run: Run, machine: Machine, motion: Motion | None = None) -> Arra
     >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 2)
     2.05
     """
-    seconds = (motion or USUAL.motion(run, machine)).seconds + run.seconds
+    seconds = (motion or DEFAULT_LOOKAHEAD.motion(run, machine)).seconds + run.seconds
     seconds[run.kind == Kind.TOOL] += machine.tool_change
     return seconds
 
