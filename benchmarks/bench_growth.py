@@ -47,7 +47,7 @@ design = load(sys.argv[1])
 design.require()
 design.parts
 begun = sum(resource.getrusage(resource.RUSAGE_SELF)[:2])
-proofs = [item.proof for item in design.made(Machining).made]
+proofs = [item.proof for item in design.made(Machining).proven_programs]
 assert proofs  # those that fail are raised
 used = resource.getrusage(resource.RUSAGE_SELF)
 print(sum(used[:2]) - begun, used.ru_maxrss / 1024)

@@ -51,7 +51,7 @@ def designs(folder: Path) -> Iterator[Path]:
 def made(path: Path) -> list[Machined]:
     """The programs of a design with their proofs."""
     with Build(path, open_host(), Wanted("verify")) as build:
-        return build.made(Machining).made
+        return build.made(Machining).proven_programs
 
 
 def row(name: str, programs: list[Machined], used: float, by_tool: bool) -> tuple[str, float]:

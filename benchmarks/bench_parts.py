@@ -57,7 +57,7 @@ def taken(path: Path, count: int) -> Taken:
         machining = build.made(Machining)
         assert not errors(machining.findings)
         clock, here, there = time.perf_counter(), time.process_time(), others()
-        texts = tuple(item.text for item in machining.made)
+        texts = tuple(item.text for item in machining.proven_programs)
         return Taken(time.perf_counter() - clock, time.process_time() - here, others() - there, texts)
 
 

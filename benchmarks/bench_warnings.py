@@ -35,7 +35,7 @@ def told(path: Path, host: Host, control: str, build: bool) -> Iterator[str]:
                 if finding.severity in {Severity.WARNING, Severity.ERROR}:
                     yield f"{finding.severity} {finding.code} {finding.parameter}: {finding.message}"
             if build:
-                _ = machining.made
+                _ = machining.proven_programs
     except MechwrightError as error:
         yield f"refused: {error}"
 

@@ -57,7 +57,7 @@ def made(name: str) -> tuple[list[Machined], str]:
     """The proven programs of an example, and the text of the tool table."""
     with Build(ROOT / "examples" / f"{name}.toml", open_host(), Wanted("verify")) as build:
         machining = build.made(Machining)
-        return machining.made, machining.table[1]
+        return machining.proven_programs, machining.table[1]
 
 
 def row(name: str, item: Machined, table: str, acceleration: float, faster: int) -> tuple[str, bool]:

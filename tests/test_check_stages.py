@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import mechwright as mw
-import mechwright_cad.making
+import mechwright_cad.solid_models
 import mechwright_cam.machining
 from mechwright.contracts.finding import Finding, Findings, Severity, Stage, errors
 from mechwright.contracts.refused import RefusedError
@@ -177,9 +177,9 @@ def test_a_build_after_a_check_makes_nothing_twice(
         (Design, "parts"),
         (mechwright_cam.machining, "prepare"),
         (mechwright_cam.machining, "machine"),
-        (mechwright_cad.making, "collisions"),
-        (mechwright_cad.making.Work, "files"),
-        (mechwright_cad.making, "motion_page"),
+        (mechwright_cad.solid_models, "collisions"),
+        (mechwright_cad.solid_models.Work, "files"),
+        (mechwright_cad.solid_models, "motion_page"),
         (Geneva, "as_made"),
     ):
         counted(owner, name)

@@ -170,7 +170,7 @@ def test_a_build_is_complete_and_the_same_every_time(
 ) -> None:
     """Also where no second process makes the solids."""
     for folder, found in (("one", 2), ("two", 1)):
-        monkeypatch.setattr("mechwright_cad.making.available_cores", lambda found=found: found)
+        monkeypatch.setattr("mechwright_cad.solid_models.available_cores", lambda found=found: found)
         code, _, err = run("build", EXAMPLE, "-o", tmp_path / folder)
         assert (code, err) == (0, "")
     one, two = tmp_path / "one", tmp_path / "two"

@@ -7,11 +7,11 @@ from mechwright.contracts.finding import Finding, Stage
 from mechwright.pipeline import SOLIDS, Build, FileName, Inspection, Page, Wanted
 
 if TYPE_CHECKING:
-    from mechwright_cad.making import Solids
+    from mechwright_cad.solid_models import Solids
 
 
 def _solids(build: Build) -> "Solids":
-    from mechwright_cad.making import Solids
+    from mechwright_cad.solid_models import Solids
 
     return build.made_as_wanted(Solids)
 
@@ -34,11 +34,11 @@ class SolidFiles(Page):
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes them."""
-        return _solids(build).beside
+        return _solids(build).in_second_process
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:
         """Part by part in each format."""
-        from mechwright_cad.making import solid_names
+        from mechwright_cad.solid_models import solid_names
 
         return solid_names(build, wanted)
 
@@ -57,7 +57,7 @@ class MotionPage(Page):
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes it."""
-        return _solids(build).beside
+        return _solids(build).in_second_process
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """The page."""
@@ -85,11 +85,11 @@ class Interference(Inspection):
 
     def late(self, build: Build) -> bool:
         """Whether a second process compares them."""
-        return _solids(build).beside
+        return _solids(build).in_second_process
 
     def outlook(self, build: Build) -> Sequence[Finding]:
         """Which plates meet, and where."""
-        from mechwright_cad.making import plate_collisions
+        from mechwright_cad.solid_models import plate_collisions
 
         return build.made(plate_collisions)
 

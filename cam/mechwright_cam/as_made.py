@@ -11,13 +11,13 @@ from mechwright.contracts.made_part import MadePart
 from mechwright.pipeline import Build
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.machining import Machining
-from mechwright_cam.proof.made_parts import parts_as_made, placed_in, with_undersides
+from mechwright_cam.proof.as_made_parts import parts_as_made, placed_in, with_undersides
 
 OPEN = TOLERANCES.leftover
 """A wall is not cut where more than this stays on it, mm: the outline is not closed there."""
 
 
-class MadeParts:
+class AsMadeParts:
     """What the programs of a build leave, each thing worked out once."""
 
     def __init__(self, build: Build) -> None:
@@ -28,7 +28,7 @@ class MadeParts:
         """One for each copy that a program makes; none where a finding forbids programs."""
         found: list[MadePart] = []
         first: list[MadePart] = []
-        for item in self._build.made(Machining).made:
+        for item in self._build.made(Machining).proven_programs:
             if item.job.side == "top":
                 placed, first = placed_in(item.scene), parts_as_made(item.scene)
             else:
@@ -38,7 +38,7 @@ class MadeParts:
         return found
 
     @cached_property
-    def said(self) -> AsMade:
+    def analysis(self) -> AsMade:
         """What the family says, with what keeps the parts from being judged."""
         open_ = [finding for part in self.parts for finding in not_closed(part)]
         if open_ or not self.parts:

@@ -34,10 +34,10 @@ class Proven(Inspection):
     share = 60.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
-        """Nothing; raises as :attr:`mechwright_cam.machining.Machining.made` does."""
+        """Nothing; raises as :attr:`mechwright_cam.machining.Machining.proven_programs` does."""
         from mechwright_cam.machining import Machining
 
-        _ = build.made(Machining).made
+        _ = build.made(Machining).proven_programs
         return ()
 
 
@@ -54,9 +54,9 @@ class Running(Inspection):
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """What keeps it from being put together, or from turning."""
-        from mechwright_cam.as_made import MadeParts
+        from mechwright_cam.as_made import AsMadeParts
 
-        return build.made(MadeParts).said.findings
+        return build.made(AsMadeParts).analysis.findings
 
 
 class InHand(Inspection):

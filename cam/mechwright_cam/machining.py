@@ -33,8 +33,7 @@ from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import touches_of, unprobed
-from mechwright_cam.setup.setter import tool_touches, unmeasured
-from mechwright_cam.setup.setter import wanted as measures
+from mechwright_cam.setup.setter import measures_tools, tool_touches, unmeasured
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
@@ -114,7 +113,7 @@ class Setups:
             *(one for job in self.jobs for one in (job, job.part, job.settings, *job.tools)),
         ]
 
-    def made(self) -> list[Machined]:
+    def proven_programs(self) -> list[Machined]:
         """The proven programs; raises as :func:`machine` does."""
         made: list[Machined] = []
         for place, job in enumerate(self.jobs, self.first):
@@ -191,7 +190,7 @@ class Machining:
         return [*at_stage(Stage.MACHINING, dict.fromkeys(found)), *self._prepared[0]]
 
     @cached_property
-    def made(self) -> list[Machined]:
+    def proven_programs(self) -> list[Machined]:
         """The proven programs, in the order of the jobs; none where a finding forbids them.
 
         Raises
@@ -209,7 +208,9 @@ class Machining:
                 "things at once; use one of them"
             )
         parts = self._setups()
-        found = shared(Setups.made, parts, [one.seconds for one in parts], Setups.known, self._build.progress)
+        found = shared(
+            Setups.proven_programs, parts, [one.seconds for one in parts], Setups.known, self._build.progress
+        )
         made = list(chain.from_iterable(found))
         for job, item in zip(self.jobs, made, strict=True):
             if job.side == "underside" and item.job is not job:
@@ -233,7 +234,7 @@ class Machining:
 
     def _unmeasured(self, job: Job) -> str:
         """Why the tools of a first side are not measured as it is asked for."""
-        if not measures(job):
+        if not measures_tools(job):
             return ""
         why = self.control.cannot_measure(job.tools) or unmeasured(job)
         if not why and job.settings.more_offsets and not self.control.offsets.lengths:
@@ -247,8 +248,8 @@ class Machining:
         Raises ProofError where one of them does what it may not.
         """
         found = {}
-        for item in self.made:
-            if measures(item.job):
+        for item in self.proven_programs:
+            if measures_tools(item.job):
                 touches = tool_touches(item.job, item.program)
                 texts = self.control.measure(touches, item.job.settings.machine)
                 numbers = tuple(tool for tool, _ in touches.tools)
@@ -263,7 +264,7 @@ class Machining:
         Raises ProofError where it does what it may not.
         """
         found = {}
-        for item in self.made:
+        for item in self.proven_programs:
             job = item.job
             if job.settings.probe.tool is not None and job.side == "top":
                 touches = touches_of(job)
@@ -275,10 +276,10 @@ class Machining:
     @cached_property
     def table(self) -> tuple[str, str]:
         """Name and text of the control's table of the tools of all programs; two empty texts without one."""
-        tools = {tool.number: tool for item in self.made for tool in item.program.tools}
+        tools = {tool.number: tool for item in self.proven_programs for tool in item.program.tools}
         listed = [tools[number] for number in sorted(tools)]
         compensated = (
-            item.job.settings for item in self.made if item.job.settings.compensation != "computer"
+            item.job.settings for item in self.proven_programs if item.job.settings.compensation != "computer"
         )
         settings = next(compensated, None)
         return self.control.offset_table(listed, settings) if settings else self.control.tool_table(listed)

@@ -22,7 +22,7 @@ class Programs(Result[Build]):
         from mechwright_cam.machining import Machining
 
         Run(subject.asking(command="cam"), WORK["cam"]).make()
-        return Named(subject.made(Machining).made)
+        return Named(subject.made(Machining).proven_programs)
 
 
 class Minutes(Result[Build]):

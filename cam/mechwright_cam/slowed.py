@@ -16,7 +16,7 @@ from mechwright_cam.proof.cutting_rules import cutting_data
 from mechwright_cam.proof.edge_rules import too_steep
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.timing import stretches
+from mechwright_cam.proof.timing import operation_steps
 from mechwright_cam.shop.power import available, slower
 
 TOLD = "feed lowered to the power of the spindle"
@@ -35,7 +35,7 @@ def slowed(program: Program, scene: Scene) -> Program | None:
     weak, steep = _most(scene), np.minimum(_down(scene), _thin(scene))
     if not np.isfinite(np.minimum(weak, steep)).any():
         return None
-    parts = iter(stretches(scene.run))
+    parts = iter(operation_steps(scene.run))
     sections, names = [], []
     for section in program.sections:
         operations = []

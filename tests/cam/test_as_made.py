@@ -18,11 +18,11 @@ from mechwright.contracts.made_part import MadeHole
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.as_made import not_closed
-from mechwright_cam.pages.as_made.drawing import made_drawing
-from mechwright_cam.pages.as_made.picture import exaggeration, made_picture
+from mechwright_cam.pages.as_made.drawing import as_made_drawing
+from mechwright_cam.pages.as_made.picture import as_made_picture, exaggeration
 from mechwright_cam.pages.as_made.plot import plot
 from mechwright_cam.planning import plan
-from mechwright_cam.proof.made_parts import parts_as_made
+from mechwright_cam.proof.as_made_parts import parts_as_made
 from mechwright_cam.proof.rings import circle_ring
 from mechwright_cam.proof.scene import in_work
 from mechwright_cam.setup.nest import Placed, make_nest
@@ -191,7 +191,7 @@ def test_copies_of_a_nest_come_back_in_their_own_coordinates():
 
 def test_the_drawing_has_nominal_and_both_bounds_on_layers():
     (part,) = made(LINUXCNC.write(plate_program(bias=0.001)), plate_job())
-    document = ezdxf.read(io.StringIO(made_drawing(part).decode()))
+    document = ezdxf.read(io.StringIO(as_made_drawing(part).decode()))
     outer = {}
     for layer in ("MADE", "MADE-MOST", "MADE-LEAST", "TARGET"):
         rings = [
@@ -208,7 +208,7 @@ def test_the_drawing_has_nominal_and_both_bounds_on_layers():
 
 def test_the_picture_draws_deviations_as_large_as_it_says():
     (part,) = made(LINUXCNC.write(plate_program(bias=0.001)), plate_job())
-    picture = made_picture(part)
+    picture = as_made_picture(part)
     factor = exaggeration(part, 2 * HALF_X)
     assert f"{factor:,.0f} : 1".replace(",", " ") in picture
     assert 0.2 < factor * (0.001 + part.corridor) / (0.025 * 2 * HALF_X) <= 1.0
@@ -226,7 +226,7 @@ def test_a_circle_fits_whatever_stretch_of_it_there_is():
 
 def test_two_runs_give_the_same_bytes():
     text = LINUXCNC.write(plate_program(bias=0.001))
-    assert made_drawing(made(text, plate_job())[0]) == made_drawing(made(text, plate_job())[0])
+    assert as_made_drawing(made(text, plate_job())[0]) == as_made_drawing(made(text, plate_job())[0])
     assert replace(made(text, plate_job())[0], label="x").label == "x"
 
 

@@ -24,7 +24,7 @@ from mechwright_cad.bill.items import numbers_of
 from mechwright_cad.bill.lines import ABSENT, COLUMNS, lines_of
 from mechwright_cad.bill.page import BillOfMaterials, bill_csv, bill_html
 from mechwright_cad.exporters import StepExporter
-from mechwright_cad.making import masses
+from mechwright_cad.solid_models import masses
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

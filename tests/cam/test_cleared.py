@@ -13,9 +13,9 @@ from shop import plate_job
 
 from mechwright.arrays import Array
 from mechwright_cam.proof import Scene
-from mechwright_cam.proof import cleared as module
+from mechwright_cam.proof import swept_area as module
 from mechwright_cam.proof.entry_rules import rapids_in_stock
-from mechwright_cam.proof.since import Tracks
+from mechwright_cam.proof.removal_time import Tracks
 from mechwright_cam.proof.stock import Stock
 
 HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\nG0 X0 Y0\nG43 H3 Z5\n"

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import DesignError
-from mechwright_cam.shop.formats.contract import Said, slug
+from mechwright_cam.shop.formats.contract import ToolRecord, slug
 from mechwright_cam.shop.formats.fusion import DRILLS, FusionLibrary
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.tool import MILLS, ToolKind
@@ -303,7 +303,7 @@ def test_a_library_of_ours_may_stand_alone(tmp_path):
 def test_names_are_made_of_any_text():
     assert slug("  Ø6 / 2-Flute ") == "6-2-flute"
     assert slug("***") == ""
-    assert Said("a").called == "'a'"
+    assert ToolRecord("a").called == "'a'"
 
 
 STRANGE = st.sampled_from(

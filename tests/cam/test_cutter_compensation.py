@@ -19,7 +19,7 @@ from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.operations.entry import bore_lead, enters, lead_to, offsets_of
-from mechwright_cam.plane.contour import contour_beside
+from mechwright_cam.plane.contour import offset_contour
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Rapid
@@ -263,7 +263,7 @@ def test_a_contour_is_the_parallel_of_its_ring(loop, sizes: tuple[float, float],
     radius, base = sizes
     reach = radius + 0.15
     ring = max(rings(grow(shapely.Polygon(loop.flatten()), reach + BIAS), side > 0), key=len)
-    path = contour_beside(ring, reach - base, side, FIT, LEAST_TURN)
+    path = offset_contour(ring, reach - base, side, FIT, LEAST_TURN)
     assert path.closed
     here = path.start
     for cut in path.cuts:

@@ -8,8 +8,8 @@ import shapely
 from by_control import BY_NAME
 from shop import plate_job
 
-import mechwright_cam.proof.closer as closer
 import mechwright_cam.proof.footprint as footprint
+import mechwright_cam.proof.refinement as refinement
 from mechwright_cam.proof import Check, Scene
 from mechwright_cam.proof.holding import holding, remarks
 from mechwright_cam.setup.job import Job
@@ -56,7 +56,7 @@ def judged(moves: str) -> Check:
 def test_cells_are_wide_here(wide: None) -> None:
     found = scene(corner(3.0))
     assert found.footprint.cell == pytest.approx(WIDE, rel=0.01)
-    assert footprint.CELL < closer.NARROWER * WIDE
+    assert footprint.CELL < refinement.NARROWER * WIDE
 
 
 @pytest.mark.parametrize("bridge", [2.0, 3.0, 6.0])
@@ -68,7 +68,7 @@ def test_a_bridge_that_usual_cells_show_holds_on_a_large_plate(wide: None, bridg
 
 
 def test_on_wide_cells_alone_it_were_missed(wide: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(closer, "NARROWER", 0.0)
+    monkeypatch.setattr(refinement, "NARROWER", 0.0)
     assert not judged(corner(3.0)).passed
     assert judged(corner(6.0)).passed
 

@@ -58,7 +58,7 @@ def ahead(monkeypatch):
 @pytest.mark.usefixtures("ahead")
 def test_a_collision_stops_every_command_and_names_the_bodies(command, design, tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "mechwright_cad.making.available_cores", lambda: 1
+        "mechwright_cad.solid_models.available_cores", lambda: 1
     )  # a second process would not be twisted
     folder = tmp_path / "out"
     words = [command, str(design)] + ([] if command == "check" else ["-o", str(folder)])

@@ -91,7 +91,7 @@ def test_behind_the_end_of_a_program_stand_subroutines_alone() -> None:
     ("spindle", "rpm", "turning"), [(1, 1.0, 1), (-1, 0.5, -1), (1, 12000.0, 1), (1, 0.0, 0), (0, 500.0, 0)]
 )
 def test_a_spindle_turns_at_any_speed_above_0(spindle: int, rpm: float, turning: int) -> None:
-    assert State(spindle=spindle, rpm=rpm).turning == turning
+    assert State(spindle=spindle, rpm=rpm).spindle_rotation == turning
 
 
 def test_the_diameter_of_compensation_is_in_the_units_of_the_program() -> None:

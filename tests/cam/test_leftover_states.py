@@ -10,7 +10,7 @@ from machine_programs import at_the_end, job_of, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import stretch
+from mechwright_cam.controls.reading import motion_lines
 from mechwright_cam.pages.setup_sheet.procedure import BEFORE, steps
 from mechwright_cam.proof.report import Check
 
@@ -63,7 +63,7 @@ def test_feeds_per_minute_may_have_been_left_otherwise_by_a_program_that_was_bro
 def test_only_centres_hang_on_it(
     arc: str, unsaid: tuple[int, str] | None, least: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stretch, "FEWEST_LINES", least)
+    monkeypatch.setattr(motion_lines, "FEWEST_LINES", least)
     text = f"{HEAD}G94\nG1 Z1 F100\n{arc}\nM2\n"
     assert interpret(text, BY_NAME["linuxcnc"]).hoped == unsaid
     assert interpret(text, BY_NAME["mach3"]).unsaid == unsaid

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import Motion, blend_arc, course
+from mechwright_cam.controls.lookahead import Motion, blend_arc, segment_geometry
 from mechwright_cam.controls.lookahead.linuxcnc import KINK, SERVO_S
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.shop.machine import Machine
@@ -119,7 +119,7 @@ def test_moves_of_one_line_are_a_cycle_if_one_is_a_rapid() -> None:
     """A cycle that begins where it is and at its height has one; pieces of an arc have none."""
     run = SimpleNamespace(line=np.array([7, 7, 8, 9, 9, 9, 12, 12, 12]), files=())
     rapid = np.array([False, True, True, False, False, False, True, False, True])
-    found = course._in_cycle(run, np.arange(9), rapid)  # type: ignore[arg-type]
+    found = segment_geometry._in_cycle(run, np.arange(9), rapid)  # type: ignore[arg-type]
     assert found.tolist() == [True, True, False, False, False, False, True, True, True]
 
 

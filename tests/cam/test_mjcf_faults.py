@@ -193,7 +193,7 @@ def test_the_same_design_gives_the_same_bytes():
 def test_parts_without_a_place_make_no_mechanism():
     from types import SimpleNamespace
 
-    from mechwright_cad.making import Work
+    from mechwright_cad.solid_models import Work
 
     alone = Part("alone", disc().outline, 2.0, "steel")
     design = SimpleNamespace(name="d", family=SimpleNamespace(name="f"))

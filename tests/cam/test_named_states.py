@@ -120,7 +120,7 @@ def test_siemens_own_words_for_it_are_refused_by_name(words: str) -> None:
 @pytest.mark.parametrize("words", ["G53 G0 X0 Y0", "G28", "G53 G0 X0 Y0 Z0", "G91 G28 X0. Y0. Z0.\nG90"])
 def test_in_the_elliptic_gear_neither(words: str) -> None:
     with Build(ROOT / "examples" / "elliptic-pair.toml", open_host(), Wanted("verify")) as build:
-        (one, *_) = build.made(Machining).made
+        (one, *_) = build.made(Machining).proven_programs
     text, line = put(one.text, before_the_last_retract(one.text), words)
     found = reasons(text, one.job, "linuxcnc")
     assert found["machine-moves"][0] == line - words.count("\n")

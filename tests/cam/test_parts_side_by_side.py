@@ -53,14 +53,14 @@ def setups_of(parts: list[Part]) -> list[Setups]:
 @pytest.fixture
 def planned_here(monkeypatch):
     """The parts that this process has planned, with others that begin at once."""
-    here, made = [], Setups.made
+    here, made = [], Setups.proven_programs
 
     @functools.wraps(made)
     def noted(self: Setups):
         here.append(self.jobs[0].part.name)
         return made(self)
 
-    monkeypatch.setattr(Setups, "made", noted)
+    monkeypatch.setattr(Setups, "proven_programs", noted)
     monkeypatch.setattr(sharing, "START", 0.0)
     return here
 
@@ -71,7 +71,7 @@ def test_programs_proofs_and_scenes_are_those_of_one_process(planned_here):
         setups = setups_of([plate("short", 30), plate("long", 34)])
         assert [job.side for one in setups for job in one.jobs] == ["top", "underside"] * 2
         with limited_cores(count):
-            found[count] = shared(Setups.made, setups, [1.0, 1.1], Setups.known)
+            found[count] = shared(Setups.proven_programs, setups, [1.0, 1.1], Setups.known)
         for one, items in zip(setups, found[count], strict=True):
             assert items[0].job is one.jobs[0]
             assert items[1].job.part is one.jobs[1].part
@@ -92,6 +92,6 @@ def test_a_part_that_fails_elsewhere_tells_what_it_tells_here(planned_here, orde
     job = setups[0].jobs[0]
     bad = replace(setups[0], jobs=(replace(job, tools=job.tools[:1]),))
     with pytest.raises(ToolError) as alone:
-        bad.made()
+        bad.proven_programs()
     with limited_cores(2), pytest.raises(ToolError, match=f"^{re.escape(str(alone.value))}$"):
-        shared(Setups.made, [setups[1], bad][::order], [1.0, 1.0], Setups.known)
+        shared(Setups.proven_programs, [setups[1], bad][::order], [1.0, 1.0], Setups.known)

@@ -13,7 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import Dialect, Kind, Remark, Run, stretch
+from mechwright_cam.controls.reading import Dialect, Kind, Remark, Run, motion_lines
 from mechwright_cam.controls.reading.blocks import Block, read_block
 from mechwright_cam.controls.reading.plain import LETTERS, PlainLines
 
@@ -26,12 +26,12 @@ COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "arc_error", "feed
 @contextmanager
 def stretches_from(lines: int) -> Iterator[None]:
     """Run stretches at once from so many lines on."""
-    before = stretch.FEWEST_LINES
-    stretch.FEWEST_LINES = lines
+    before = motion_lines.FEWEST_LINES
+    motion_lines.FEWEST_LINES = lines
     try:
         yield
     finally:
-        stretch.FEWEST_LINES = before
+        motion_lines.FEWEST_LINES = before
 
 
 def outcome(

@@ -13,7 +13,7 @@ from planner_witness import MARK, NOBODY, Mill, Sampled, WitnessError, needs_lin
 from planning_parts import bore, job, plate
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead import USUAL
+from mechwright_cam.controls.lookahead import DEFAULT_LOOKAHEAD
 from mechwright_cam.machining import machine
 from mechwright_cam.shop.machine import Machine
 
@@ -144,7 +144,7 @@ def test_exact_is_exact() -> None:
 def test_the_witness_tells_a_wrong_estimate_and_a_wrong_corridor() -> None:
     """With the rules of no control in particular the same comparison fails, so that it can."""
     run = LinuxCnc().read(ARCS)
-    motion = USUAL.motion(run, Machine(acceleration=0.5))
+    motion = DEFAULT_LOOKAHEAD.motion(run, Machine(acceleration=0.5))
     took, estimate = times(run, motion, real(ARCS, 0.5))
     assert estimate != pytest.approx(took, rel=CLOSE)
     narrow = type(motion)(motion.seconds, 0.1 * motion.off)

@@ -10,7 +10,7 @@ import shapely
 from shop import TAB, plate_job
 from test_proof_parts import paths_of
 
-from mechwright_cam.proof import closer, footprint, grips
+from mechwright_cam.proof import footprint, refinement, workholding
 from mechwright_cam.proof.footprint import BEFORE, NEVER, SKIN, Footprint, Grid
 from mechwright_cam.setup.job import Air
 
@@ -65,7 +65,7 @@ def test_air_counts_in_the_cells_whose_middle_is_so_near_to_it_and_in_no_others(
 
 
 def test_a_window_reaches_so_many_cells_beyond_its_piece_and_ends_with_the_plate() -> None:
-    away = int(np.ceil(closer.AROUND))
+    away = int(np.ceil(refinement.AROUND))
     assert away == 6
     for (low, high), (left, right), bounds in (
         ((20, 24), (30, 33), (-10 + 24 * CELL, -20 + 14 * CELL, -10 + 40 * CELL, -20 + 31 * CELL)),
@@ -75,22 +75,22 @@ def test_a_window_reaches_so_many_cells_beyond_its_piece_and_ends_with_the_plate
         wide = grid()
         cells = np.zeros(wide.cut.shape, dtype=np.bool_)
         cells[low, left] = cells[high, right] = True
-        assert closer._window(wide, SimpleNamespace(cells=cells)) == pytest.approx(bounds)  # type: ignore[arg-type]
+        assert refinement._window(wide, SimpleNamespace(cells=cells)) == pytest.approx(bounds)  # type: ignore[arg-type]
 
 
 def test_the_edge_holds_what_has_its_share_of_it() -> None:
-    edge = grips._edge(grid(20, 30))
+    edge = workholding._edge(grid(20, 30))
     (rim,), (least,) = edge.places, edge.least
     assert np.count_nonzero(rim) == 2 * (20 + 30) - 4
     assert not rim[1:-1, 1:-1].any()
-    assert least == int(grips.LEAST_RIM * 96) + 1
+    assert least == int(workholding.LEAST_RIM * 96) + 1
     rows, columns = np.nonzero(rim)
     piece = np.zeros_like(rim)
     piece[rows[: least - 1], columns[: least - 1]] = True
     piece[5:9, 5:9] = True
-    assert not edge.holds(piece, 0)
+    assert not edge.secures(piece, 0)
     piece[rows[least - 1], columns[least - 1]] = True
-    assert edge.holds(piece, 0)
+    assert edge.secures(piece, 0)
 
 
 def test_places_are_in_cells_counted_from_the_lower_left_corner_of_a_grid_or_of_its_border() -> None:

@@ -17,10 +17,10 @@ from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.proof import gouge, leftover, near, stock
+from mechwright_cam.proof import gouge, leftover, point_segment_distance, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
-from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import Paths
+from mechwright_cam.proof.point_segment_distance import Chords
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.setup.lay_out import make_job
@@ -38,11 +38,11 @@ def test_distances_beside_a_hint(
     """Never less than the true distance, and the true one wherever the nearest line passes the hint."""
     count = min(len(first), len(last))
     chords = Chords(first[:count], last[:count])
-    before, near.CELL = near.CELL, cell
+    before, point_segment_distance.CELL = point_segment_distance.CELL, cell
     try:
-        found = chords.distance_beside(asked, asked, reach)
+        found = chords.hinted_distance(asked, asked, reach)
     finally:
-        near.CELL = before
+        point_segment_distance.CELL = before
     lines = shapely.linestrings(np.stack((first[:count], last[:count]), axis=1))
     away = shapely.distance(shapely.points(asked)[:, None], lines)
     away = np.minimum(away, shapely.distance(shapely.points(asked)[:, None], shapely.points(first[:count])))
@@ -53,14 +53,14 @@ def test_distances_beside_a_hint(
     np.testing.assert_allclose(chords.distance(asked), true, atol=1e-9)
 
 
-@pytest.mark.parametrize("most", [near.MOST_PAIRS, 100])
+@pytest.mark.parametrize("most", [point_segment_distance.MOST_PAIRS, 100])
 def test_the_nearest_of_many_lines_that_cross(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
     """Near and far from a crowd of long lines, of which few are asked first, and not all together."""
     rng = np.random.default_rng(7)
     first, last = rng.uniform(-20, 20, (2, 900, 2))
     asked = np.concatenate((rng.uniform(-25, 25, (150, 2)), rng.uniform(-900, 900, (10, 2)), first[:1]))
     for name, value in (("FEW", 30), ("MOST_PAIRS", most), ("TOGETHER", 128), ("CROWD", 10.0)):
-        monkeypatch.setattr(near, name, value)
+        monkeypatch.setattr(point_segment_distance, name, value)
     chords = Chords(first, last)
     assert chords._crowded
     lines = shapely.linestrings(np.stack((first, last), axis=1))
@@ -71,9 +71,9 @@ def test_the_nearest_of_many_lines_that_cross(monkeypatch: pytest.MonkeyPatch, m
 def test_lines_far_from_every_hint_are_left_out() -> None:
     chords = Chords(np.array([[0.0, 0.0], [50.0, 0.0]]), np.array([[9.0, 0.0], [50.0, 80.0]]))
     asked = np.array([[3.0, 1.0], [30.0, 30.0]])
-    assert chords.distance_beside(asked, asked, 2.0).tolist() == [1.0, math.inf]
+    assert chords.hinted_distance(asked, asked, 2.0).tolist() == [1.0, math.inf]
     none = Chords(np.empty((0, 2)), np.empty((0, 2)))
-    assert none.distance_beside(asked, asked, 2.0).tolist() == [math.inf, math.inf]
+    assert none.hinted_distance(asked, asked, 2.0).tolist() == [math.inf, math.inf]
     assert none.distance(asked).tolist() == [math.inf, math.inf]
 
 
@@ -205,7 +205,7 @@ def test_a_sweep_knows_what_is_beside_a_shape(program: str) -> None:
     for sweep in cut:
         for shape in (shapely.box(-1, -1, 1, 1), shapely.box(30, 0, 32, 2), shapely.Point(90, 90)):
             near_ = sweep.chains[shapely.dwithin(sweep.chains, shape, sweep.radius)]
-            some = sweep.beside(shape)
+            some = sweep.paths_within_radius(shape)
             assert bool(len(near_)) == bool(shapely.dwithin(some, shape, sweep.radius).any())
         reach = shapely.union_all(shapely.buffer(sweep.chains, sweep.radius, quad_segs=64)).bounds
         wide = shapely.box(*np.add(reach, (-0.1, -0.1, 0.1, 0.1)))

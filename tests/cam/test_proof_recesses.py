@@ -20,8 +20,8 @@ from mechwright_cam.proof import carried, sweep
 from mechwright_cam.proof.carried import SHARES
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.proof.target_shape import TAB_SLACK, TargetShape
 from mechwright_cam.proof.wall import Wall, on_walls
-from mechwright_cam.proof.wanted import TAB_SLACK, Wanted
 from mechwright_cam.proof.witness import witnesses
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
@@ -94,7 +94,7 @@ def test_only_below_its_thread_a_tapped_hole_may_keep_the_point_of_its_drill() -
     )
     part = Part("plate", Outline(square(40.0)), 10.0, "aluminium", machined=holes, details=(thread,))
     of = make_job(part, CamSettings.model_validate({"stock": {"margin": 0}}), (MILL, tap))
-    asked, without = (Wanted(one, [MILL]) for one in (of, replace(of, tools=(MILL,))))
+    asked, without = (TargetShape(one, [MILL]) for one in (of, replace(of, tools=(MILL,))))
     for wanted, bottoms in ((asked, [-4, -7, -10]), (without, [-7, -10])):
         assert [band.bottom for band in wanted.bands] == bottoms
         for place, bottom in enumerate(bottoms):

@@ -6,8 +6,8 @@ from shop import MILL
 from test_cleared import fresh, pocket, scene
 from test_proof_parts import paths_of
 
-from mechwright_cam.proof import cleared
-from mechwright_cam.proof.since import Cells, Tracks, taking
+from mechwright_cam.proof import swept_area
+from mechwright_cam.proof.removal_time import Cells, Tracks, taking
 from mechwright_cam.shop.tool import ToolKind
 
 BALL = MILL.model_copy(update={"kind": ToolKind.BALL})
@@ -94,10 +94,10 @@ def test_a_line_across_a_gap_of_tracks_is_not_known() -> None:
 @pytest.mark.parametrize(("lift", "clear"), [(0.5, True), (0.6, True), (0.4, False), (0.0, False)])
 def test_a_cylinder_above_the_tip_is_asked_about_where_it_begins(lift: float, clear: bool) -> None:
     """The pocket is 1 mm deep; in it the tip goes down to 1.5 mm, with a shank that is no wider than itself."""
-    many = [f"G0 X{x}" for k in range(cleared.FEW) for x in (5 + k % 5 / 10, -5)]
+    many = [f"G0 X{x}" for k in range(swept_area.FEW) for x in (5 + k % 5 / 10, -5)]
     of = scene([*pocket(-1), "G0 Z5", "G0 X-5 Y0", "G0 Z-1.5", *many])
     steps = of.paths.rapids[of.paths.low[of.paths.rapids] == -1.5]
-    assert steps.size > cleared.FEW
+    assert steps.size > swept_area.FEW
     stock = fresh(of)
     assert (stock.suspects(steps, lift=lift, radius=2.9).size == 0) is clear
     assert stock.meets(int(steps[-1]), lift=lift, radius=2.9) is not clear

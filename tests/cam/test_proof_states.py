@@ -9,7 +9,7 @@ from shop import MILL, plate_job
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.cutting_rules import BEYOND
-from mechwright_cam.proof.held import bodies
+from mechwright_cam.proof.tool_collisions import bodies
 from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
 WORDS = ("G17", "G21", "G40", "G90")

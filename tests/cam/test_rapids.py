@@ -9,9 +9,9 @@ from shop import plate_job
 
 from mechwright_cam.proof import Check, Scene
 from mechwright_cam.proof.entry_rules import rapid_height, rapids_in_stock
-from mechwright_cam.proof.held import clamp
 from mechwright_cam.proof.machine_moves import positions
 from mechwright_cam.proof.plane import SNAP, overlay
+from mechwright_cam.proof.tool_collisions import clamp
 from mechwright_cam.setup.holding import Clamp
 from mechwright_cam.setup.job import Job
 

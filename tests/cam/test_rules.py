@@ -72,7 +72,7 @@ def test_a_build_asks_the_rules_of_its_host() -> None:
         found.registered.setdefault(name, entries)
     machining = Machining(Build(ROOT / "examples" / "elliptic-pair.toml", found, Wanted("cam")))
     with pytest.raises(ProofError, match=r"\[own\]: gear is not for us"):
-        _ = machining.made
+        _ = machining.proven_programs
 
 
 def test_a_program_is_read_once_for_its_proof_and_its_pictures(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,7 +49,7 @@ def test_first_examples_are_built_or_a_tool_is_named_with_which_they_are(
         machining = build.made(Machining)
         if not errors(machining.findings):
             assert not FIRST[name]
-            assert all(one.proof.ok and "G20" in one.text for one in machining.made)
+            assert all(one.proof.ok and "G20" in one.text for one in machining.proven_programs)
             return
         design, library = build.design, library_of(build.design)
         buy, told = {}, [one.message for one in machining.findings if one.code == "shop.buy"]
@@ -64,7 +64,7 @@ def test_first_examples_are_built_or_a_tool_is_named_with_which_they_are(
     with Build(load(EXAMPLES / f"{name}.toml", host()), host(), Wanted("cam")) as build:
         machining = build.made(Machining)
         assert not errors(machining.findings)
-        assert all(one.proof.ok for one in machining.made)
+        assert all(one.proof.ok for one in machining.proven_programs)
 
 
 def test_a_part_that_the_crib_does_not_make_names_a_tool(tmp_path) -> None:

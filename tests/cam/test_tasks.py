@@ -19,7 +19,7 @@ from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.recess import plan_view
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.operations.table import BUILT_IN, asked
+from mechwright_cam.operations.table import BUILT_IN, job_operations
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.planning import Assignments, choose_tools, plan
 from mechwright_cam.planning.prepare import cut_outlines
@@ -62,7 +62,7 @@ def test_every_feature_is_claimed_once_and_the_cutters_of_a_part_are_chosen_once
     claims, choices = counted
     build = Build(EXAMPLES / f"{name}.toml", host())
     design = build.design
-    assert build.made(Machining).made
+    assert build.made(Machining).proven_programs
     parts = [one for one in design.family.parts(design.params) if one.outline is not None]
     assert set(claims) == {(one.name, feature.name) for one in parts for feature in one.features}
     assert set(claims.values()) == {1}
@@ -79,8 +79,8 @@ def test_tasks_stay_with_a_job_that_is_only_changed():
 def test_every_built_in_operation_has_a_name_of_its_own():
     names = [operation.name for operation in BUILT_IN]
     assert len({*names}) == len(names)
-    assert asked(()) == BUILT_IN
-    assert [one.name for one in asked(("clear", "face", "clear"))][:3] == ["clear", "face", "ream"]
+    assert job_operations(()) == BUILT_IN
+    assert [one.name for one in job_operations(("clear", "face", "clear"))][:3] == ["clear", "face", "ream"]
 
 
 class Plunge(Operation):

@@ -10,7 +10,7 @@ from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading import plain, read
-from mechwright_cam.controls.reading.beside import Beside
+from mechwright_cam.controls.reading.comments_and_states import CommentsAndStates
 
 START = "G17 G21 G40 G80 G90 G94\nG54\nF100.\nG0 X0. Y0. Z5.\n"
 LINE = START.count("\n") + 1
@@ -130,7 +130,11 @@ def test_a_line_is_as_long_as_it_is_written() -> None:
 def test_a_line_that_is_too_long_is_not_looked_at(control: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Patterns take a hundred bytes for each of its characters, and a line may have millions."""
     seen = []
-    monkeypatch.setattr(plain, "Beside", lambda lines, dialect: seen.extend(lines) or Beside(lines, dialect))
+    monkeypatch.setattr(
+        plain,
+        "CommentsAndStates",
+        lambda lines, dialect: seen.extend(lines) or CommentsAndStates(lines, dialect),
+    )
     monkeypatch.setattr(read, "uses_macros", lambda text: seen.extend(text.split("\n")) or False)
     assert re.match(rf"line {LINE}: 500\d characters; ", said("G1 X1. Y" + "1" * 5000, control))
     assert START.count("\n") < len(seen)

@@ -13,7 +13,7 @@ from planning_parts import bore, job, lobes, part
 
 from mechwright_cam.operations import thin_cuts
 from mechwright_cam.operations.pen import AIR
-from mechwright_cam.operations.thin_cuts import SHARES, stretches
+from mechwright_cam.operations.thin_cuts import SHARES, split_by_engagement
 from mechwright_cam.plane.path import polyline
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Feed, FeedArc
@@ -33,14 +33,14 @@ def beside(width, start=-50.0):
 def test_the_thinner_the_chips_the_faster_the_feed(degrees, share):
     """Width of cut r (1 - cos φ): chips of sin φ feeds per tooth."""
     width = RADIUS * (1 - math.cos(math.radians(degrees)))
-    (parts,) = stretches([LINE], beside(width), RADIUS)
+    (parts,) = split_by_engagement([LINE], beside(width), RADIUS)
     assert [one for _, one in parts] == [share]
     assert parts[0][0] == LINE
 
 
 def test_a_path_is_divided_where_its_cut_becomes_thick():
     stock = beside(0.1).union(beside(RADIUS, 10.0))
-    (parts,) = stretches([LINE], stock, RADIUS)
+    (parts,) = split_by_engagement([LINE], stock, RADIUS)
     (first, thin), *_, (last, thick) = parts
     assert (thin, thick) == (2.0, 1.0)
     assert (first.start, last.end) == (LINE.start, LINE.end)
@@ -52,7 +52,7 @@ def test_a_path_is_divided_where_its_cut_becomes_thick():
 
 def test_what_a_path_took_is_no_stock_for_the_next():
     back = LINE.reversed()
-    first, second = stretches([LINE, back], beside(RADIUS), RADIUS)
+    first, second = split_by_engagement([LINE, back], beside(RADIUS), RADIUS)
     assert [one for _, one in first] == [1.0]
     assert [one for _, one in second] == [AIR]
 

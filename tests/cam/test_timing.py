@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from planning_parts import bore, job, plate
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.controls.lookahead.usual import CORNER_JUMP
+from mechwright_cam.controls.lookahead.default import CORNER_JUMP
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.machining import machine as build
 from mechwright_cam.proof.timing import step_times

@@ -13,7 +13,7 @@ from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.planning import plan
 from mechwright_cam.proof.measuring import prove_lengths
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.setter import tool_touches, unmeasured, wanted
+from mechwright_cam.setup.setter import measures_tools, tool_touches, unmeasured
 
 SETTER = {"x": -30.0, "y": -300.0, "over": 42.5}
 MEASURING = [name for name, control in BY_NAME.items() if not control.cannot_measure(())]
@@ -156,8 +156,8 @@ def test_linuxcnc_writes_the_lengths_that_are_meant(units: str, tmp_path) -> Non
 
 
 def test_what_cannot_be_measured_is_refused_by_name() -> None:
-    assert wanted(measured_job())
-    assert not wanted(job(plate(bore(12.0)), "mill-6"))
+    assert measures_tools(measured_job())
+    assert not measures_tools(job(plate(bore(12.0)), "mill-6"))
     assert "spot-6 is wider than the setter (5 mm)" in unmeasured(
         measured_job(setter={**SETTER, "diameter": 5.0})
     )

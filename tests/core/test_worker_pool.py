@@ -19,8 +19,8 @@ from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import Host, Registered, host
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import LostError, WorkerPool
-from mechwright_cad.making import Solids, Work, compared_and_made
 from mechwright_cad.pages import Interference, SolidFiles
+from mechwright_cad.solid_models import Solids, Work, collisions_and_files
 
 HERE = os.getpid()
 
@@ -177,7 +177,7 @@ def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch, tm
         (Heavy, 2, "model", False),
         (Light, 2, "build", False),
     ):
-        monkeypatch.setattr("mechwright_cad.making.available_cores", lambda count=count: count)
+        monkeypatch.setattr("mechwright_cad.solid_models.available_cores", lambda count=count: count)
         monkeypatch.setattr(exporter, "name", "step")
         with pair(tmp_path, command, exporters=[exporter()]) as build:
             SolidFiles().warm(build)
@@ -194,7 +194,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
         jobs = findings = ()
 
         @property
-        def made(self):
+        def proven_programs(self):
             if fault is not None:
                 raise fault
             return ()
@@ -209,7 +209,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.names", lambda self, build, wanted: [])
     monkeypatch.setattr(Solids, "warm", lambda self: None)
     monkeypatch.setattr(Solids, "begin", lambda self: None)
-    monkeypatch.setattr(Solids, "beside", True)
+    monkeypatch.setattr(Solids, "in_second_process", True)
     monkeypatch.setattr(Solids, "collisions", lambda self: [MET])
     monkeypatch.setattr(Solids, "files", lambda self: pytest.fail("there are none"))
     (tmp_path / "pair.toml").write_text('format = 1\nfamily = "elliptic-gears"\n[parameters]\nteeth = 21\n')
@@ -235,9 +235,9 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
         exporters = [build.host.get(Exporter, name) for name in ("step", "stl")]
         with WorkerPool([1]) as pool:
             work = Work(build.design, exporters, motion, sample)
-            findings, files, grams = pool.result(pool.submit(compared_and_made, work))
+            findings, files, grams = pool.result(pool.submit(collisions_and_files, work))
         solids = build.made(Solids)
-        assert not solids.beside
+        assert not solids.in_second_process
         assert files.keys() == {"gear.step", "gear.stl", "assembly.step", "motion.html"}
         assert solids.files() == {name: text for name, text in files.items() if name != "motion.html"}
         assert solids.page() == {"motion.html": files["motion.html"]}

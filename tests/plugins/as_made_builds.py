@@ -9,7 +9,7 @@ from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.made_part import MadePart
 from mechwright.pipeline import Build
 from mechwright.plugins.host import host
-from mechwright_cam.as_made import MadeParts
+from mechwright_cam.as_made import AsMadeParts
 
 ROOT = Path(__file__).parents[2]
 FACTS: list[dict[str, Any]] = json.loads((ROOT / "tests" / "data" / "as-made.json").read_text())["facts"]
@@ -30,8 +30,8 @@ def table(family: str, **parameters: Any) -> str:
 def built(path: Path) -> tuple[list[MadePart], AsMade, Any]:
     """Parts as made, what the family says of them, and the parameters."""
     with Build(path, host()) as build:
-        made = build.made(MadeParts)
-        return made.parts, made.said, build.design.params
+        made = build.made(AsMadeParts)
+        return made.parts, made.analysis, build.design.params
 
 
 def example(name: str) -> tuple[list[MadePart], AsMade, Any]:

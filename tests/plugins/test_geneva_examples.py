@@ -40,7 +40,7 @@ def built(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param) / "out"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            "mechwright_cad.making.available_cores", lambda: 1
+            "mechwright_cad.solid_models.available_cores", lambda: 1
         )  # a second process would import all again
         done = run(EXAMPLES[request.param], ROOT / "examples" / f"geneva-{request.param}.toml", "-o", folder)
     assert done.returncode == 0, done.stderr

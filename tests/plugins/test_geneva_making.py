@@ -203,7 +203,7 @@ def test_a_counterbore_is_cut_and_proven_with_its_fillet_or_from_the_other_side(
     design = example("straight")
     table = {**design.params.model_dump(exclude_none=True), **BORED, **changes}
     machining = Machining(Build(replace(design, params=GenevaParams(**table)), host()))
-    wheel = [made for made in machining.made if made.job.part.name.startswith("wheel")]
+    wheel = [made for made in machining.proven_programs if made.job.part.name.startswith("wheel")]
     assert [made.job.side for made in wheel] == sides
     assert all(made.proof.ok for made in wheel)
     (text,) = [made.text for made in wheel if made.job.side == sides[-1]]

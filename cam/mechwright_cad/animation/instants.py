@@ -22,7 +22,7 @@ RESTS = 1e-4
 """An instant centre that moves less, mm, is a pivot, and nothing to be shown."""
 
 
-def course(motion: Motion) -> tuple[Array, bool]:
+def independent_variable(motion: Motion) -> tuple[Array, bool]:
     """Over what rates are taken (n,), s or rad, and whether the motion comes back to where it began."""
     over = motion.channels[TIME if TIME in motion.channels else motion.input_name].values
     ends = [np.abs(x[-1] - x[0]).max() for p in motion.poses.values() for x in (p.position, p.rotation)]
@@ -62,7 +62,7 @@ def instants(motion: Motion) -> list[dict[str, Any]]:
     Coordinates are those of the ground; what is at infinity is None. ``pose`` is the body's x, y and angle,
     with which a page brings them into the body.
     """
-    over, comes_back = course(motion)
+    over, comes_back = independent_variable(motion)
     if len(over) < 5 or not (np.diff(over) > 0).all():
         return []
     leader = leaders(motion.joints, ["", *motion.poses])
@@ -94,7 +94,7 @@ def instants(motion: Motion) -> list[dict[str, Any]]:
 
 def arrows(motion: Motion) -> dict[str, dict[str, Any]]:
     """Velocity and acceleration of each traced point, as parts of its greatest: columns x and y."""
-    over, comes_back = course(motion)
+    over, comes_back = independent_variable(motion)
     if len(over) < 5 or not (np.diff(over) > 0).all():
         return {}
     found: dict[str, dict[str, Any]] = {}

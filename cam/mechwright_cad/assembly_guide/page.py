@@ -27,9 +27,9 @@ class AssemblyGuide(Page):
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes solids meanwhile."""
-        from mechwright_cad.making import Solids
+        from mechwright_cad.solid_models import Solids
 
-        return build.made_as_wanted(Solids).beside
+        return build.made_as_wanted(Solids).in_second_process
 
     def shown(self, build: Build) -> bool:
         """Whether a build has this page."""

@@ -167,9 +167,9 @@ class Words:
             return f"{pin} screws into {hole}."
         if is_coupling(self.plan.bodies[match.hole].part):
             return f"{pin} goes into {hole}: tighten its screw there."
-        if not match.said and least > ROOM:
+        if not match.has_fit and least > ROOM:
             return f"{pin} in {hole}: {match.text}, which is room and no seat; what screws it down holds it."
-        if not match.said:
+        if not match.has_fit:
             return f"{pin} in {hole}: {match.text}, no fit is said; it has to sit fast, or is bonded."
         if most <= 0:
             return (
@@ -200,7 +200,7 @@ class Words:
                     continue
                 self._said.add(pair)
                 least, most = match.play
-                loose = f" with {least:.3f} to {most:.3f} mm of play, {match.text}" if match.said else ""
+                loose = f" with {least:.3f} to {most:.3f} mm of play, {match.text}" if match.has_fit else ""
                 yield (
                     f"Grease. Try: {self.name(match.pin)} and {self.name(match.hole)} turn freely on each "
                     f"other by hand{loose}."

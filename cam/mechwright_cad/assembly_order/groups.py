@@ -35,7 +35,7 @@ def rigid(motion: Motion) -> dict[str, str]:
     return {name: find(name) for name in head}
 
 
-class Standing:
+class BodyLayers:
     """The layers of all bodies where they stand at a sample, seen from above; and which of them touch."""
 
     def __init__(self, bodies: Sequence[Body], sample: int) -> None:
@@ -133,7 +133,7 @@ def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list
     return [tuple(sorted(those)) for those in found.values()]
 
 
-def bonds(bodies: Sequence[Body], motion: Motion, standing: Standing) -> list[tuple[int, int]]:
+def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[tuple[int, int]]:
     """Pairs of bodies that move as one and touch; a ball bearing counts with the shaft that it is put on."""
     rigidly = rigid(motion)
     heads = [rigidly[body.instance.body] for body in bodies]

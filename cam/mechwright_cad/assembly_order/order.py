@@ -19,7 +19,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright_cad.assembly_order.barred import Ways
-from mechwright_cad.assembly_order.groups import Standing, bonds, connected, rigid
+from mechwright_cad.assembly_order.groups import BodyLayers, bonds, connected, rigid
 from mechwright_cad.assembly_order.layers import LEVEL, PARALLEL, UP, axis_of, own_layers
 from mechwright_cad.bodies import Body
 
@@ -70,7 +70,7 @@ class Order:
 
     def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int) -> None:
         self.bodies, self.motion, self.sample = tuple(bodies), motion, sample
-        self.standing = Standing(bodies, sample)
+        self.standing = BodyLayers(bodies, sample)
         self.table = Ways(bodies, sample)
         self.heads = rigid(motion)
 

@@ -26,9 +26,9 @@ class BillOfMaterials(Page):
 
     def late(self, build: Build) -> bool:
         """Whether a second process weighs the parts."""
-        from mechwright_cad.making import Solids
+        from mechwright_cad.solid_models import Solids
 
-        return build.made_as_wanted(Solids).beside
+        return build.made_as_wanted(Solids).in_second_process
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """Both files."""
@@ -38,7 +38,7 @@ class BillOfMaterials(Page):
         """Both files; none for a mechanism without parts."""
         from mechwright_cad.assembly_order.plan import plan_of
         from mechwright_cad.bill.lines import lines_of
-        from mechwright_cad.making import Solids
+        from mechwright_cad.solid_models import Solids
 
         if not build.parts:
             return {}

@@ -71,7 +71,7 @@ class Match:
         return h0 - d1, h1 - d0
 
     @property
-    def said(self) -> bool:
+    def has_fit(self) -> bool:
         """Whether the drawing says how tightly they go."""
         return self.outside.fit is not None or self.inside.fit is not None
 
@@ -161,7 +161,7 @@ def matches(bodies: Sequence[Body], sample: int, moved: Sequence[int], onto: Seq
             pairs += [(two, one, b, a) for a in faces[one] for b in faces[two] if a.inside and not b.inside]
             fitting = [Match(pin, hole, a, b) for pin, hole, a, b in pairs if _fits(a, b)]
             if fitting:  # the tightest of those that the drawing says tells how the two go together
-                found.append(min(fitting, key=lambda match: (not match.said, match.play)))
+                found.append(min(fitting, key=lambda match: (not match.has_fit, match.play)))
     return found
 
 

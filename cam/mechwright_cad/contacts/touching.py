@@ -22,7 +22,7 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Bore
-from mechwright_cad.assembly_order.groups import Standing, rigid
+from mechwright_cad.assembly_order.groups import BodyLayers, rigid
 from mechwright_cad.assembly_order.layers import PARALLEL, UP, Layer
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round, rounds_of
@@ -57,7 +57,7 @@ class Touching:
 
     def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int) -> None:
         self.bodies, self.motion, self.sample = tuple(bodies), motion, sample
-        self.standing = Standing(bodies, sample)
+        self.standing = BodyLayers(bodies, sample)
         self.groups = rigid(motion)
         self.heads = [self.groups[body.instance.body] for body in self.bodies]
 

@@ -47,7 +47,7 @@ def _with_targets(design: Design, found: Mapping[str, Any]) -> Answer:
 def parts(design: Design) -> Answer:
     """What the family finds, and the plates in motion where there are any; a fraction of a second."""
     found = list(design.check())
-    answer: Answer = {"findings": told(found), "scene": None}
+    answer: Answer = {"findings": findings_as_json(found), "scene": None}
     if not errors(found, Stage.MOTION):
         solved = design.solve(PAGE_SAMPLES)
         try:
@@ -76,10 +76,10 @@ def _seen(made: Sequence[Part], solved: Motion) -> bool:
 
 def remedies(path: Path, change: Change) -> list[dict[str, Any]]:
     """What ``check`` finds, with remedies that were tried; it may take seconds, in a second process."""
-    return told(checked(Build(load(path, host()).changed(change), host())))
+    return findings_as_json(checked(Build(load(path, host()).changed(change), host())))
 
 
-def told(findings: Sequence[Finding]) -> list[dict[str, Any]]:
+def findings_as_json(findings: Sequence[Finding]) -> list[dict[str, Any]]:
     """Findings as JSON holds them, the gravest first."""
     order = ["error", "warning", "note"]
     return [one.as_dict() for one in sorted(findings, key=lambda one: order.index(str(one.severity)))]

@@ -20,7 +20,7 @@ from mechwright.scripting.synthesis import sought
 from mechwright.worker_pool.budget import available_cores
 from mechwright.worker_pool.pool import WorkerPool
 from mechwright.worker_pool.serving import report_progress
-from mechwright_cad.live.answers import told
+from mechwright_cad.live.answers import findings_as_json
 
 KEPT = 16
 """Results that are kept, so that undo shows at once what was found before."""
@@ -47,7 +47,7 @@ def designs(path: Path, change: Mapping[str, Any], progress: Progress) -> Found:
     result = found.result
     return {
         "told": found.told,
-        "findings": told(result.findings),
+        "findings": findings_as_json(result.findings),
         "rejected": [
             {"count": one.count, "code": one.code, "message": one.message} for one in result.rejected
         ],

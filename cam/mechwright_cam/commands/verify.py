@@ -57,7 +57,7 @@ def verify(programs: Sequence[Path], path: Path, part_name: str, report: Report,
                 proof = judged(scene, rules, program, _after(CHECKED, progress))
         if stopping:
             refuse(stopping, path)
-        told(scene, proof, program, report)
+        report_proof(scene, proof, program, report)
 
 
 CHECKED = 0.5
@@ -75,7 +75,7 @@ def verify_drawing(programs: Sequence[Path], dxf: Path, report: Report, **wanted
     scene, rules = drawn_scene(text, job_of(dxf, **wanted), open_host())
     with fraction() as progress:
         proof = judged(scene, rules, program, progress)
-    told(scene, proof, program, report)
+    report_proof(scene, proof, program, report)
 
 
 def read_programs(programs: Sequence[Path]) -> tuple[str | dict[str, str], str]:
@@ -98,7 +98,7 @@ def judged(scene: Scene, rules: Sequence[Rule], program: str, progress: Progress
         raise ProgramError(f"{program}: {error}" if isinstance(scene.text, str) else str(error)) from error
 
 
-def told(scene: Scene, proof: Proof, program: str, report: Report) -> None:
+def report_proof(scene: Scene, proof: Proof, program: str, report: Report) -> None:
     """Tell what was found, and end with exit code 1 if the program is not proven."""
     if report.page is not None:
         from mechwright_cam.pages.report.report import report_html

@@ -142,9 +142,9 @@ class Control(Plugin):
     @property
     def lookahead(self) -> "GuardedLookahead":
         """How it goes from move to move: how long that takes, and how far off the path."""
-        from mechwright_cam.controls.lookahead import USUAL
+        from mechwright_cam.controls.lookahead import DEFAULT_LOOKAHEAD
 
-        return USUAL
+        return DEFAULT_LOOKAHEAD
 
     @property
     def length_write(self) -> tuple[int, str] | None:

@@ -275,11 +275,11 @@ class Dialect:
         """
         return dict(self.m_words).get(code, code)
 
-    def usual_m(self, code: int) -> int | None:
+    def standard_m(self, code: int) -> int | None:
         """The usual M code for one of the control's own; None for a usual one that is none of its words.
 
         >>> dialect = Dialect(frozenset(), m_words=((8, 108),))
-        >>> dialect.usual_m(108), dialect.usual_m(9), dialect.usual_m(8)
+        >>> dialect.standard_m(108), dialect.standard_m(9), dialect.standard_m(8)
         (8, 9, None)
         """
         if not self.m_words:

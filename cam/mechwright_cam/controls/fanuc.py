@@ -108,7 +108,7 @@ class Fanuc(GcodeControl):
             return
         self.end_drilling(out)
         out.line(*(word for word in self.safe_modes if word != self.no_length))
-        self.take_usual_corners(out)
+        self.take_default_corners(out)
         self.retract(out)
 
     def subprogram_number(self, out: Writer, number: int) -> int:

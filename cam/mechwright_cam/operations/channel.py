@@ -21,7 +21,7 @@ from mechwright_cam.plane.offsets import ROUGH, filled, grow, polygons, simplifi
 from mechwright_cam.plane.reach import ROUGHLY, closing, roughly_swollen
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
-from mechwright_cam.setup.vice import beside, can_be_clamped
+from mechwright_cam.setup.vice import can_be_clamped, surrounding_stock
 from mechwright_cam.shop.tool import Tool
 
 LEAST_FRAME = 1.0
@@ -111,7 +111,7 @@ def channel_of(
     if not _has_frame(job, part, width, _neighbour(job, part)):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
         if job.settings.stock.finished:
-            return beside(shapely.box(*job.stock), part), None
+            return surrounding_stock(shapely.box(*job.stock), part), None
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
     near = roughly_swollen(part, width - mill.radius)

@@ -27,7 +27,7 @@ from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer, cut_layers
 from mechwright_cam.operations.recess import is_recess, recess
 from mechwright_cam.operations.recess_zone import recess_zone
 from mechwright_cam.operations.steps import Cut, Steps
-from mechwright_cam.operations.stock import Stock, together_left
+from mechwright_cam.operations.stock import Stock, combined_stock
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons, swept
 from mechwright_cam.plane.reach import PRECISION
@@ -102,7 +102,7 @@ class Clear(Operation):
         for layer in layers:
             self.open_up(layer, task.feature, floored=False)
         steps.cuts += cut_layers(layers)
-        return together_left([layer.stock for layer in layers])
+        return combined_stock([layer.stock for layer in layers])
 
     def _cut_with_floor(self, task: Task, stock: Stock, steps: Steps, leave: float) -> Stock:
         zone: Zone = task.data
@@ -138,7 +138,7 @@ class Clear(Operation):
         floor.rough_heavy(zone.finisher, "finish the floor of narrow places")
         for mill in zone.finishers:
             floor.level(mill)
-        whole = Layer(zone, together_left([*(rough.stock for rough in roughs), floor.stock]), steps, cuts)
+        whole = Layer(zone, combined_stock([*(rough.stock for rough in roughs), floor.stock]), steps, cuts)
         for mill in zone.finishers:
             whole.finish(mill)
         steps.cuts += cuts

@@ -22,7 +22,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.runs import Cavity, Run, write_levels, write_ring
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.operations.thin_cuts import Stretch, stretches
+from mechwright_cam.operations.thin_cuts import Stretch, split_by_engagement
 from mechwright_cam.operations.zone import CUSP, SLACK, Zone
 from mechwright_cam.plane.arcfit import fit_all
 from mechwright_cam.plane.buffers import buffered
@@ -232,8 +232,8 @@ class Roughing:
             runs.append(Run(path, clear, linked, cleared, thin))
         if self.stock.begun and not self.ridges:
             around = grow(shapely.MultiLineString(trails), 3 * radius, ROUGH).bounds
-            here = shapely.clip_by_rect(self.stock.standing, *around)
-            parts = stretches(paths, grow(here, self.stock.over, ROUGH), radius)
+            here = shapely.clip_by_rect(self.stock.remaining_area, *around)
+            parts = split_by_engagement(paths, grow(here, self.stock.over, ROUGH), radius)
             runs = [replace(run, parts=part) for run, part in zip(runs, parts, strict=True)]
             if (
                 len(runs) == 1
@@ -241,7 +241,9 @@ class Roughing:
                 and not paths[0].closed
                 and not shapely.contains_xy(near, *paths[0].end)
             ):
-                (returns,) = stretches([paths[0].reversed()], grow(here, self.stock.over, ROUGH), radius)
+                (returns,) = split_by_engagement(
+                    [paths[0].reversed()], grow(here, self.stock.over, ROUGH), radius
+                )
         ends = paths[-1].end, paths[0].start
         back = stays_inside(free, *ends)
         cleared = back and self._is_cleared(*ends, trails, near)
@@ -258,13 +260,13 @@ class Roughing:
         x0, y0, x1, y1 = way.bounds
         box = x0 - self.radius, y0 - self.radius, x1 + self.radius, y1 + self.radius
         gone = shapely.buffer(shapely.clip_by_rect(trails, *box), self.radius, quad_segs=6)
-        left = shapely.intersection(way, shapely.clip_by_rect(self.stock.standing, x0, y0, x1, y1))
+        left = shapely.intersection(way, shapely.clip_by_rect(self.stock.remaining_area, x0, y0, x1, y1))
         return bool(shapely.difference(left, shapely.union_all(gone)).area <= SLIVER * self.tool.diameter)
 
     @cached_property
     def _near(self) -> shapely.Geometry:
         """Where the cutter meets what stands, prepared."""
-        return prepared(grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH))
+        return prepared(grow(self.stock.remaining_area, self.radius + self.stock.over - CLEAR, ROUGH))
 
     @cached_property
     def _thick(self) -> shapely.Geometry | None:

@@ -31,7 +31,7 @@ from mechwright_cam.operations.finishing import finish_heights
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.contour import contour_beside
+from mechwright_cam.plane.contour import offset_contour
 from mechwright_cam.plane.leads import middle_of_longest
 from mechwright_cam.plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.plane.path import Path, rounded
@@ -169,7 +169,7 @@ class CompensatedFinishing:
             everywhere = np.ones(len(dense), dtype=bool)
             whole = pieces(dense, everywhere, everywhere, self.wide, 0)
             runs = [ring] if whole and whole[0].closed else [piece.points for piece in whole]
-            found += [contour_beside(run, inset, self.side, tolerance, LEAST_TURN) for run in runs]
+            found += [offset_contour(run, inset, self.side, tolerance, LEAST_TURN) for run in runs]
         return [contour for contour in found if contour.cuts]
 
     # -- leads ------------------------------------------------------------------------------------------

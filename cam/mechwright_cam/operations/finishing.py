@@ -142,7 +142,7 @@ class Finishing:
             near = grow(zone.thinned, radius + job.settings.stock_to_leave + HEAVY, ROUGH)
             room = shapely.intersection(room, near)
         self.room = prepared(room)
-        self.near = prepared(grow(stock.standing, radius + stock.over - CLEAR, ROUGH))
+        self.near = prepared(grow(stock.remaining_area, radius + stock.over - CLEAR, ROUGH))
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + job.settings.stock_to_leave if zone.in_the_open else 0.0
         # Leads touch the path they lead to: between that and the wall they may be as wrong as it.

@@ -106,7 +106,7 @@ def reaming(job: Job, bore: Bore) -> Reaming | None:
     depth = -job.floor
     if bore.top > 0 or not through(job, bore.top + bore.depth):
         return None
-    fitting = (tool for tool in job.tools_of(ToolKind.REAMER) if sized(tool, bore))
+    fitting = (tool for tool in job.tools_of(ToolKind.REAMER) if reams_to_size(tool, bore))
     reamer = next((tool for tool in fitting if tool.flute_length >= depth + REAMER_LEAD), None)
     if reamer is None:
         return None
@@ -120,7 +120,7 @@ def reaming(job: Job, bore: Bore) -> Reaming | None:
     return None if mill is None else Reaming(reamer, starting_drill(job, small, depth), mill)
 
 
-def sized(reamer: Tool, bore: Bore) -> bool:
+def reams_to_size(reamer: Tool, bore: Bore) -> bool:
     """Whether a reamer makes the hole: within its fit, H7 by its nominal size, or within 5 µm without one."""
     fit = bore.fit
     if fit is None:

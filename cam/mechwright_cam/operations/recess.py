@@ -26,7 +26,17 @@ from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import roomy_mills, run_out
-from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons, sound, swept
+from mechwright_cam.plane.offsets import (
+    ROUGH,
+    areas,
+    corners,
+    filled,
+    grow,
+    opened,
+    polygons,
+    swept,
+    valid_shape,
+)
 from mechwright_cam.plane.reach import opening_keep
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import LEVEL, Job
@@ -176,7 +186,7 @@ def without_skin(keep: shapely.Geometry, *, looked_at: bool = False) -> shapely.
     # What is thinner than numbers can tell has come out as lines.
     lines = shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)
     skin = shapely.multipolygons([*thin[found & (area > 0)], *lines])
-    return shapely.union_all(polygons(shapely.difference(keep, sound(skin))))
+    return shapely.union_all(polygons(shapely.difference(keep, valid_shape(skin))))
 
 
 def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:

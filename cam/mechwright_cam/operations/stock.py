@@ -29,7 +29,7 @@ class Stock:
     """What of ``left`` need not go: it stays with the frame."""
 
     @property
-    def standing(self) -> shapely.Geometry:
+    def remaining_area(self) -> shapely.Geometry:
         """Where a cutter that goes down to the floor meets stock."""
         return self.left if shapely.is_empty(self.ridges) else shapely.union(self.left, self.ridges)
 
@@ -46,7 +46,7 @@ class Stock:
         return air_below(self.gone, z)
 
 
-def together_left(stocks: list[Stock]) -> Stock:
+def combined_stock(stocks: list[Stock]) -> Stock:
     """The stock of several layers of one recess, as seen from above."""
     left, *others = dict.fromkeys(stock.left for stock in stocks)
     left = shapely.union_all([left, *others]) if others else left

@@ -34,7 +34,7 @@ BUILT_IN: tuple[Operation, ...] = (
 """In the order in which they are asked to claim a feature, and cut those that begin at one height."""
 
 
-def asked(names: Sequence[str], more: Sequence[Operation] = ()) -> tuple[Operation, ...]:
+def job_operations(names: Sequence[str], more: Sequence[Operation] = ()) -> tuple[Operation, ...]:
     """The operations of a job: those of some names first, then the built-in ones.
 
     ``more`` are those that others bring; without its name none of them is asked. Raises DesignError for a

@@ -27,7 +27,9 @@ Stretch = tuple[Path, float]
 """A part of a path, and its feed in feeds of a full cut."""
 
 
-def stretches(paths: Sequence[Path], standing: shapely.Geometry, radius: float) -> list[tuple[Stretch, ...]]:
+def split_by_engagement(
+    paths: Sequence[Path], standing: shapely.Geometry, radius: float
+) -> list[tuple[Stretch, ...]]:
     """Divide paths, which are cut one after the other at one height, by how thick their chips are.
 
     What is ``standing`` may be larger than it is, not smaller; ``radius`` is the cutter's, mm.

@@ -19,7 +19,7 @@ import shapely
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, radius_in, roughers
 from mechwright_cam.operations.recess import Layer
-from mechwright_cam.plane.offsets import FINE, ROUGH, grow, simplified, sound, thinned
+from mechwright_cam.plane.offsets import FINE, ROUGH, grow, simplified, thinned, valid_shape
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.vice import RUN_OUT
 from mechwright_cam.shop.settings import PathSettings
@@ -125,7 +125,9 @@ class Zone:
         With an ``allowance`` for roughing: that much stays on the walls besides, which are thinned.
         """
         radius = self.radius_of(mill) + away
-        near = sound(grow(self.keep, radius)) if allowance is None else self.rough_keep(allowance, radius)
+        near = (
+            valid_shape(grow(self.keep, radius)) if allowance is None else self.rough_keep(allowance, radius)
+        )
         if self.radius_of(mill) == mill.radius:
             return near
         more = away + (allowance or 0.0)

@@ -8,8 +8,7 @@ from mechwright.pipeline import Build, FileName
 from mechwright_cam.planning.nesting import NEST_NAME
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import PROBE
-from mechwright_cam.setup.setter import LENGTHS
-from mechwright_cam.setup.setter import wanted as measures
+from mechwright_cam.setup.setter import LENGTHS, measures_tools
 
 if TYPE_CHECKING:
     from mechwright_cam.machining import Machining
@@ -41,7 +40,7 @@ def program_names(machining: "Machining") -> Iterator[FileName]:
         for end, what, there in (
             ("", "the program of ", True),
             (PROBE, "the program that probes the zero of ", probes),
-            (LENGTHS, "the program that measures the tools of ", measures(job)),
+            (LENGTHS, "the program that measures the tools of ", measures_tools(job)),
         ):
             for stem in control.stems(job.part.name + end, job.tools) if there else ():
                 yield named(machining, job, stem, suffix, what)

@@ -54,7 +54,7 @@ class DrawingFiles(Page):
         """DXF by part; none where nothing is milled."""
         machining = _machining(build)
         drawing = DxfExporter(curve_kind(build.wanted.curves))
-        parts = [*machining.plates, *machining.nests] if machining.made else []
+        parts = [*machining.plates, *machining.nests] if machining.proven_programs else []
         made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
         return distinct_files((name, content) for name, content in made if content is not None)
 
@@ -76,10 +76,10 @@ class ProgramFiles(Page):
     def files(self, build: Build) -> dict[str, str]:
         """Program text by file."""
         machining = _machining(build)
-        if not machining.made:
+        if not machining.proven_programs:
             return {}
         suffix = machining.control.suffix
-        texts = [pair for item in machining.made for pair in item.files.items()]
+        texts = [pair for item in machining.proven_programs for pair in item.files.items()]
         texts += machining.probing.values()
         texts += [pair for texts in machining.measuring.values() for pair in texts.items()]
         files = [(stem + suffix, text) for stem, text in texts]
@@ -133,10 +133,10 @@ class SetupSheets(Page):
         from mechwright_cam.pages.setup_sheet.walls import walls_view
 
         machining, seen = _machining(build), build.made(Seen)
-        if not machining.made:
+        if not machining.proven_programs:
             return {}
         control, table, design = machining.control, machining.table[0], build.path.name
-        files = {item.program.name: list(item.files) for item in machining.made}
+        files = {item.program.name: list(item.files) for item in machining.proven_programs}
         made = {}
         for item, simulation, walls in seen.measured:
             name = item.program.name
@@ -154,7 +154,9 @@ class SetupSheets(Page):
                 probing="".join(machining.probing.get(name, ("",))[:1]),
                 measuring=tuple(machining.measuring.get(name, ())),
             )
-        sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
+        sheets = [
+            (item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs
+        ]
         written = build.wanted.command in BillOfMaterials.commands
         made[SUMMARY] = summary_html(
             sheets,

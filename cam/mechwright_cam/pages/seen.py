@@ -20,7 +20,7 @@ class Seen:
         """Each program with its simulated stock and the deviation along its walls."""
         return [
             (item, item.scene.simulation, wall_deviation(item.scene.sweeps, item.job))
-            for item in self.machining.made
+            for item in self.machining.proven_programs
         ]
 
     @cached_property

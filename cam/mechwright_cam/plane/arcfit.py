@@ -9,7 +9,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
 from mechwright_cam.plane.path import Cut, Path, arc, line, printed
-from mechwright_cam.plane.runs import course, over_chord, runs_of
+from mechwright_cam.plane.runs import over_chord, prepared_polylines, runs_of
 
 LAST_DIGIT = 1e-4
 """A vertex this near to the line past it is one of rounding, mm: no bend of the path."""
@@ -29,7 +29,7 @@ def fit_all(polylines: Sequence[Array], tolerance: float, lines_per_arc: int = 1
     """Fit several polylines in one go; see :func:`fit`."""
     if not polylines:
         return []
-    way = course(polylines, tolerance)
+    way = prepared_polylines(polylines, tolerance)
     runs = runs_of(way, tolerance, lines_per_arc)
     places = np.column_stack([axis[runs.nodes] for axis in way.points])
     straight, height = runs.straight.tolist(), runs.height.tolist()

@@ -27,7 +27,7 @@ from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
 from mechwright_cam.plane.bends import FLAT, SHARP, Bend, along, biarc, left_of, meeting, places, wrapped
 from mechwright_cam.plane.path import Cut, Path, arc, line, printed
-from mechwright_cam.plane.runs import course, over_chord, runs_of
+from mechwright_cam.plane.runs import over_chord, prepared_polylines, runs_of
 
 SCRAP = 0.1
 """Pieces of a ring below this length, mm, may be what is left of a corner."""
@@ -47,7 +47,7 @@ HALVINGS = 6
 """So often a run is halved for the sake of its two arcs; then the one arc of the fit has to do."""
 
 
-def contour_beside(ring: Array, inset: float, side: int, tolerance: float, spare: float = 0.0) -> Path:
+def offset_contour(ring: Array, inset: float, side: int, tolerance: float, spare: float = 0.0) -> Path:
     """The contour ``inset`` mm beside a ring (n, 2), mm, or a run of one; a ring repeats its first point.
 
     ``side`` is 1 if the tool runs on the left of the contour, with the wall on its right, else -1;
@@ -65,7 +65,7 @@ def contour_beside(ring: Array, inset: float, side: int, tolerance: float, spare
 
 def _smooth(ring: Array, closed: bool, side: int, tolerance: float) -> list[Bend]:
     """Lines and arcs along a ring that have one heading at every node but sharp corners."""
-    way = course([ring], tolerance / 2)
+    way = prepared_polylines([ring], tolerance / 2)
     fitted, points = runs_of(way, tolerance / 2), np.column_stack(way.points)
     runs = [points[a : b + 1] for a, b in itertools.pairwise(fitted.nodes)]
     first = [

@@ -68,7 +68,7 @@ def areas(shape: shapely.Geometry) -> shapely.Geometry:
     return shapely.union_all(polygons(shape))
 
 
-def sound(shape: shapely.Geometry) -> shapely.Geometry:
+def valid_shape(shape: shapely.Geometry) -> shapely.Geometry:
     """The shape as overlays take it: a buffer crosses itself now and then, by no more than rounding."""
     return shape if shapely.is_valid(shape) else areas(shapely.make_valid(shape))
 

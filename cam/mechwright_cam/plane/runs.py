@@ -61,7 +61,7 @@ Axes = tuple[Array, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class PreparedPolylines:
     """Polylines one after the other, ready to be searched."""
 
     points: Axes
@@ -74,7 +74,7 @@ class Course:
 
 @dataclass(frozen=True, eq=False)
 class Runs:
-    """Runs of lines and arcs along a course."""
+    """Runs of lines and arcs along polylines."""
 
     nodes: Index
     """(k + 1,) vertices at which they begin and end."""
@@ -84,7 +84,7 @@ class Runs:
     """(k,) of an arc's centre over the chord, to the left of it, mm."""
 
 
-def course(polylines: Sequence[Array], tolerance: float) -> Course:
+def prepared_polylines(polylines: Sequence[Array], tolerance: float) -> PreparedPolylines:
     """Make polylines (n, 2), mm, ready: what does not matter left out, corners found."""
     points = np.concatenate([np.asarray(part, dtype=float) for part in polylines])
     bounds = np.cumsum([0, *map(len, polylines)])
@@ -102,7 +102,9 @@ def course(polylines: Sequence[Array], tolerance: float) -> Course:
     corner = found[np.minimum(np.searchsorted(found, index, side="right"), len(found) - 1)]
     enough = np.searchsorted(turned, turned + LONGEST_TURN)
     axes = points[:, 0].copy(), points[:, 1].copy()
-    return Course(axes, np.minimum.reduce([index + LONGEST, corner, enough, np.full(n, n - 1)]), bounds)
+    return PreparedPolylines(
+        axes, np.minimum.reduce([index + LONGEST, corner, enough, np.full(n, n - 1)]), bounds
+    )
 
 
 def _ends(bounds: Index) -> Mask:
@@ -149,7 +151,7 @@ def _corners(step: Array, turn: Array, ends: Mask, tolerance: float) -> Mask:
     return corners
 
 
-def runs_of(way: Course, tolerance: float, lines_per_arc: int = 1) -> Runs:
+def runs_of(way: PreparedPolylines, tolerance: float, lines_per_arc: int = 1) -> Runs:
     """The fewest runs that are found within ``tolerance``, mm, of every vertex and middle of an edge.
 
     An arc counts as ``lines_per_arc`` lines.
@@ -203,7 +205,7 @@ def _chain(by_line: Index, by_arc: Index, lines_per_arc: int) -> tuple[Index, Ma
     return np.array(nodes, dtype=np.intp), np.array([lines[node] for node in nodes[:-1]], dtype=np.bool_)
 
 
-def _tested(way: Course, nodes: Index, tolerance: float, lines: Mask) -> tuple[Runs, Index]:
+def _tested(way: PreparedPolylines, nodes: Index, tolerance: float, lines: Mask) -> tuple[Runs, Index]:
     """The runs between nodes, and which of them do not hold; some have to be ``lines``."""
     first, last = nodes[:-1], nodes[1:]
     straight, curved, height = shapes(way, first, last, _everywhere(way, first, last), tolerance)
@@ -211,7 +213,7 @@ def _tested(way: Course, nodes: Index, tolerance: float, lines: Mask) -> tuple[R
     return Runs(nodes, straight, height), np.flatnonzero(~(straight | (curved & ~lines)))
 
 
-def _everywhere(way: Course, first: Index, last: Index) -> Axes:
+def _everywhere(way: PreparedPolylines, first: Index, last: Index) -> Axes:
     """Vertices and middles of edges between ``first`` and ``last`` (k,), as columns."""
     # By their position in half edges; the last one fills the column up.
     count = 2 * int((last - first).max(initial=1)) - 1
@@ -221,7 +223,7 @@ def _everywhere(way: Course, first: Index, last: Index) -> Axes:
 
 
 def _reach(
-    way: Course,
+    way: PreparedPolylines,
     place: Index,
     most: Index,
     tolerance: float,
@@ -253,7 +255,9 @@ def _reach(
     return low
 
 
-def _holds(way: Course, first: Index, last: Index, tolerance: float, lines: bool, everywhere: bool) -> Mask:
+def _holds(
+    way: PreparedPolylines, first: Index, last: Index, tolerance: float, lines: bool, everywhere: bool
+) -> Mask:
     """Whether a line, or an arc, from ``first`` to ``last`` (k,) holds."""
     if everywhere:
         inner = _everywhere(way, first, last)
@@ -266,7 +270,7 @@ def _holds(way: Course, first: Index, last: Index, tolerance: float, lines: bool
 
 
 def shapes(
-    way: Course,
+    way: PreparedPolylines,
     first: Index,
     last: Index,
     inner: Axes,

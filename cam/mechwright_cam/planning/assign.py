@@ -8,7 +8,7 @@ from mechwright.errors import DesignError, MechwrightError, PluginFaultError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.drilling import spot_drill
-from mechwright_cam.operations.table import asked
+from mechwright_cam.operations.table import job_operations
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
@@ -87,7 +87,7 @@ class Assignments:
 
     def operations(self, settings: CamSettings) -> tuple[Operation, ...]:
         """Those that a job asks; raises DesignError for a name that is not known."""
-        return asked(settings.operations, self.more)
+        return job_operations(settings.operations, self.more)
 
     def untapped(self, library: Library) -> dict[str, str]:
         """Taps of a library that the control cannot use, by name, with the reason."""

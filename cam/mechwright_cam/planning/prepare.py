@@ -16,7 +16,7 @@ from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.in_hand import from_hand
 from mechwright_cam.planning.nesting import NestNameError, arranged
-from mechwright_cam.planning.remarks import judged_together
+from mechwright_cam.planning.remarks import merged_tool_findings
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.planning.to_buy import to_buy
 from mechwright_cam.planning.uses import uses
@@ -123,7 +123,7 @@ class Preparation:
         findings += [*check_measured(jobs), *dict.fromkeys(worn(jobs))]
         tops = [job for job in jobs if job.side == "top"]
         if len(tops) == len(self.cut):
-            findings = judged_together(findings, _used(jobs, self.assignments))
+            findings = merged_tool_findings(findings, _used(jobs, self.assignments))
             findings += self._as_cut(tops)
             findings += self._unused_data(jobs)
         return findings, jobs

@@ -129,7 +129,7 @@ def _unused(tool: Tool, message: str, remedy: str) -> Finding:
     return Finding.warning(UNUSED, "cam.tools", f"{tool.name} {message}", remedy=remedy)
 
 
-def judged_together(findings: Sequence[Finding], used: Set[str]) -> list[Finding]:
+def merged_tool_findings(findings: Sequence[Finding], used: Set[str]) -> list[Finding]:
     """What is said of tools of several parts: one that any of them uses is not unused, and is told once."""
     said, told = [], set(used)
     for finding in findings:

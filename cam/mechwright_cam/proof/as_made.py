@@ -1,6 +1,6 @@
 """The walls of a part as the posted program leaves them.
 
-What has to stay at the foot of each layer (``wanted``: the part, and the corners that no cutter enters) is
+What has to stay at the foot of each layer (``target``: the part, and the corners that no cutter enters) is
 followed all around; at each place the wall stands where the nearest path ends it. Cut least is a layer at its
 foot, so that is where the wall stands out most. Beside a tab it is taken above the tab, which is cut off and
 dressed by hand. A round bore is followed on its own circle, for a drill reaches what a mill does not.
@@ -19,15 +19,15 @@ from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import Band
-from mechwright_cam.proof.beyond import VISIBLE
-from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape
+from mechwright_cam.proof.point_segment_distance import Chords
 from mechwright_cam.proof.rings import Ring, circle_ring, rings_of
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.sweep import Sweep, Sweeps
+from mechwright_cam.proof.target_shape import TargetShape
+from mechwright_cam.proof.unreachable_stock import VISIBLE
 from mechwright_cam.proof.wall import HINTED
-from mechwright_cam.proof.wanted import Wanted
 from mechwright_cam.shop.tool import MILLS, ToolKind
 
 CHORD = 2e-5
@@ -51,19 +51,19 @@ class Tools:
 
     def off(self, points: Array, outward: Array) -> Array:
         """Distance (k,) from each place to the nearest disc, mm, negative inside of one."""
-        off = self.beside(points, outward)
+        off = self.off_along_wall(points, outward)
         far = np.flatnonzero(off > TOLERANCES.leftover)
         for radius, chords in self.cuts:
             if far.size:
                 off[far] = np.minimum(off[far], chords.distance(points[far]) - radius)
         return off
 
-    def beside(self, points: Array, outward: Array) -> Array:
+    def off_along_wall(self, points: Array, outward: Array) -> Array:
         """The same where a path runs beside the wall, inf elsewhere."""
         off = np.full(len(points), np.inf)
         for radius, chords in self.cuts:
             hints = points + radius * outward
-            off = np.minimum(off, chords.distance_beside(points, hints, HINTED) - radius)
+            off = np.minimum(off, chords.hinted_distance(points, hints, HINTED) - radius)
         return off
 
 
@@ -82,32 +82,32 @@ def wall_sweeps(scene: Scene) -> Sweeps:
     return Sweeps(scene.paths.of_kinds(makers))
 
 
-def made_sections(scene: Scene, sweeps: Sweeps) -> list[MadeSection]:
+def as_made_sections(scene: Scene, sweeps: Sweeps) -> list[MadeSection]:
     """All cross-sections from the top of the plate down, in work coordinates, tabs cut off.
 
     Depths are below the upper face of the setup. ``off`` is inf where nothing has cut.
     """
     if not scene.paths.mills:
         return []
-    wanted = Wanted(scene.job, scene.paths.mills)
+    target = TargetShape(scene.job, scene.paths.mills)
     found: list[MadeSection] = []
-    for number in dict.fromkeys(band.section for band in wanted.bands):
-        places = [place for place, band in enumerate(wanted.bands) if band.section == number]
+    for number in dict.fromkeys(band.section for band in target.bands):
+        places = [place for place, band in enumerate(target.bands) if band.section == number]
         runs = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
-        found += [_section(scene, sweeps, wanted, run.tolist()) for run in runs]
+        found += [_section(scene, sweeps, target, run.tolist()) for run in runs]
     return sorted(found, key=lambda section: section.top)
 
 
-def _section(scene: Scene, sweeps: Sweeps, wanted: Wanted, places: list[int]) -> MadeSection:
+def _section(scene: Scene, sweeps: Sweeps, target: TargetShape, places: list[int]) -> MadeSection:
     """One cross-section, from layers that follow on each other, from the top down."""
-    job, layers = scene.job, wanted.bands
+    job, layers = scene.job, target.bands
     foot = places[-1]
     band = layers[foot]
     level, groups = sweeps.foot(band.bottom, job.thickness)
-    rings = rings_here(scene, wanted.rest(foot, level), band)
+    rings = rings_here(scene, target.rest(foot, level), band)
     tools = Tools.of(groups)
-    aside = wanted.beside_tabs(foot)
-    above = next((p for p in reversed(places) if wanted.beside_tabs(p) is None), None)
+    aside = target.tab_lift_area(foot)
+    above = next((p for p in reversed(places) if target.tab_lift_area(p) is None), None)
     over = None
     if aside is not None and above is not None:
         over = Tools.of(sweeps.foot(layers[above].bottom, job.thickness)[1])

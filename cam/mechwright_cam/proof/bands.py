@@ -102,7 +102,7 @@ def _run_outs(job: Job, frame: Frame, features: tuple[Feature, ...]) -> Shape:
     return shapely.difference(grow(floors, run_out(widest)), frame.body)
 
 
-def asked(job: Job) -> Shape | None:
+def wall_region(job: Job) -> Shape | None:
     """Where walls have to be cut, if that is not everywhere: on what is drawn in a part in its frame.
 
     It ends just before the rim: what stands in the frame beyond may end there, as the foot of a wall does.

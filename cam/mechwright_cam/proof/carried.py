@@ -12,7 +12,7 @@ from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, swept
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.sweep import ROUNDING
-from mechwright_cam.proof.wanted import TAB_SLACK
+from mechwright_cam.proof.target_shape import TAB_SLACK
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
 

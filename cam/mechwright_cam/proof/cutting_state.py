@@ -24,7 +24,7 @@ MAX_DWELL = 10.0
 
 def spindle(scene: Scene) -> Check:
     """The spindle turns as the cutter asks while it is in the work, and starts and stops clear of it."""
-    turning, wanted = scene.run.of_states(lambda state: state.turning), turns(scene)
+    turning, wanted = scene.run.of_states(lambda state: state.spindle_rotation), turns(scene)
     working = in_work(scene)
     if (step := first((working | _goes_in(scene)) & (turning != wanted))) is not None:
         names = {

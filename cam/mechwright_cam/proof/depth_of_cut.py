@@ -19,8 +19,8 @@ from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data, meets_middle, middle
 from mechwright_cam.proof.loads import Loads
-from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.point_segment_distance import Chords
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.simulation import loads_in
@@ -46,7 +46,7 @@ class _Cuts:
         self.steps = paths.cuts
         self.top: Array = np.maximum(paths.start[:, 2], paths.end[:, 2])
 
-    def asked(self, limit: float) -> Array:
+    def limit_height(self, limit: float) -> Array:
         """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
         return np.maximum(self.paths.low, self.top - limit)
 
@@ -66,7 +66,7 @@ class _Cuts:
     def repeated(self, limit: float) -> Ints:
         """The cuts that go at most this much deeper than one before them, all along it, mm."""
         steps, before = self._repeats
-        return steps[before <= self.asked(limit)[steps] + limit + NEAR]
+        return steps[before <= self.limit_height(limit)[steps] + limit + NEAR]
 
     @cached_property
     def pieces(self) -> tuple[Array, Array, Ints]:
@@ -188,7 +188,7 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
 
     With each the length of it, mm, that does not.
     """
-    paths, low = cuts.paths, cuts.asked(limit)
+    paths, low = cuts.paths, cuts.limit_height(limit)
     flat = np.hypot(*(paths.end - paths.start)[cuts.steps, :2].T) > NEAR
     arc = paths.run.kind[cuts.steps] == Kind.ARC
     mine = paths.run.tool[cuts.steps] == tool.number

@@ -20,7 +20,7 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.spotted import beside_its_spot
+from mechwright_cam.proof.spotted import drill_off_spot
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
@@ -55,7 +55,7 @@ def edges(scene: Scene) -> Check:
             if down[index] and stock.meets(step, radius=tool.radius - SHAVES):
                 message = f"{name} is fed down into material, and cuts sideways only; make its hole first"
                 return scene.bad(step, message)
-    return beside_its_spot(scene) or Check(True, "tools meet material with nothing but their cutting edges")
+    return drill_off_spot(scene) or Check(True, "tools meet material with nothing but their cutting edges")
 
 
 def _hollow(tool: Tool) -> str:

@@ -147,7 +147,7 @@ def rapids_in_stock(scene: Scene) -> Check:
         if scene.stock.meets(step, lift=-z - TOUCH, radius=float(scene.paths.radius[step])):
             message = f"a rapid ends {z:g} mm above the stock, less than {ABOVE:g} mm; feed the rest"
             return scene.bad(step, message, z, ABOVE, "mm")
-    beside = None if found else scene.stock.beside
+    beside = None if found else scene.stock.rapid_at_side
     if beside is not None:
         message = f"a rapid goes down less than {UNEVEN:g} mm beside the stock; feed there, or keep off more"
         return scene.bad(beside, message, 0.0, UNEVEN, "mm")

@@ -71,7 +71,7 @@ def _tab(scene: Scene, wall: Shape, line: shapely.LineString, frame: Shape) -> T
     tx, ty = (bx - ax) / long, (by - ay) / long
     if shapely.contains_xy(wall, middle.x + ty * FILM, middle.y - tx * FILM):
         tx, ty = -tx, -ty
-    cutters = [s.radius for s in scene.sweeps.through(job.thickness) if s.beside(line).size]
+    cutters = [s.radius for s in scene.sweeps.through(job.thickness) if s.paths_within_radius(line).size]
     channel = 2 * max(cutters, default=0.0)
     if channel <= 0:
         return None

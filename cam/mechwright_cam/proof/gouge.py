@@ -68,7 +68,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float, underside: float = -np.in
     if worst is None or worst.depth <= SLICE or fall(paths, piece).max() <= SLICE:
         return worst
     least = _sliced(paths, piece, edge, top, underside)
-    near = near_ones(keep, paths.lines(every), paths.radius_at(every, top))
+    near = lines_within_radius(keep, paths.lines(every), paths.radius_at(every, top))
     return worst_of([least, _sliced(paths, every.only(near), edge, top, underside, least)])
 
 
@@ -162,7 +162,7 @@ def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float, floor: flo
     if inner.size:
         some = radius[inner], deep[inner]
         gap[inner] = -_depth_inside(paths, pieces.only(inner), edge, *some, spacing)
-    beside = np.setdiff1d(near_ones(edge.shape, lines, radius), inside, assume_unique=True)
+    beside = np.setdiff1d(lines_within_radius(edge.shape, lines, radius), inside, assume_unique=True)
     if beside.size:
         gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
     shape = paths.cutters(pieces.step)
@@ -180,7 +180,7 @@ def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:
     return pieces.only(np.flatnonzero(~apart.any(axis=1)))
 
 
-def near_ones(keep: Shape, lines: Geometries, radius: Array) -> Ints:
+def lines_within_radius(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     """Indices of the lines that come within their radius (m,) of a shape."""
     near = np.zeros(radius.size, dtype=np.bool_)
     for one in np.unique(radius).tolist():

@@ -5,16 +5,16 @@ import shapely
 
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.proof.bands import bands, stock_shape
-from mechwright_cam.proof.closer import loose_for_sure
 from mechwright_cam.proof.finished import finished_bodies
-from mechwright_cam.proof.grips import advice
-from mechwright_cam.proof.loose import Loose, milled_away, passed
+from mechwright_cam.proof.loose_pieces import LoosePiece, milled_away, passed
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import grow
+from mechwright_cam.proof.refinement import refined_loose_pieces
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stops import clamp_set, way_through
 from mechwright_cam.proof.sweep import BRIDGE, Sweep, taken
+from mechwright_cam.proof.workholding import advice
 from mechwright_cam.setup.job import Job
 
 TOUCHES = 0.002
@@ -38,7 +38,7 @@ def holding(scene: Scene) -> Check:
                 "leaves none; give the stock a larger margin"
             )
             return Check(False, message)
-    for piece in loose_for_sure(scene):
+    for piece in refined_loose_pieces(scene):
         failed = _judged(scene, piece)
         if failed is not None:
             return failed
@@ -61,7 +61,7 @@ def holding(scene: Scene) -> Check:
     return Check(True, "the tabs join the part to the frame")
 
 
-def _judged(scene: Scene, piece: Loose) -> Check | None:
+def _judged(scene: Scene, piece: LoosePiece) -> Check | None:
     """The failed check of a loose piece; None if it is taken away, or lies where no cutter goes."""
     run, job, (x, y) = scene.run, scene.job, piece.place
     line = "from the start" if piece.step < 0 else f"at line {int(run.line[piece.step])}"
@@ -94,12 +94,12 @@ def remarks(scene: Scene) -> list[str]:
     return [
         f"a piece of {piece.area:.0f} mm² comes loose {piece.where}, at X{piece.place[0]:.1f} "
         f"Y{piece.place[1]:.1f}; {_goes(piece)}"
-        for piece in loose_for_sure(scene)
+        for piece in refined_loose_pieces(scene)
         if not piece.is_part and not milled_away(scene, piece) and passed(scene, piece) is None
     ]
 
 
-def _goes(piece: Loose) -> str:
+def _goes(piece: LoosePiece) -> str:
     """What becomes of a loose piece that no cutter passes."""
     if piece.taken is None:
         return "no cutter comes near it any more"
@@ -129,7 +129,7 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     for sweep in cut:
         for way in ways if sweep.stays_inside(plate) else [plate.exterior, *ways]:
             way = prepared(way)
-            if shapely.dwithin(way, sweep.beside(way), sweep.radius).any():
+            if shapely.dwithin(way, sweep.paths_within_radius(way), sweep.radius).any():
                 return False
     return True
 

@@ -14,14 +14,14 @@ from mechwright.errors import ProgramError
 from mechwright.worker_pool.budget import threaded_map
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind
-from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.holding import remarks
 from mechwright_cam.proof.report import Check, Proof, Spot
 from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.several import together as operations_at_all
+from mechwright_cam.proof.several import combined_times
 from mechwright_cam.proof.timing import operations, step_times
+from mechwright_cam.proof.unreachable_stock import SPOTS
 from mechwright_cam.setup.job import Job
 
 SWITCHED = re.compile(r"^[^\S\n]*(?:\d+[^\S\n]*)?/", re.MULTILINE)
@@ -98,7 +98,7 @@ def _at_all(scene: Scene, rules: Sequence[Rule], progress: Progress = unheard) -
         # Each of them counts the changes of tools, which are made once.
         time_estimate_s=sum(proof.time_estimate_s for proof in proofs) - changes * len(more),
         cutting_length_mm=sum(proof.cutting_length_mm for proof in proofs),
-        operations=operations_at_all(times),
+        operations=combined_times(times),
         notes=tuple(dict.fromkeys(note for proof in proofs for note in proof.notes)),
     )
 

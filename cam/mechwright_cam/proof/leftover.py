@@ -22,12 +22,12 @@ import shapely
 from mechwright.contracts.part import Bore
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
-from mechwright_cam.proof.beyond import Foot, beyond_reach
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept, without_specks
 from mechwright_cam.proof.sweep import Sweep, Sweeps
+from mechwright_cam.proof.target_shape import COARSE, TargetShape, drilled_floors, recesses
+from mechwright_cam.proof.unreachable_stock import Foot, unreachable_stock
 from mechwright_cam.proof.wall import on_walls
-from mechwright_cam.proof.wanted import COARSE, Wanted, drilled_floors, recesses
 from mechwright_cam.setup.job import Job
 
 
@@ -48,29 +48,29 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     worst, at, bore = uncut_bores(sweeps, job)
     if not sweeps.paths.mills:
         return Remains(worst, at, (), bore)
-    wanted = Wanted(job, sweeps.paths.mills)
+    target = TargetShape(job, sweeps.paths.mills)
     lowest: dict[int, Foot] = {}
     left_out: dict[int, Shape] = {}
-    for place, band in reversed(list(enumerate(wanted.bands))):
+    for place, band in reversed(list(enumerate(target.bands))):
         level, groups = sweeps.foot(band.bottom, job.thickness)
         below = lowest.get(band.section)
-        reached = below.rest if below and wanted.alike else wanted.rest(place, level)
+        reached = below.rest if below and target.alike else target.rest(place, level)
         lowest.setdefault(band.section, Foot(band, groups, reached))
-        aside = wanted.beside_tabs(place)
+        aside = target.tab_lift_area(place)
         if aside is not None:
-            reached = wanted.rest(place, level, held=True)
+            reached = target.rest(place, level, held=True)
         # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
-        within = left_out.get(band.section) if wanted.alike else None
+        within = left_out.get(band.section) if target.alike else None
         left_out[band.section] = shapely.Polygon() if aside is None else aside
         found = [_on_floors(reached, band, job, groups)]
         if within is None or not within.is_empty:
-            within = _both(within, wanted.drawn)
-            thick, spot = on_walls(reached, within, aside, job, groups, wanted.narrowest(band))
-            found.insert(0, (min(thick, 2 * wanted.smallest), spot))
+            within = _both(within, target.drawn)
+            thick, spot = on_walls(reached, within, aside, job, groups, target.narrowest(band))
+            found.insert(0, (min(thick, 2 * target.smallest), spot))
         for depth, spot in found:
             if spot is not None and depth > worst:
                 worst, at, bore = depth, (*spot, band.bottom), None
-    beyond = [spot for foot in lowest.values() for spot in beyond_reach(foot, wanted, job)]
+    beyond = [spot for foot in lowest.values() for spot in unreachable_stock(foot, target, job)]
     return Remains(worst, at, tuple(sorted(beyond, key=lambda spot: -spot[3])), bore)
 
 

@@ -26,7 +26,7 @@ from mechwright.contracts.materials import Material, material
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.timing import stretches
+from mechwright_cam.proof.timing import operation_steps
 from mechwright_cam.shop.cutter import BLUNT, POINTED, approach
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.power import WATTS, available, drilling_force, milling_force
@@ -277,7 +277,7 @@ def works_of(loads: Loads, run: Run, machine: Machine) -> tuple[Work, ...]:
     """The greatest loads of each operation."""
     share = loads.power / np.maximum(available(machine, loads.rpm), NEAR)
     works = []
-    for name, first, last in stretches(run):
+    for name, first, last in operation_steps(run):
         for tool in dict.fromkeys(loads.tool[(loads.step >= first) & (loads.step < last)].tolist()):
             mine = np.flatnonzero((loads.step >= first) & (loads.step < last) & (loads.tool == tool))
             worst = mine[np.argmax(share[mine])]

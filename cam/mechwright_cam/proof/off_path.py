@@ -20,7 +20,7 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, kinds, lots, near_ones
+from mechwright_cam.proof.gouge import Gouge, kinds, lines_within_radius, lots
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
@@ -171,7 +171,7 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float, *, any_one: bool 
         )
         for now in lots(paths, one):
             lines = paths.lines(one.only(now))
-            close = near_ones(keep, lines, rough[now])
+            close = lines_within_radius(keep, lines, rough[now])
             within[now[close]] = shapely.dwithin(keep, lines[close], wide[now[close]])
             if any_one and within.any():
                 break

@@ -13,7 +13,7 @@ from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.plane.buffers import buffered
-from mechwright_cam.proof.near import Chords
+from mechwright_cam.proof.point_segment_distance import Chords
 from mechwright_cam.setup.views import ROUND, Shape, quarter
 
 SNAP = 1e-6

@@ -70,7 +70,7 @@ class Proof:
     unreachable_max_mm: float
     """Stock that no cutter of the program reaches: area seen from above, and greatest depth."""
     unreachable: tuple[Spot, ...]
-    """Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`."""
+    """Where that is, deepest first; at most :data:`mechwright_cam.proof.unreachable_stock.SPOTS`."""
     rapids_in_stock: int
     """Number of rapid moves that meet material."""
     time_estimate_s: float

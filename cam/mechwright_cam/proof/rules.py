@@ -65,7 +65,7 @@ _HOMES = (
     ("motion_rules", "travel flutes underside beside"),
     ("neighbours", "neighbours"),
     ("entry_rules", "rapid_height rapids_in_stock entries"),
-    ("held", "holder clamp"),
+    ("tool_collisions", "holder clamp"),
     ("part_rules", "gouge"),
     ("tab_rules", "tabs"),
     ("part_rules", "depth leftover"),

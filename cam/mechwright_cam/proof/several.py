@@ -77,7 +77,7 @@ def _states(run: Run) -> list[object]:
     return [*zip(first.tolist(), (plain[run.state[step]] for step in first), strict=True)]
 
 
-def together(times: Sequence[Sequence[OperationTime]]) -> tuple[OperationTime, ...]:
+def combined_times(times: Sequence[Sequence[OperationTime]]) -> tuple[OperationTime, ...]:
     """Times by operation over all plates: summed where each has the same operations."""
     first = times[0]
     names = [[(one.name, one.tool) for one in own] for own in times]

@@ -15,7 +15,7 @@ ASIDE = 0.02
 """So far beside a spot a drill may go down, mm: its own runout is as much."""
 
 
-def beside_its_spot(scene: Scene) -> Check | None:
+def drill_off_spot(scene: Scene) -> Check | None:
     """The first drill that goes down into material off the middle of a spot or a pilot of its hole."""
     kinds = {number: tool.kind for number, tool in scene.tools.items()}
     first, place = _plunges(scene, {ToolKind.SPOT_DRILL, ToolKind.DRILL}, kinds)

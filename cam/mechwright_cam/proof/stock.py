@@ -15,9 +15,9 @@ from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints, SpindleChange
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
-from mechwright_cam.proof.cleared import left
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow, overlay
+from mechwright_cam.proof.swept_area import left
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import quarter
 from mechwright_cam.shop.cutter import cutter
@@ -156,7 +156,7 @@ class Stock:
         return found
 
     @cached_property
-    def beside(self) -> int | None:
+    def rapid_at_side(self) -> int | None:
         """The first rapid that goes so near to a side of the plate that it may meet it; None if none does."""
         paths, rapid = self.paths, self.paths.rapids
         low = rapid[(paths.low[rapid] < -NEAR) & (paths.end[rapid, 2] <= paths.start[rapid, 2])]

@@ -13,9 +13,9 @@ from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.gouge import distinct
-from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, swept
+from mechwright_cam.proof.point_segment_distance import Chords
 
 ROUNDING = 1e-4
 """A path that should reach the underside may be short by the last decimal of the program, mm."""
@@ -68,7 +68,7 @@ class Sweep:
         reach = self.radius + NEAR
         return bool(((least > (x0 + reach, y0 + reach)) & (most < (x1 - reach, y1 - reach))).all())
 
-    def beside(self, shape: shapely.Geometry) -> Geometries:
+    def paths_within_radius(self, shape: shapely.Geometry) -> Geometries:
         """Those of the paths that may come within the radius of a shape."""
         least, most = self._extents
         x0, y0, x1, y1 = shape.bounds
@@ -82,7 +82,7 @@ def taken(cut: list[Sweep], region: Shape) -> list[Shape]:
     region = prepared(region)
     shapes: list[Shape] = []
     for sweep in cut:
-        chains = sweep.beside(region)
+        chains = sweep.paths_within_radius(region)
         near = chains[shapely.dwithin(region, chains, sweep.radius)]
         shapes.append(swept(near, sweep.radius, BRIDGE))
     return shapes

@@ -7,7 +7,7 @@ dwells and tool changes come to that. Stops for the operator are not counted.
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright_cam.controls.lookahead import USUAL, Motion
+from mechwright_cam.controls.lookahead import DEFAULT_LOOKAHEAD, Motion
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof.report import OperationTime
@@ -26,12 +26,12 @@ def step_times(run: Run, machine: Machine, motion: Motion | None = None) -> Arra
     >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 2)
     2.05
     """
-    seconds = (motion or USUAL.motion(run, machine)).seconds + run.seconds
+    seconds = (motion or DEFAULT_LOOKAHEAD.motion(run, machine)).seconds + run.seconds
     seconds[run.kind == Kind.TOOL] += machine.tool_change
     return seconds
 
 
-def stretches(run: Run) -> list[tuple[str, int, int]]:
+def operation_steps(run: Run) -> list[tuple[str, int, int]]:
     """Name, first step and step after the last of each operation.
 
     They go from one operation comment to the next, or where there are none, from tool to tool.
@@ -50,10 +50,10 @@ def stretches(run: Run) -> list[tuple[str, int, int]]:
 
 
 def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
-    """Times by operation, see :func:`stretches`."""
+    """Times by operation, see :func:`operation_steps`."""
     path = np.where(run.cutting, np.nan_to_num(run.length, posinf=0.0), 0.0)
     out = []
-    for name, first, last in stretches(run):
+    for name, first, last in operation_steps(run):
         # After the last cut the next file may already have named its tool.
         cuts = np.flatnonzero(run.cutting[first:last])
         tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])

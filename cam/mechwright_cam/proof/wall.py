@@ -134,7 +134,7 @@ def _thickness(points: Array, outward: Array, groups: list[Sweep]) -> Array:
         if open_.size == 0:
             break
         beside = points[open_] + group.radius * outward[open_]
-        distance = group.chords.distance_beside(points[open_], beside, HINTED) - group.radius
+        distance = group.chords.hinted_distance(points[open_], beside, HINTED) - group.radius
         thick[open_] = np.minimum(thick[open_], distance)
     for group in groups:
         open_ = np.flatnonzero(thick > TOLERANCES.leftover)

@@ -22,13 +22,13 @@ from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.proof.bands import Band, asked, bands
-from mechwright_cam.proof.beyond import VISIBLE
+from mechwright_cam.proof.bands import Band, bands, wall_region
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
+from mechwright_cam.proof.target_shape import TAB_SLACK, play
+from mechwright_cam.proof.unreachable_stock import VISIBLE
 from mechwright_cam.proof.wall import HINTED, Wall
-from mechwright_cam.proof.wanted import TAB_SLACK, play
 from mechwright_cam.setup.job import Job
 
 MOST_SAMPLES = 6000
@@ -90,7 +90,7 @@ def wall_deviation(sweeps: Sweeps, job: Job) -> Walls:
     smallest = min((tool.radius for tool in mills), default=0.0)
     widest = max((tool.diameter for tool in mills), default=0.0)
     nose = max((tool.nose for tool in mills), default=0.0)
-    drawn = asked(job)
+    drawn = wall_region(job)
     seen: list[Shape] = []
     found: list[tuple[Array, ...]] = []
     for band in reversed(bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs))):
@@ -159,7 +159,7 @@ def _off(points: Array, outward: Array, groups: list[Sweep]) -> Array:
     for group in groups:
         # The path of every cutter that came to the wall counts: one of them may have cut too deep.
         beside = points + group.radius * outward
-        off = np.minimum(off, group.chords.distance_beside(points, beside, HINTED) - group.radius)
+        off = np.minimum(off, group.chords.hinted_distance(points, beside, HINTED) - group.radius)
     open_ = np.flatnonzero(off > TOLERANCES.leftover)
     for group in groups:
         if open_.size:

@@ -8,7 +8,7 @@ LENGTHS = "-lengths"
 """What the name of a program that measures tools ends in."""
 
 
-def wanted(job: Job) -> bool:
+def measures_tools(job: Job) -> bool:
     """Whether a program is to measure the tools of a job: those of a second side have been measured."""
     return job.settings.setter.x is not None and job.side == "top"
 

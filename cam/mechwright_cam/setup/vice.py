@@ -151,7 +151,7 @@ def _level(shape: shapely.Geometry, axis: Literal["x", "y"]) -> shapely.Geometry
     return shapely.union_all([shapely.LineString([(a, 0.0), (b, 0.0)]) for a, b in spans if b > a])
 
 
-def beside(plate: shapely.Geometry, target: shapely.Geometry) -> shapely.Geometry:
+def surrounding_stock(plate: shapely.Geometry, target: shapely.Geometry) -> shapely.Geometry:
     """What of a plate lies around the parts; not the film that chords leave where both have one edge."""
     return opened(shapely.difference(plate, filled(target)), FILM)
 
@@ -159,7 +159,7 @@ def beside(plate: shapely.Geometry, target: shapely.Geometry) -> shapely.Geometr
 def _barred(job: "Job", height: float, widest: float) -> list[shapely.Geometry]:
     """What cutters may cross while they are deeper than the jaws' tops."""
     plate = shapely.box(*job.stock)
-    away = beside(plate, job.target)
+    away = surrounding_stock(plate, job.target)
     # Roughing stays within a diameter of what it takes. Finishing runs on past the stock and leaves the wall
     # on a quarter circle: one radius along the wall, and one is the cutter's own.
     reach = widest + math.sqrt(RUN_OUT * (widest + RUN_OUT)) + CLAMP_GAP

@@ -7,7 +7,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from mechwright.errors import DesignError
-from mechwright_cam.shop.formats.contract import LONGEST, Format, Said, slug
+from mechwright_cam.shop.formats.contract import LONGEST, Format, ToolRecord, slug
 from mechwright_cam.shop.tool import Tool
 
 
@@ -48,7 +48,7 @@ def read_crib(path: Path, form: Format) -> Crib:
     return Crib(tuple(tools.values()), (*left, *told))
 
 
-def _made(said: Said, form: Format, known: dict[str, Tool]) -> Tool | None:
+def _made(said: ToolRecord, form: Format, known: dict[str, Tool]) -> Tool | None:
     """The tool; None, with the fault noted, where its sizes are none."""
     try:
         return Tool.model_validate({**said.keys, "name": _name(said, known)})
@@ -68,7 +68,7 @@ def _fault(place: tuple[int | str, ...], message: str, form: Format) -> str:
     return f"{key} ({theirs}) {said}" if theirs else " ".join(filter(None, (key, said)))
 
 
-def _name(said: Said, known: dict[str, Tool]) -> str:
+def _name(said: ToolRecord, known: dict[str, Tool]) -> str:
     """A name of ours from what the file calls it, with the T number where it is taken."""
     plain = unicodedata.normalize("NFKD", said.label).encode("ascii", "ignore").decode()
     number = f"t{said.keys['number']}"

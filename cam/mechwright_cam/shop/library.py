@@ -127,7 +127,7 @@ def load_library(path: Path | None = None, at_hand: Library | None = None) -> Li
 def library_files(path: Path) -> tuple[Path, ...]:
     """The files that a library consists of, itself first; raises as :func:`load_library` does."""
     form = _form_of(path)
-    return (path, *(form.beside(path) if form is not None else ()))
+    return (path, *(form.companion_files(path) if form is not None else ()))
 
 
 def _form_of(path: Path) -> Format | None:

@@ -97,10 +97,10 @@ class CamTable(Table[JobSettings]):
         return {**whole, "$defs": defs}
 
     def parts(self, value: JobSettings, parts: Sequence[Part], path: Path) -> Sequence[Part]:
-        """The parts with their holes, broken edges and marks, see :mod:`mechwright_cam.shop.asked`."""
-        from mechwright_cam.shop.asked import asked
+        """The parts with holes, broken edges, marks: see :mod:`mechwright_cam.shop.requested_features`."""
+        from mechwright_cam.shop.requested_features import with_requested_features
 
-        return asked(value.cam, value.tables, parts, path)
+        return with_requested_features(value.cam, value.tables, parts, path)
 
     def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
         """As tables of single parts lie over it."""

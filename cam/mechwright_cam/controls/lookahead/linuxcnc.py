@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array, first_of_each
 from mechwright_cam.controls.lookahead.blend_arc import blend_arcs
 from mechwright_cam.controls.lookahead.contract import Lookahead, Motion
-from mechwright_cam.controls.lookahead.course import course
 from mechwright_cam.controls.lookahead.overlap import Overlaps, half_sine
+from mechwright_cam.controls.lookahead.segment_geometry import segment_geometry
 from mechwright_cam.controls.lookahead.segments import NORMAL, Segments, segments
 from mechwright_cam.controls.lookahead.speeds import reached, seconds
 from mechwright_cam.controls.reading.run import Ints, Run
@@ -93,7 +93,7 @@ class Planner(Lookahead):
 
     def motions(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> list[Motion]:
         """The same with several accelerations, of which each is a machine of its own."""
-        way = course(run, machine)
+        way = segment_geometry(run, machine)
         took = np.zeros((len(accelerations), len(run)))
         off = np.tile(_merged(run), (len(accelerations), 1))
         if way.step.size:

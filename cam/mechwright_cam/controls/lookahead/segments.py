@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright_cam.controls.lookahead.course import Course
+from mechwright_cam.controls.lookahead.segment_geometry import SegmentGeometry
 from mechwright_cam.controls.lookahead.speeds import NO_LENGTH
 from mechwright_cam.shop.machine import Machine
 
@@ -16,7 +16,7 @@ NORMAL = np.sqrt(0.75)
 
 
 @dataclass(frozen=True)
-class Segments(Course):
+class Segments(SegmentGeometry):
     """Segments on machines.
 
     Parameters
@@ -40,7 +40,9 @@ class Segments(Course):
         return np.minimum(self.asked, self.most)
 
 
-def segments(way: Course, machine: Machine, accelerations: Sequence[float], cycle: float) -> Segments:
+def segments(
+    way: SegmentGeometry, machine: Machine, accelerations: Sequence[float], cycle: float
+) -> Segments:
     """The segments on a machine with each of some accelerations, m/s²; servo period ``cycle``, s."""
     highest = np.repeat(1000.0 * np.array(accelerations), way.length.size)
     way = way.repeated(len(accelerations))
@@ -57,7 +59,7 @@ def segments(way: Course, machine: Machine, accelerations: Sequence[float], cycl
     most = np.minimum(np.minimum(way.length / np.maximum(time, 1e-12), axes.max()), way.length / cycle)
     feed = np.minimum(way.feed, machine.max_feed / 60)
     return Segments(
-        **{one.name: getattr(way, one.name) for one in fields(Course)},
+        **{one.name: getattr(way, one.name) for one in fields(SegmentGeometry)},
         asked=np.where(way.rapid, most, np.maximum(feed, NO_LENGTH)),
         most=most,
         acceleration=way.length / np.maximum(ramp, 1e-12),

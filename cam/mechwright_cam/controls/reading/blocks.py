@@ -222,7 +222,7 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     elif letter == "M":
         if "." in number and letter in dialect.whole_words:
             raise fail(block.line, _pointed(letter, number, dialect))
-        usual = dialect.usual_m(round(value))
+        usual = dialect.standard_m(round(value))
         if usual is None:
             raise fail(block.line, no_code(f"M{number}", dialect))
         _add_code(block, "M", block.m, usual, value + usual - round(value), M_GROUP)

@@ -117,11 +117,11 @@ class Machine(Moving):
         self._tool(block, words)
         if block.m:
             self._spindle_and_coolant(block)
-        if self.state is not before and self.state.turning != before.turning:
+        if self.state is not before and self.state.spindle_rotation != before.spindle_rotation:
             place = self.x, self.y, self.z
             self.spindle_changes.append(SpindleChange(block.line, before.tool, place, self.steps))
-            if self.state.turning and not self.dialect.starts_first and self._feeds(block):
-                word = f"M{self.dialect.m(3 if self.state.turning > 0 else 4)}"
+            if self.state.spindle_rotation and not self.dialect.starts_first and self._feeds(block):
+                word = f"M{self.dialect.m(3 if self.state.spindle_rotation > 0 else 4)}"
                 raise fail(
                     block.line,
                     f"{word} beside a feed: whether {self.dialect.name} starts the spindle before it, the "

@@ -131,8 +131,9 @@ class Modal(Compensation):
         """Raise ProgramError for codes that the control does not read, or not together."""
 
     def is_stated(self, block: Block) -> bool:
-        """Whether words of state (:mod:`mechwright_cam.controls.reading.beside`) say what is so anyway.
+        """Whether words of state say what is so anyway.
 
+        They are those of :mod:`mechwright_cam.controls.reading.comments_and_states`.
         G90 and G91 may say either, once the program has said one of them.
         """
         try:

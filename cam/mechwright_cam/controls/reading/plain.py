@@ -8,7 +8,8 @@ Glossary
 --------
 plain line
     Words of N, G0 to G3, X, Y, Z, I, J, R, F and S, each at most once and N before all others; or an empty
-    line. What may stand beside them is taken out before (:mod:`mechwright_cam.controls.reading.beside`).
+    line. Comments and words of state are taken out before, see
+    :mod:`mechwright_cam.controls.reading.comments_and_states`.
 motion line
     A plain line that needs nothing but the motion in force to be run: a straight move with an axis and no
     centre, or an arc with a centre or a radius.
@@ -24,8 +25,8 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.beside import Beside
 from mechwright_cam.controls.reading.blocks import LARGEST_NUMBER, Block
+from mechwright_cam.controls.reading.comments_and_states import CommentsAndStates
 from mechwright_cam.controls.reading.run import Ints
 
 Bools = NDArray[np.bool_]
@@ -134,20 +135,20 @@ class Rows:
         return int(self.plain.size)
 
     @cached_property
-    def said(self) -> Bools:
+    def has_word(self) -> Bools:
         """(10, n) whether each line has the word."""
         return ~np.isnan(self.words)
 
     @cached_property
     def _ends(self) -> tuple[Ints, Ints]:
         """(n,) the next line that is no motion line, where the motion is straight and where it is an arc."""
-        said = self.said
-        axis, centre = said[X : Z + 1].any(axis=0), said[I : J + 1].any(axis=0)
-        empty = ~said[G : F + 1].any(axis=0)
-        straight, bent = empty | (axis & ~centre & ~said[R]), empty | (centre ^ said[R])
+        has = self.has_word
+        axis, centre = has[X : Z + 1].any(axis=0), has[I : J + 1].any(axis=0)
+        empty = ~has[G : F + 1].any(axis=0)
+        straight, bent = empty | (axis & ~centre & ~has[R]), empty | (centre ^ has[R])
         # The motion is known from the last G of the same stretch of plain lines.
         number = np.arange(len(self))
-        last = np.maximum.accumulate(np.where(said[G] | ~self.plain, number, -1))
+        last = np.maximum.accumulate(np.where(has[G] | ~self.plain, number, -1))
         g = np.where(last >= 0, self.words[G, last], np.nan)  # NaN after a line that is not plain
         goes = np.where(g >= 2, bent, straight)
         first, second = (
@@ -214,8 +215,8 @@ class PlainLines(Rows):
         optional = [index for index, line in enumerate(lines) if line[:1] == "/"] if "/" in text else []
         for index in optional:  # what is left is a line as any other, or is skipped as an empty one is
             lines[index] = lines[index][1:] if len(lines[index]) <= most else _TOO_LONG
-        beside = Beside([line if len(line) <= most else _TOO_LONG for line in lines], dialect)
-        data = b"\n" + beside.text.encode("utf-8", "surrogatepass") + b"\n"
+        extras = CommentsAndStates([line if len(line) <= most else _TOO_LONG for line in lines], dialect)
+        data = b"\n" + extras.text.encode("utf-8", "surrogatepass") + b"\n"
         kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
         length = np.diff(ends)
@@ -228,15 +229,15 @@ class PlainLines(Rows):
         self.words = np.full((len(LETTERS), length.size), np.nan)
         self.number = np.arange(1, length.size + 1)
         self._fill(clean, dialect, inches=_INCHES.search(text) is not None)
-        self.kind, self.states = np.where(self.plain, beside.kind, 0), beside.states
+        self.kind, self.states = np.where(self.plain, extras.kind, 0), extras.states
         skipped = set(optional) if block_delete else ()
         self.comments = [
-            told for told in beside.comments.items() if self.plain[told[0]] and told[0] not in skipped
+            told for told in extras.comments.items() if self.plain[told[0]] and told[0] not in skipped
         ]
         if skipped:
             self.words[:, optional] = np.nan
             self.kind[optional] = 0
-        self._remarked = beside.comments
+        self._remarked = extras.comments
         self._taken, self._some = -1, list[list[float]]()
 
     def block(self, index: int) -> Block | None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading import stretch
+from mechwright_cam.controls.reading import motion_lines
 from mechwright_cam.controls.reading.blocks import Block, fail, read_block
 from mechwright_cam.controls.reading.calls import Calls, uses_calls
 from mechwright_cam.controls.reading.characters import Faults
@@ -71,7 +71,7 @@ def interpret(
         faults.check(index)
         # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
         if plain.plain[index]:
-            after = stretch.run_stretch(machine, plain, index)
+            after = motion_lines.run_motion_lines(machine, plain, index)
             if after > index:
                 source.at = after
                 machine.check_steps(after)
@@ -123,9 +123,9 @@ def _run_rows(
     block_delete: bool,
 ) -> None:
     """Run rows of numbers: those that are motions together, others one by one."""
-    worked, at = WorkedOut(rows, text) if len(rows) >= stretch.FEWEST_LINES else None, 0
+    worked, at = WorkedOut(rows, text) if len(rows) >= motion_lines.FEWEST_LINES else None, 0
     while at < len(rows):
-        after = stretch.run_stretch(machine, worked, at) if worked and worked.plain[at] else at
+        after = motion_lines.run_motion_lines(machine, worked, at) if worked and worked.plain[at] else at
         if after == at:
             row, after = rows[at], at + 1
             block = blocks.read(row.index + 1, lines[row.index] if row.columns is None else row.text)

@@ -74,7 +74,7 @@ class State:
     """What of ``off_path`` is for rounding corners, mm; 0 in an exact mode."""
 
     @property
-    def turning(self) -> int:
+    def spindle_rotation(self) -> int:
         """1 or -1 while the spindle turns, as ``spindle`` has it; 0 also at a speed of 0."""
         return self.spindle if self.rpm > 0 else 0
 

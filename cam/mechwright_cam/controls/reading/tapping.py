@@ -29,7 +29,7 @@ class Tapping(Modal):
         pitch = self._take(block, "K", "G33.1 needs the pitch, K") * self.scale
         if not pitch > 0:
             raise fail(line, f"G33.1 needs a pitch K above 0, not {pitch:g}")
-        if not self.state.turning:
+        if not self.state.spindle_rotation:
             raise fail(line, "G33.1 while the spindle stands; write S and M3 before")
         top = self.z
         if not math.isfinite(self.x + self.y + top):

@@ -92,9 +92,9 @@ class Sections(Drilling):
     def safe_start(self, out: Writer) -> None:
         """Set every mode that the program relies on; an operation may ask for other corners."""
         out.line(*self.safe_modes)
-        self.take_usual_corners(out)
+        self.take_default_corners(out)
 
-    def take_usual_corners(self, out: Writer) -> None:
+    def take_default_corners(self, out: Writer) -> None:
         """Choose how corners are taken unless an operation asks for something else."""
         out.corners = self.blending(out.program.posting.exact_stop)
         self.corner_lines(out, out.corners)

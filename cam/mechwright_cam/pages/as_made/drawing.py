@@ -14,7 +14,7 @@ DIGITS = 5
 """Decimals of coordinates, mm."""
 
 
-def made_drawing(part: MadePart) -> bytes:
+def as_made_drawing(part: MadePart) -> bytes:
     """A DXF with the layers ``MADE``, ``MADE-MOST``, ``MADE-LEAST``, ``TARGET``, and marks of witness lines.
 
     ``MADE-MOST`` has the most material that the corridor allows, ``MADE-LEAST`` the least; ``TARGET`` is

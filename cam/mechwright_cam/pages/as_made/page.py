@@ -21,7 +21,7 @@ class AsMadeFiles(Page):
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """The page, the data, and a drawing of every copy on a plate."""
         from mechwright_cam.pages.file_names import machined
-        from mechwright_cam.proof.made_parts import placed_on
+        from mechwright_cam.proof.as_made_parts import placed_on
 
         machining = machined(build)
         if machining is None:
@@ -32,17 +32,17 @@ class AsMadeFiles(Page):
 
     def files(self, build: Build) -> dict[str, str | bytes]:
         """Page, data and drawings; none where no program is made."""
-        from mechwright_cam.as_made import MadeParts
-        from mechwright_cam.pages.as_made.drawing import made_drawing
+        from mechwright_cam.as_made import AsMadeParts
+        from mechwright_cam.pages.as_made.drawing import as_made_drawing
 
-        made = build.made(MadeParts)
+        made = build.made(AsMadeParts)
         parts = [part for part in made.parts if part.off.size]
         if not parts:
             return {}
-        found: dict[str, str | bytes] = {_drawing(part.label): made_drawing(part) for part in parts}
+        found: dict[str, str | bytes] = {_drawing(part.label): as_made_drawing(part) for part in parts}
         name = build.design.name
-        found[JSON] = json.dumps(as_dict(name, parts, made.said), indent=2, ensure_ascii=False) + "\n"
-        found[HTML] = html(name, build.path.name, parts, made.said)
+        found[JSON] = json.dumps(as_dict(name, parts, made.analysis), indent=2, ensure_ascii=False) + "\n"
+        found[HTML] = html(name, build.path.name, parts, made.analysis)
         return found
 
 
@@ -88,7 +88,7 @@ def html(name: str, design: str, parts: list[MadePart], said: AsMade) -> str:
     """The page."""
     from markupsafe import Markup
 
-    from mechwright_cam.pages.as_made.picture import made_picture
+    from mechwright_cam.pages.as_made.picture import as_made_picture
     from mechwright_cam.pages.as_made.plot import plot
     from mechwright_cam.pages.setup_sheet.sheet import environment
 
@@ -104,7 +104,7 @@ def html(name: str, design: str, parts: list[MadePart], said: AsMade) -> str:
             # Our own markup; all text in it is escaped where it is made.
             curves=[(curve.title, Markup(plot(curve))) for curve in said.curves],  # noqa: S704
             parts=[
-                (part, _part(part), _drawing(part.label), Markup(made_picture(part)))  # noqa: S704
+                (part, _part(part), _drawing(part.label), Markup(as_made_picture(part)))  # noqa: S704
                 for part in parts
             ],
         )

@@ -26,7 +26,7 @@ def exaggeration(part: MadePart, size: float) -> float:
     return power * max(step for step in (1, 2, 5) if step * power <= wanted * (1 + 1e-9))
 
 
-def made_picture(part: MadePart) -> str:
+def as_made_picture(part: MadePart) -> str:
     """The part as an ``<svg>`` element, with a bar that tells the scale of the deviations."""
     rings = [ring for section in (*part.sections, *part.underside) for ring in section.rings]
     every = np.concatenate([ring.points for ring in rings])

@@ -9,7 +9,7 @@ BEDS = {
 }
 
 
-def held_from_below(job: Job, to: Lengths) -> list[str]:
+def bed_and_clamp_lines(job: Job, to: Lengths) -> list[str]:
     """A line for the bed, and one for each clamp on the plate."""
     bed = job.settings.hold.bed
     lines = [] if bed is None else [BEDS[bed]]

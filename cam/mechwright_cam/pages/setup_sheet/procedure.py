@@ -13,15 +13,15 @@ from dataclasses import dataclass
 from mechwright.contracts.part import Bore
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
-from mechwright_cam.pages.setup_sheet.beds import held_from_below
+from mechwright_cam.pages.setup_sheet.beds import bed_and_clamp_lines
 from mechwright_cam.pages.setup_sheet.compensation import lines
 from mechwright_cam.pages.setup_sheet.probing import about_measuring, about_probing
 from mechwright_cam.pages.setup_sheet.several import (
     about_others,
     active_words,
-    how_many,
     in_order,
     quantity,
+    quantity_text,
 )
 from mechwright_cam.pages.setup_sheet.tapping import about_taps
 from mechwright_cam.setup.job import Job
@@ -142,7 +142,7 @@ def _stock(job: Job, deepest: float, to: Lengths) -> Step:
             f"Z {to.signed(job.settings.clearance, 1)} where rapids cross."
         )
     elif job.settings.hold.method == "none":
-        lines += held_from_below(job, to)
+        lines += bed_and_clamp_lines(job, to)
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
@@ -365,7 +365,7 @@ def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, 
         else:
             stops = "on the same dowels" if job.side == "underside" else "against the same stops"
             same = f"A further plate {stops} keeps {offset} X and Y"
-        lines.append(f"Make {how_many(job)}. {same}; {again}")
+        lines.append(f"Make {quantity_text(job)}. {same}; {again}")
     fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
     if fits:
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")

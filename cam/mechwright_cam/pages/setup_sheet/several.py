@@ -18,7 +18,7 @@ def runs(job: Job) -> int:
     return math.ceil(quantity(job) / len(job.settings.offsets))
 
 
-def how_many(job: Job) -> str:
+def quantity_text(job: Job) -> str:
     """How many are needed, and how many a run makes where that is more than one."""
     each = len(job.settings.offsets)
     return f"{quantity(job)}" if each == 1 else f"{quantity(job)} ({each} in a run)"

@@ -17,7 +17,7 @@ from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.inspection import inspection
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, steps
-from mechwright_cam.pages.setup_sheet.several import how_many
+from mechwright_cam.pages.setup_sheet.several import quantity_text
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
@@ -101,7 +101,7 @@ def setup_html(
         "edges": datum_edges(job, to),
         "inspection": inspection(job, to),
         **words(to),
-        "quantity": how_many(job),
+        "quantity": quantity_text(job),
         "control": control.name,
         "by_hand": not control.offsets.lengths,
         "length_place": control.length_place,

@@ -13,12 +13,12 @@ LONGEST = 40
 """Letters of a tool's name."""
 
 
-class LeftOutError(Exception):
+class OmittedToolError(Exception):
     """Why a tool cannot be taken over; it never leaves the room of formats."""
 
 
 @dataclass
-class Said:
+class ToolRecord:
     """What a file says of one tool."""
 
     label: str
@@ -55,7 +55,7 @@ class Format(ABC):
     """Our key to what the format calls it, where it has it."""
 
     @abstractmethod
-    def read(self, path: Path) -> list[Said]:
+    def read(self, path: Path) -> list[ToolRecord]:
         """The tools of a file; raises OutputError or DesignError where it is none of this format."""
 
     @abstractmethod
@@ -65,7 +65,7 @@ class Format(ABC):
         What the format has no place for is left out. Raises DesignError where there is no such file.
         """
 
-    def beside(self, path: Path) -> tuple[Path, ...]:  # noqa: ARG002 - for formats of several files
+    def companion_files(self, path: Path) -> tuple[Path, ...]:  # noqa: ARG002 - for formats of several files
         """Further files that a library consists of."""
         return ()
 
@@ -87,9 +87,9 @@ def number(value: object) -> float | None:
 
 
 def tool_number(value: object) -> int:
-    """A T number; raises LeftOutError."""
+    """A T number; raises OmittedToolError."""
     found = number(value)
     if found is None or found != int(found) or not 1 <= found <= 9999:
         told = "has no T number" if value is None else f"T number {value!r} is not one of 1 to 9999"
-        raise LeftOutError(f"{told}; give it that of the machine")
+        raise OmittedToolError(f"{told}; give it that of the machine")
     return int(found)

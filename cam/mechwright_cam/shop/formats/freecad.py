@@ -13,7 +13,7 @@ from typing import Any
 
 from mechwright.designs.files import read_text
 from mechwright.errors import DesignError, MechwrightError
-from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
+from mechwright_cam.shop.formats.contract import Format, OmittedToolError, ToolRecord, number, tool_number
 from mechwright_cam.shop.formats.jsons import parsed
 from mechwright_cam.shop.tool import Tool, ToolKind
 
@@ -82,11 +82,11 @@ class FreeCadLibrary(Format):
         "neck_diameter": "NeckDiameter",
     }
 
-    def read(self, path: Path) -> list[Said]:
+    def read(self, path: Path) -> list[ToolRecord]:
         """A tool for each entry of the list."""
         return [_said(path, row, place) for place, row in enumerate(_rows(path), start=1)]
 
-    def beside(self, path: Path) -> tuple[Path, ...]:
+    def companion_files(self, path: Path) -> tuple[Path, ...]:
         """The bits that are there."""
         found = (_bit(path, row) for row in _rows(path))
         return tuple(bit for bit in found if bit is not None)
@@ -135,19 +135,21 @@ def _bit(path: Path, row: object) -> Path | None:
     return next((place / name for place in places if (place / name).is_file()), None)
 
 
-def _said(path: Path, row: object, place: int) -> Said:
-    said = Said(f"entry {place}")
+def _said(path: Path, row: object, place: int) -> ToolRecord:
+    said = ToolRecord(f"entry {place}")
     try:
         if not isinstance(row, Mapping):
-            raise LeftOutError(f"is {row!r:.40} and no tool; delete it")
+            raise OmittedToolError(f"is {row!r:.40} and no tool; delete it")
         said.label = str(row.get("path") or said.label).removesuffix(".fctb")
         said.keys["number"] = tool_number(row.get("nr"))
         bit = _bit(path, row)
         if bit is None:
-            raise LeftOutError("its .fctb is neither in ../Bit nor in Bit nor beside the library; copy it")
+            raise OmittedToolError(
+                "its .fctb is neither in ../Bit nor in Bit nor beside the library; copy it"
+            )
         data = parsed(read_text(bit)[0], bit, BIT_VERSION, _NEWER)
         _shape(said, data)
-    except (LeftOutError, MechwrightError) as error:
+    except (OmittedToolError, MechwrightError) as error:
         said.fault = str(error)
     return said
 
@@ -156,11 +158,13 @@ def _kind(data: Mapping[str, Any]) -> ToolKind:
     shape = str(data.get("shape-type") or Path(str(data.get("shape", ""))).stem)
     kind = KINDS.get(re.sub(r"[^a-z]", "", shape.lower()))
     if kind is None:
-        raise LeftOutError(f"there is no {shape!r:.40} among our kinds of tools; leave it to other programs")
+        raise OmittedToolError(
+            f"there is no {shape!r:.40} among our kinds of tools; leave it to other programs"
+        )
     return kind
 
 
-def _shape(said: Said, data: Mapping[str, Any]) -> None:
+def _shape(said: ToolRecord, data: Mapping[str, Any]) -> None:
     said.label = str(data.get("name") or data.get("label") or said.label)
     values: dict[str, Any] = {}
     for table in (data.get("attribute"), data.get("parameter")):
@@ -170,17 +174,17 @@ def _shape(said: Said, data: Mapping[str, Any]) -> None:
     if kind is ToolKind.TAP:
         keys["left_hand"] = backwards
         if not (pitch := _quantity(values, "Pitch")):
-            raise LeftOutError("a tap without a pitch (Pitch); give it one")
+            raise OmittedToolError("a tap without a pitch (Pitch); give it one")
         keys["pitch"] = pitch
     elif backwards:
-        raise LeftOutError("it turns left (SpindleDirection), and programs start the spindle with M3")
+        raise OmittedToolError("it turns left (SpindleDirection), and programs start the spindle with M3")
     keys["kind"] = kind.value
     if not (wide := _quantity(values, "Diameter")):
-        raise LeftOutError("has no diameter (Diameter); give it one")
+        raise OmittedToolError("has no diameter (Diameter); give it one")
     keys["diameter"] = wide
     reach = REACHES.get(kind, "CuttingEdgeHeight")
     if kind is ToolKind.DRILL and reach not in values:
-        raise LeftOutError("does not say how long its flutes are; add a CuttingEdgeHeight to its .fctb")
+        raise OmittedToolError("does not say how long its flutes are; add a CuttingEdgeHeight to its .fctb")
     for key, name in (("flute_length", reach), ("shank_diameter", "ShankDiameter")):
         if value := _quantity(values, name):
             keys[key] = value
@@ -218,28 +222,28 @@ def _corner(values: Mapping[str, Any], wide: float) -> float:
             return found
     flat = _quantity(values, "FlatRadius")
     if not flat:
-        raise LeftOutError("a bull nose without a corner radius (CornerRadius); give it one")
+        raise OmittedToolError("a bull nose without a corner radius (CornerRadius); give it one")
     if abs(wide / 2 - 2 * flat) > 1e-3:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"FlatRadius {flat:g} mm may be the corner's or the flat's; give it a CornerRadius"
         )
     return flat  # both are the same
 
 
-def _cone(said: Said, values: Mapping[str, Any]) -> None:
+def _cone(said: ToolRecord, values: Mapping[str, Any]) -> None:
     """The angle of a chamfer mill, from its sizes; the stated one has to agree."""
     wide, high = said.keys["diameter"], said.keys.get("flute_length")
     tip = _quantity(values, "TipDiameter") or 0.0
     if not high:
-        raise LeftOutError("has no height of its cutting edge (CuttingEdgeHeight); give it one")
+        raise OmittedToolError("has no height of its cutting edge (CuttingEdgeHeight); give it one")
     if tip >= wide:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"its tip of {tip:g} mm (TipDiameter) is no narrower than its diameter of {wide:g} mm"
         )
     angle = 2 * math.degrees(math.atan((wide - tip) / 2 / high))
     stated = _quantity(values, "CuttingEdgeAngle", "angle")
     if stated is not None and abs(stated - angle) > SAME_ANGLE:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"CuttingEdgeAngle says {stated:g} degrees, and diameter {wide:g}, tip {tip:g} and height "
             f"{high:g} mm make {angle:.1f}; mend one"
         )
@@ -249,13 +253,13 @@ def _cone(said: Said, values: Mapping[str, Any]) -> None:
 
 
 def _quantity(values: Mapping[str, Any], name: str, kind: str = "length") -> float | None:
-    """A value in mm or degrees; None where it is not there; raises LeftOutError."""
+    """A value in mm or degrees; None where it is not there; raises OmittedToolError."""
     if name not in values:
         return None
     match = _QUANTITY.fullmatch(str(values[name]))
     if match is None or match[2] not in UNITS[kind]:
         known = ", ".join(UNITS[kind])
-        raise LeftOutError(f"{name} is {values[name]!r:.40}; write a number and a unit, one of: {known}")
+        raise OmittedToolError(f"{name} is {values[name]!r:.40}; write a number and a unit, one of: {known}")
     return float(match[1].replace(",", ".")) * UNITS[kind][match[2]]
 
 

@@ -16,7 +16,7 @@ from uuid import NAMESPACE_URL, uuid5
 
 from mechwright.designs.files import INPUT_LIMIT, read_bytes, text_of
 from mechwright.errors import DesignError
-from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
+from mechwright_cam.shop.formats.contract import Format, OmittedToolError, ToolRecord, number, tool_number
 from mechwright_cam.shop.formats.fusion_presets import presets_of, read_presets
 from mechwright_cam.shop.formats.jsons import parsed
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
@@ -71,7 +71,7 @@ class FusionLibrary(Format):
         "holder_diameter": "holder.segments",
     }
 
-    def read(self, path: Path) -> list[Said]:
+    def read(self, path: Path) -> list[ToolRecord]:
         """A tool for each entry of ``data`` that is no holder."""
         data = parsed(_text(path), path, VERSION, "export it from an older Fusion, or tell us")
         rows = data.get("data")
@@ -117,11 +117,11 @@ def _text(path: Path) -> str:
         raise DesignError(f"{path}: {MEMBER} in it is no UTF-8 text (byte {error.start})") from error
 
 
-def _said(row: object, place: int) -> Said:
-    said = Said(f"entry {place}")
+def _said(row: object, place: int) -> ToolRecord:
+    said = ToolRecord(f"entry {place}")
     try:
         if not isinstance(row, Mapping):
-            raise LeftOutError(f"is {row!r:.40} and no tool; delete it")
+            raise OmittedToolError(f"is {row!r:.40} and no tool; delete it")
         said.label = str(row.get("description") or row.get("product-id") or said.label)
         post = _table(row, "post-process")
         said.keys["number"] = tool_number(post.get("number"))
@@ -129,7 +129,7 @@ def _said(row: object, place: int) -> Said:
         scale = _scale(row)
         _shape(said, row, scale)
         read_presets(said, row, scale)
-    except LeftOutError as error:
+    except OmittedToolError as error:
         said.fault = str(error)
     return said
 
@@ -143,29 +143,29 @@ def _scale(row: Mapping[str, Any]) -> float:
     """Millimetres in a unit of the tool; old exports say it with quotes in ``expressions``."""
     unit = str(row.get("unit") or _table(row, "expressions").get("tool_unit", "")).strip("'\" ")
     if unit not in UNITS:
-        raise LeftOutError(f"its unit is {unit!r:.40}; set it to millimeters or inches")
+        raise OmittedToolError(f"its unit is {unit!r:.40}; set it to millimeters or inches")
     return UNITS[unit]
 
 
-def _offsets(said: Said, post: Mapping[str, Any]) -> None:
+def _offsets(said: ToolRecord, post: Mapping[str, Any]) -> None:
     t = said.keys["number"]
     h, d = number(post.get("length-offset")), number(post.get("diameter-offset"))
     if h is not None and h != t:
-        raise LeftOutError(f"its length offset is H{h:g}, and programs call H{t}; set it to {t}")
+        raise OmittedToolError(f"its length offset is H{h:g}, and programs call H{t}; set it to {t}")
     if d is not None and d != t:
         said.keys["diameter_offset"] = tool_number(d)
 
 
-def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
+def _shape(said: ToolRecord, row: Mapping[str, Any], scale: float) -> None:
     geometry, keys, kind = _table(row, "geometry"), said.keys, KINDS.get(str(row.get("type")))
     if kind is None:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"there is no {row.get('type')!r:.40} among our kinds of tools; leave it to other programs"
         )
     if kind is ToolKind.TAP:
         keys["left_hand"] = row.get("type") == LEFT
     elif geometry.get("HAND") is False:
-        raise LeftOutError("it turns left (HAND false), and programs start the spindle with M3")
+        raise OmittedToolError("it turns left (HAND false), and programs start the spindle with M3")
     keys["kind"] = kind.value
 
     def length(name: str) -> float | None:
@@ -175,15 +175,17 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
     wide = length("DC")
     if wide is None or wide < 0:
         if isinstance(said_of := geometry.get("DC"), str) and said_of:
-            raise LeftOutError(f"its diameter (DC) is the text {said_of!r:.40} and no number; save it anew")
-        raise LeftOutError("has no diameter (DC); give it one")
+            raise OmittedToolError(
+                f"its diameter (DC) is the text {said_of!r:.40} and no number; save it anew"
+            )
+        raise OmittedToolError("has no diameter (DC); give it one")
     keys["diameter"] = wide
     for key, name in (("flute_length", "LCF"), ("stick_out", "LB"), ("shank_diameter", "SFDM")):
         if (value := length(name)) is not None:
             keys[key] = value
     if kind is ToolKind.TAP:
         if not (pitch := length("TP")):
-            raise LeftOutError("a tap without a pitch (TP); give it one")
+            raise OmittedToolError("a tap without a pitch (TP); give it one")
         keys["pitch"] = pitch
     if kind is ToolKind.BULL_NOSE and (corner := length("RE")) is not None:
         keys["corner_radius"] = corner
@@ -204,13 +206,13 @@ def _shape(said: Said, row: Mapping[str, Any], scale: float) -> None:
 
 
 def _ends(
-    said: Said, geometry: Mapping[str, Any], kind: ToolKind, corner: float | None, tip: float | None
+    said: ToolRecord, geometry: Mapping[str, Any], kind: ToolKind, corner: float | None, tip: float | None
 ) -> None:
     """Angle and flat of a pointed tool; what contradicts itself is refused."""
     keys, wide = said.keys, said.keys["diameter"]
     round_end = {ToolKind.BALL: wide / 2, ToolKind.END_MILL: 0.0}.get(kind)
     if corner is not None and round_end is not None and abs(corner - round_end) > MOST_OFF * wide:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"RE is {corner:g} mm, and that of a corner of {kind} {wide:g} mm is {round_end:g}; mend type or "
             "RE"
         )
@@ -223,13 +225,13 @@ def _ends(
     elif kind is ToolKind.CHAMFER:
         half = number(geometry.get("TA"))
         if not half:
-            raise LeftOutError("a chamfer mill without an angle (TA); give it one")
+            raise OmittedToolError("a chamfer mill without an angle (TA); give it one")
         keys["point_angle"] = 2 * half
         if tip is not None:
             keys["tip_diameter"] = tip
 
 
-def _holder(said: Said, row: Mapping[str, Any], scale: float) -> None:
+def _holder(said: ToolRecord, row: Mapping[str, Any], scale: float) -> None:
     """The widest of the holder's lowest segments; they stand in the holder's own unit."""
     holder = _table(row, "holder")
     own = UNITS.get(str(holder.get("unit")), scale)

@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from mechwright.contracts.materials import MATERIALS
-from mechwright_cam.shop.formats.contract import LONGEST, Said, number
+from mechwright_cam.shop.formats.contract import LONGEST, ToolRecord, number
 from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
 WORDS = {name: name for name in MATERIALS} | {
@@ -29,7 +29,7 @@ MOST_OFF = 0.02
 DRILLS = {ToolKind.DRILL.value, ToolKind.SPOT_DRILL.value}
 
 
-def read_presets(said: Said, row: Mapping[str, Any], scale: float) -> None:
+def read_presets(said: ToolRecord, row: Mapping[str, Any], scale: float) -> None:
     """Take over the presets of a tool that are for a material of ours."""
     values = row.get("start-values")
     presets = values.get("presets") if isinstance(values, Mapping) else None
@@ -73,7 +73,7 @@ def _unclear(materials: set[str]) -> str:
     return f"names no material; put one of {', '.join(MATERIALS)} into its name"
 
 
-def _cutting(said: Said, preset: Mapping[str, Any], scale: float) -> tuple[dict[str, float], str]:
+def _cutting(said: ToolRecord, preset: Mapping[str, Any], scale: float) -> tuple[dict[str, float], str]:
     """Cutting data of a preset; or what is wrong with it."""
 
     def positive(name: str) -> float:

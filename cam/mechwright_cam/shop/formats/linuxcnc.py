@@ -16,7 +16,7 @@ from urllib.parse import quote, unquote
 from mechwright.designs.files import read_text
 from mechwright.designs.inches import FACTORS, Units, scaled
 from mechwright.errors import DesignError
-from mechwright_cam.shop.formats.contract import Format, LeftOutError, Said, number, tool_number
+from mechwright_cam.shop.formats.contract import Format, OmittedToolError, ToolRecord, number, tool_number
 from mechwright_cam.shop.tool import HOLLOW, Tool, ToolKind
 
 UNITS = {"mm": 1.0, "in": 25.4, "inch": 25.4}
@@ -61,7 +61,7 @@ class LinuxCncTable(Format):
     suffixes = (".tbl",)
     fields = {"number": "T", "diameter": "D", "length": "Z"}  # noqa: RUF012 - as the contract has it
 
-    def read(self, path: Path) -> list[Said]:
+    def read(self, path: Path) -> list[ToolRecord]:
         """A tool for each line; raises DesignError where the table says no units."""
         text = read_text(path, older="latin-1")[0]
         lines = [(n, line.strip()) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
@@ -101,33 +101,33 @@ def table_text(rows: Iterable[Row], units: Units = "mm") -> str:
     return "".join(line + "\n" for line in lines)
 
 
-def _said(path: Path, place: int, line: str, scale: float) -> Said:
+def _said(path: Path, place: int, line: str, scale: float) -> ToolRecord:
     body, _, remark = line.partition(";")
     words = {letter.upper(): value for letter, value in _WORD.findall(body)}
     if _WORD.sub("", body).strip() or "T" not in words or not words.keys() <= LETTERS:
         raise DesignError(f"{path}: line {place}: {line[:60]!r} is no tool; write T1 P1 Z0 D6 ;remark")
-    said = Said(remark.strip() or f"line {place}")
+    said = ToolRecord(remark.strip() or f"line {place}")
     try:
         said.keys["number"] = tool_number(words["T"])
         if float(words.get("D", 0)) > 0:
             said.keys["diameter"] = scaled(float(words["D"]), scale)
         elif " diameter=" not in remark:
-            raise LeftOutError("has no diameter (D); write it into its line")
+            raise OmittedToolError("has no diameter (D); write it into its line")
         if float(words.get("Z", 0)):
             said.keys["length"] = scaled(float(words["Z"]), scale)
         _remark(said, remark.split(), scale)  # what it says of both is without wear
-    except LeftOutError as error:
+    except OmittedToolError as error:
         said.fault = str(error)
     return said
 
 
-def _remark(said: Said, words: list[str], scale: float) -> None:
+def _remark(said: ToolRecord, words: list[str], scale: float) -> None:
     """What a remark says: a name, a kind, and ``key=value``; other words are for people."""
     named = dict(word.split("=", 1) for word in words if "=" in word)
     plain = [word for word in words if "=" not in word]
     kind = next((word for word in plain if word in set(ToolKind)), None)
     if kind is None or "flute_length" not in named:
-        raise LeftOutError(
+        raise OmittedToolError(
             f"the table does not say its {'kind' if kind is None else 'flute_length'}; {_CURE}"
         )
     said.keys["kind"] = kind
@@ -143,7 +143,7 @@ def _remark(said: Said, words: list[str], scale: float) -> None:
         elif key in TEXTS:
             said.keys[key] = unquote(value)
         else:
-            raise LeftOutError(f"unknown key {key!r}; one of {', '.join((*LENGTHS, *OTHERS, *TEXTS))}")
+            raise OmittedToolError(f"unknown key {key!r}; one of {', '.join((*LENGTHS, *OTHERS, *TEXTS))}")
 
 
 def _line(row: Row, scale: float) -> str:

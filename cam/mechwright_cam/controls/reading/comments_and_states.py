@@ -26,7 +26,7 @@ _TO_THE_END = re.compile(r"([^();]*);(.*)")
 _LATE_NUMBER = re.compile(r"[^\sNn].*[Nn]")
 
 
-class Beside:
+class CommentsAndStates:
     r"""Comments and words of state of a program's lines, and the text without them.
 
     Lines in which they are anything but plain to the control stay as they are.
@@ -44,10 +44,11 @@ class Beside:
 
     Examples
     --------
-    >>> beside = Beside(["G1 X1 (to the edge)", "G1 G90 X2 M3", "X3"], Dialect(frozenset({10, 900})))
-    >>> beside.text.split("\n"), beside.comments, beside.kind.tolist()
+    >>> dialect = Dialect(frozenset({10, 900}))
+    >>> found = CommentsAndStates(["G1 X1 (to the edge)", "G1 G90 X2 M3", "X3"], dialect)
+    >>> found.text.split("\n"), found.comments, found.kind.tolist()
     (['G1 X1 ', 'G1   X2  ', 'X3'], {0: 'to the edge'}, [0, 1, 0])
-    >>> beside.states[1].g, beside.states[1].m
+    >>> found.states[1].g, found.states[1].m
     ([900], [3])
     """
 

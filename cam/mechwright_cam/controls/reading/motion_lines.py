@@ -18,7 +18,7 @@ ABSOLUTE = {900: True, 910: False}
 """G90 and G91: whether X, Y and Z are places."""
 
 
-def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
+def run_motion_lines(machine: Modal, lines: Rows, at: int) -> int:
     """Run the motion lines that begin at index ``at``, if they are many.
 
     Returns
@@ -29,13 +29,13 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     """
     motion = machine.motion
     known = motion in {0, 10, 20, 30}
-    if not (known or lines.said[G, at]) or not machine.moves_plainly:
+    if not (known or lines.has_word[G, at]) or not machine.moves_plainly:
         return at
     end, modes = _as_stated(machine, lines, at, lines.until(at, known and motion in {20, 30}))
     if end - at < FEWEST_LINES:
         return at
     absolute = _absolute(machine, modes, at, end)
-    index = at + np.flatnonzero(lines.said[G : F + 1, at:end].any(axis=0))  # without empty lines
+    index = at + np.flatnonzero(lines.has_word[G : F + 1, at:end].any(axis=0))  # without empty lines
     if index.size == 0:
         _along(machine, lines, at, end, index)
         machine.absolute = bool(absolute[-1])
@@ -59,7 +59,7 @@ def run_stretch(machine: Modal, lines: Rows, at: int) -> int:
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
         if machine.dialect.arc_needs_end:
-            wrong |= arc & ~lines.said[X : Y + 1, index].any(axis=0)
+            wrong |= arc & ~lines.has_word[X : Y + 1, index].any(axis=0)
     faults = np.flatnonzero(wrong)
     count = int(faults[0]) if faults.size else index.size
     after = int(index[count]) if faults.size else end
@@ -92,8 +92,8 @@ def _as_stated(machine: Modal, lines: Rows, at: int, end: int) -> tuple[int, lis
         for code in ABSOLUTE.keys() & lines.states[kind].g:
             modes.append((line, ABSOLUTE[code]))
         place += 1
-    if machine.state.spindle and not machine.state.turning:
-        end = at + next(iter(np.flatnonzero(lines.said[S, at:end]).tolist()), end - at)
+    if machine.state.spindle and not machine.state.spindle_rotation:
+        end = at + next(iter(np.flatnonzero(lines.has_word[S, at:end]).tolist()), end - at)
     return end, modes
 
 

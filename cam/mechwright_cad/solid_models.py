@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
 
-Made = tuple[list[Finding], dict[str, bytes], dict[str, float]]
+SolidResults = tuple[list[Finding], dict[str, bytes], dict[str, float]]
 """What collides; the files, name to content; and the mass of one of each part, g."""
 
 
@@ -143,7 +143,7 @@ def masses(parts: "Sequence[Part]") -> dict[str, float]:
     return {part.name: float(1000 * mass_moments(part)[3, 3]) for part in parts}
 
 
-def compared_and_made(work: Work) -> Made:
+def collisions_and_files(work: Work) -> SolidResults:
     """Whether bodies collide; if none do, the files of a build with its page, and what its parts weigh."""
     met = collisions(work.design, work.parts, solids=True)
     if errors(met):
@@ -163,7 +163,7 @@ class Solids:
         self._build = build
         self._exporters = exporters_of(build.host, build.wanted)
         self._second: WorkerPool | None = None
-        self._answer: Future[Made] | None = None
+        self._answer: Future[SolidResults] | None = None
 
     def warm(self) -> None:
         """Begin the second process, if it gains something."""
@@ -174,7 +174,7 @@ class Solids:
             self._build.when_closed(self._second.close)
 
     @property
-    def beside(self) -> bool:
+    def in_second_process(self) -> bool:
         """Whether a second process is at it: other work comes first then."""
         return self._second is not None
 
@@ -189,7 +189,7 @@ class Solids:
         if self._second is not None and self._answer is None:
             plates = all(part.build is None for part in self._build.parts)
             work = self._work if plates else replace(self._work, known=None)
-            self._answer = self._second.submit(compared_and_made, work)
+            self._answer = self._second.submit(collisions_and_files, work)
 
     def collisions(self) -> list[Finding]:
         """Which bodies collide, and what else there is to say of that."""
@@ -225,7 +225,7 @@ class Solids:
             return motion_page(build.design, (), solids=False)
 
     @cached_property
-    def _result(self) -> Made:
+    def _result(self) -> SolidResults:
         """The answer of the second process; this one does what fails there, and raises its error."""
         assert self._second is not None  # noqa: S101 - all callers have asked
         assert self._answer is not None  # noqa: S101 - begun before
@@ -233,4 +233,4 @@ class Solids:
             try:
                 return self._second.result(self._answer)
             except Exception:  # noqa: BLE001,RUF100
-                return compared_and_made(self._work)
+                return collisions_and_files(self._work)

@@ -9,7 +9,7 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright.contracts.part import Part
-from mechwright_cam.proof.as_made import made_sections, wall_sweeps
+from mechwright_cam.proof.as_made import as_made_sections, wall_sweeps
 from mechwright_cam.proof.off_path import corridor
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.witness import witnesses
@@ -20,7 +20,7 @@ from mechwright_cam.setup.sides import SIGNS
 def parts_as_made(scene: Scene) -> list[MadePart]:
     """The parts that one program makes from above, each in its own coordinates."""
     sweeps = wall_sweeps(scene)
-    sections = made_sections(scene, sweeps)
+    sections = as_made_sections(scene, sweeps)
     shift = np.array(scene.job.origin)
     lines = [
         replace(line, at=tuple((np.array(line.at) + shift).tolist()))
@@ -63,7 +63,7 @@ def with_undersides(parts: Sequence[MadePart], placed: Sequence[Placed], scene: 
     assert job.frame is not None  # noqa: S101 - it has been turned over
     sign, thickness = np.array(SIGNS[job.settings.second_side.flip]), job.thickness
     sections = []
-    for section in made_sections(scene, wall_sweeps(scene)):
+    for section in as_made_sections(scene, wall_sweeps(scene)):
         holes = [
             ring
             for ring in section.rings

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.run import Ints, Kind
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
-from mechwright_cam.proof.since import Cells, Tracks, taking
+from mechwright_cam.proof.removal_time import Cells, Tracks, taking
 
 FEW = 64
 """Moves that are asked about one by one sooner than all together."""

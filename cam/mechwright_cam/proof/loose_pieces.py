@@ -10,11 +10,11 @@ from mechwright.contracts.part import Profile
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.entry_rules import ABOVE
 from mechwright_cam.proof.footprint import BEFORE, UNSURE, Footprint, Mask
-from mechwright_cam.proof.grips import Holds
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stops import TAKES, stops_that_say
+from mechwright_cam.proof.workholding import Workholding
 from mechwright_cam.setup.views import inside_of
 
 CLOSING = 2.0
@@ -26,7 +26,7 @@ PART = 0.5
 
 
 @dataclass(frozen=True)
-class Loose:
+class LoosePiece:
     """A piece that nothing holds."""
 
     step: int
@@ -45,7 +45,7 @@ class Loose:
     """The grid of its cells."""
 
 
-def loose_pieces(scene: Scene, pieces: Pieces, held: Sequence[Holds]) -> Iterator[Loose]:
+def loose_pieces(scene: Scene, pieces: Pieces, held: Sequence[Workholding]) -> Iterator[LoosePiece]:
     """The pieces that nothing holds, as they come loose; what such a piece falls into is not told again."""
     left = [(piece, -1) for piece in pieces.whole]
     while left:
@@ -54,18 +54,18 @@ def loose_pieces(scene: Scene, pieces: Pieces, held: Sequence[Holds]) -> Iterato
             left += [(one, since) for one in piece.into]
             continue
         cells = pieces.mask(piece, since)
-        if not any(grip.holds(cells, since) for grip in held):
+        if not any(grip.secures(cells, since) for grip in held):
             yield _loose(scene, pieces.footprint, cells, since)
             continue
         end = max(piece.parts if piece.into else pieces.last(piece), since + 1)
         rest = pieces.mask(piece, end - 1)  # what was held may have been cut away
-        if rest.any() and not any(grip.holds(rest, end - 1) for grip in held):
+        if rest.any() and not any(grip.secures(rest, end - 1) for grip in held):
             yield _loose(scene, pieces.footprint, rest, pieces.last_before(piece, end))
             continue
         left += [(one, piece.parts) for one in piece.into]
 
 
-def _loose(scene: Scene, found: Footprint, cells: Mask, step: int) -> Loose:
+def _loose(scene: Scene, found: Footprint, cells: Mask, step: int) -> LoosePiece:
     x, y = place = found.place(cells)
     part = np.count_nonzero(found.inside(found.part, cells))
     area = np.count_nonzero(found.within(cells, UNSURE * found.cell)) * found.cell**2
@@ -77,10 +77,10 @@ def _loose(scene: Scene, found: Footprint, cells: Mask, step: int) -> Loose:
     taken = stops[0] if stops else None
     if step == BEFORE and scene.job.side == "underside":
         taken = -1  # who lifts the plate finds it on the table
-    return Loose(step, cells, place, area, is_part, where, taken, found)
+    return LoosePiece(step, cells, place, area, is_part, where, taken, found)
 
 
-def passed(scene: Scene, loose: Loose) -> int | None:
+def passed(scene: Scene, loose: LoosePiece) -> int | None:
     """The first step in which a cutter comes as near to a loose piece as that may move; None if none does."""
     if milled_away(scene, loose):
         return None
@@ -103,17 +103,17 @@ def passed(scene: Scene, loose: Loose) -> int | None:
     return min(near, default=None)
 
 
-def milled_away(scene: Scene, loose: Loose) -> bool:
+def milled_away(scene: Scene, loose: LoosePiece) -> bool:
     """Whether the cut that frees a piece takes all of it in going on."""
     return bool(loose.grid.cut[loose.cells].max() <= _closed(scene, loose))
 
 
-def _kerf(scene: Scene, loose: Loose) -> float:
+def _kerf(scene: Scene, loose: LoosePiece) -> float:
     """Width of the cut that frees a piece, mm."""
     return float(scene.paths.radius[loose.step]) * 2 if loose.step >= 0 else 0.0
 
 
-def _closed(scene: Scene, loose: Loose) -> int:
+def _closed(scene: Scene, loose: LoosePiece) -> int:
     """The last step of the cut that frees a piece, in so far as it may go on."""
     run, step, gone, length = scene.run, loose.step, 0.0, CLOSING * _kerf(scene, loose)
     while step + 1 < len(run) and run.cutting[step + 1] and step >= 0:

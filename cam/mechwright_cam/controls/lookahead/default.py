@@ -13,7 +13,7 @@ CORNER_JUMP = 100.0
 """Change of velocity at a corner that a machine takes without slowing down, mm/min: a common jerk setting."""
 
 
-class Usual(Lookahead):
+class DefaultLookahead(Lookahead):
     """A trapezoid of speed along each move, and between two moves the speed that the corner allows.
 
     The machine speeds up and slows down with the acceleration of an axis along the path; along an arc the
@@ -52,5 +52,5 @@ def _corners(run: Run, speed: Array) -> Array:
     return np.concatenate(([0.0], corner, [0.0]))
 
 
-USUAL = Usual()
+DEFAULT_LOOKAHEAD = DefaultLookahead()
 """The one there is."""

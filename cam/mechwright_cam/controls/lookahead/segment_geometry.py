@@ -32,7 +32,7 @@ program."""
 
 
 @dataclass(frozen=True)
-class Course:
+class SegmentGeometry:
     """Segments, m of them of k kinds, with p kinds of junction between each two.
 
     Parameters
@@ -93,13 +93,13 @@ class Course:
         """(k,) angle of an arc, rad."""
         return np.abs(self.signed)
 
-    def repeated(self, count: int) -> "Course":
+    def repeated(self, count: int) -> "SegmentGeometry":
         """All of it so many times, one after the other and each in queues of its own."""
         which, kinds, junctions = np.arange(count)[:, None], self.length.size, self.before.size
         of_kinds = ("length", "radius", "signed", "rapid", "exact", "stop", "blend", "feed")
         # From the end of one copy to the beginning of the next: a kind of junction for each.
         seams = np.column_stack((self.kind[-1:] + which[:-1] * kinds, self.kind[:1] + which[1:] * kinds))
-        return Course(
+        return SegmentGeometry(
             step=np.tile(self.step, count),
             kind=(self.kind + which * kinds).ravel(),
             queue=(self.queue + which * (int(self.queue.max(initial=0)) + 1)).ravel(),
@@ -112,7 +112,7 @@ class Course:
         )
 
 
-def course(run: Run, machine: Machine) -> Course:
+def segment_geometry(run: Run, machine: Machine) -> SegmentGeometry:
     """The segments of a run: what does not depend on how fast the machine is."""
     length, rapid = moved(run, machine)
     step = np.flatnonzero(length > NO_LENGTH)
@@ -127,7 +127,7 @@ def course(run: Run, machine: Machine) -> Course:
     modes, queue = some.of_states(lambda state: state.path_mode), _queues(run)[step]
     both = queue[1:] == queue[:-1]
     pairs, junction = np.unique(2 * (kind[:-1] * one.size + kind[1:]) + both, return_inverse=True)
-    return Course(
+    return SegmentGeometry(
         step=step,
         kind=kind,
         queue=queue,

@@ -8,7 +8,7 @@ import shapely
 
 from mechwright.contracts.part import Bore, Feature, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.proof.bands import Band, asked, bands, floor_of
+from mechwright_cam.proof.bands import Band, bands, floor_of, wall_region
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.grooves import along, entered
 from mechwright_cam.proof.paths import NEAR
@@ -38,7 +38,7 @@ def play(job: Job) -> float:
     return max(PLAY, job.settings.path.bias)
 
 
-class Wanted:
+class TargetShape:
     """What the mills of a program have to leave, band by band."""
 
     def __init__(self, job: Job, mills: Sequence[Tool]) -> None:
@@ -52,7 +52,7 @@ class Wanted:
         self.pointed = drilled_floors(job)
         extra += [-depth for _, depth in self.pointed]
         self.bands = bands(job, (*(tab.top + self.slack for tab in job.tabs), *extra))
-        self.drawn = asked(job)
+        self.drawn = wall_region(job)
 
     @property
     def alike(self) -> bool:
@@ -76,7 +76,7 @@ class Wanted:
             return rest
         return along(rest, play(self.job), self.job, self.bands[place], self.mills, level)
 
-    def beside_tabs(self, place: int) -> Shape | None:
+    def tab_lift_area(self, place: int) -> Shape | None:
         """Where the cutter lifts beside the tabs that a band touches: what stays there goes with them."""
         tabs, widest = self._tabs[place], max(tool.diameter for tool in self.mills)
         return shapely.union_all([grow(tab, widest, COARSE) for tab in tabs]) if tabs else None

@@ -24,10 +24,10 @@ LEAST_AREA = {"vacuum": 500.0, "tape": 100.0}
 vacuum of 0.8 bar with friction of 0.3 holds 0.024 N/mm², double-sided tape 0.12 N/mm² at least."""
 
 
-class Holds(Protocol):
+class Workholding(Protocol):
     """Something that holds pieces."""
 
-    def holds(self, piece: Mask, step: int) -> bool:
+    def secures(self, piece: Mask, step: int) -> bool:
         """Whether it holds a piece when a step is done."""
 
 
@@ -42,7 +42,7 @@ class Grip:
     since: int = -1
     """The step from which on it holds."""
 
-    def holds(self, piece: Mask, step: int) -> bool:
+    def secures(self, piece: Mask, step: int) -> bool:
         """Whether it holds a piece when a step is done."""
         return step >= self.since and all(
             np.count_nonzero(piece & place) >= least
@@ -50,7 +50,7 @@ class Grip:
         )
 
 
-def grips(scene: Scene) -> list[Grip]:
+def workholding(scene: Scene) -> list[Grip]:
     """All that holds, as the job says."""
     job, found = scene.job, scene.footprint
     if job.jaws:

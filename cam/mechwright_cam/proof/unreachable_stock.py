@@ -12,7 +12,7 @@ from mechwright_cam.proof.bands import Band, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow
 from mechwright_cam.proof.sweep import Sweep
-from mechwright_cam.proof.wanted import Wanted
+from mechwright_cam.proof.target_shape import TargetShape
 from mechwright_cam.setup.job import Job
 
 VISIBLE = 0.001
@@ -32,11 +32,13 @@ class Foot:
     rest: Shape
 
 
-def beyond_reach(foot: Foot, wanted: Wanted, job: Job) -> list[tuple[float, float, float, float, float]]:
+def unreachable_stock(
+    foot: Foot, target: TargetShape, job: Job
+) -> list[tuple[float, float, float, float, float]]:
     """The places between the part and its closing that nothing has cut."""
     band, groups, keep = foot.band, foot.groups, foot.band.keep
-    if wanted.fillets:
-        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in wanted.fillets]
+    if target.fillets:
+        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in target.fillets]
         keep = shapely.union_all([keep, *solid])
     rest = shapely.difference(foot.rest, grow(keep, VISIBLE / 2))
     inside = stock_shape(job) if job.frame is None else job.frame.body

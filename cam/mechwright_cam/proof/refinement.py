@@ -28,10 +28,10 @@ from mechwright_cam.proof.footprint import (
     cell_for,
     footprint,
 )
-from mechwright_cam.proof.grips import grips
-from mechwright_cam.proof.loose import Loose, loose_pieces, passed
+from mechwright_cam.proof.loose_pieces import LoosePiece, loose_pieces, passed
 from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.workholding import workholding
 
 AROUND = 4 * UNSURE
 """A window reaches so many wide cells beyond its piece: twice across what may count as cut on both sides."""
@@ -50,17 +50,17 @@ class Joined:
     until: Steps
     """(ny, nx) up to which step what is there is known to be held; :data:`BEFORE` where it is not."""
 
-    def holds(self, piece: Mask, step: int) -> bool:
+    def secures(self, piece: Mask, step: int) -> bool:
         """Whether a piece has some of it when a step is done; of one that is cut no more, for good."""
         cut, until = self.cut[piece], self.until[piece]
         last = NEVER - 1 if (cut == NEVER).all() else step
         return bool((until > last).any())
 
 
-def loose_for_sure(scene: Scene) -> Iterator[Loose]:
+def refined_loose_pieces(scene: Scene) -> Iterator[LoosePiece]:
     """The pieces that nothing holds: those in a cutter's way have been looked at as closely as can be."""
     wide = scene.footprint
-    found = list(loose_pieces(scene, scene.pieces, grips(scene)))
+    found = list(loose_pieces(scene, scene.pieces, workholding(scene)))
     if wide.cell <= CELL:
         yield from found
         return
@@ -76,7 +76,7 @@ def loose_for_sure(scene: Scene) -> Iterator[Loose]:
             yield from _looked_at(scene, piece, held, window)
 
 
-def _window(wide: Footprint, piece: Loose) -> Bounds:
+def _window(wide: Footprint, piece: LoosePiece) -> Bounds:
     """Around a piece, on the plate."""
     rows, columns = np.flatnonzero(piece.cells.any(axis=1)), np.flatnonzero(piece.cells.any(axis=0))
     ny, nx = piece.cells.shape
@@ -87,7 +87,7 @@ def _window(wide: Footprint, piece: Loose) -> Bounds:
     return wide.x + left * cell, wide.y + low * cell, wide.x + right * cell, wide.y + high * cell
 
 
-def _looked_at(scene: Scene, piece: Loose, held: Steps, window: Bounds) -> Iterator[Loose]:
+def _looked_at(scene: Scene, piece: LoosePiece, held: Steps, window: Bounds) -> Iterator[LoosePiece]:
     """What is loose of a piece in its window; material around it stands until ``held`` of the wide grid."""
     wide, close = scene.footprint, footprint(scene.paths, scene.job, window)
     ny, nx = close.cut.shape

@@ -18,7 +18,7 @@ NAME = "{part}"
 """Stands for the part's name in a mark."""
 
 
-def asked(
+def with_requested_features(
     cam: CamSettings, own: Mapping[str, PartSettings], parts: Sequence[Part], path: Path
 ) -> tuple[Part, ...]:
     """The parts as the design file asks for them; parts that are no plates as they are.

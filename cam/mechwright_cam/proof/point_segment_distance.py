@@ -88,7 +88,7 @@ class Chords:
             out[at] = found
         return out
 
-    def distance_beside(self, places: Array, hints: Array, reach: float) -> Array:
+    def hinted_distance(self, places: Array, hints: Array, reach: float) -> Array:
         """Distance (k,) from each place to the nearest of the lines that pass its hint.
 
         Parameters
@@ -108,7 +108,7 @@ class Chords:
         Examples
         --------
         >>> chords = Chords(np.array([[0.0, 0.0]]), np.array([[9.0, 0.0]]))
-        >>> chords.distance_beside(np.array([[3.0, 2.0], [3.0, 5.0]]), np.array([[3.0, 0.1], [3, 3]]), 0.2)
+        >>> chords.hinted_distance(np.array([[3.0, 2.0], [3.0, 5.0]]), np.array([[3.0, 0.1], [3, 3]]), 0.2)
         array([ 2., inf])
         """
         out = np.full(len(places), np.inf)
