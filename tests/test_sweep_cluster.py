@@ -186,4 +186,4 @@ def test_an_address_where_nobody_answers_is_one_line(tmp_path):
     pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
     done = swept(tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert done.exit_code == 1
-    assert "nobody answers within 10 s" in str(done.exception)
+    assert "no scheduler answers within 10 s" in str(done.exception)

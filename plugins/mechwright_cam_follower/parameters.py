@@ -101,7 +101,9 @@ class CamParams(Parameters):
         "translating", description="A follower that slides, or a lever.", json_schema_extra=FIRST
     )
     contact: Literal["roller", "flat"] = Field(
-        "roller", description="What touches the cam: a roller or a flat face.", json_schema_extra=FIRST
+        "roller",
+        description="Contact of the follower with the cam: a roller or a flat face.",
+        json_schema_extra=FIRST,
     )
     conjugate: bool = Field(
         False,
@@ -116,13 +118,13 @@ class CamParams(Parameters):
         None,
         description=(
             "Lift of a translating follower at the end of each segment, 0 where it is lowest; the turn "
-            "begins with the last. Left out, 15, 15, 0, 0."
+            "begins with the last. Default: 15, 15, 0, 0."
         ),
         json_schema_extra=FIRST,
     )
     swings: Annotated[tuple[Swing, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
         None,
-        description="The same of a lever, as angles. Default: 20, 20, 0, 0.",
+        description="Angle of a lever at the end of each segment. Default: 20, 20, 0, 0.",
         json_schema_extra=FIRST,
     )
     laws: Annotated[tuple[LawName, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
@@ -164,7 +166,7 @@ class CamParams(Parameters):
         None,
         description=(
             "How far a translating follower slides off the cam's axis, to +x; with the turn "
-            "counter-clockwise more of it lowers the pressure angle of the rise. Left out, 0."
+            "counter-clockwise more of it lowers the pressure angle of the rise. Default: 0."
         ),
         json_schema_extra=FIRST,
     )
@@ -217,13 +219,13 @@ class CamParams(Parameters):
         None, description="Force of the spring at the lowest place. Default: 60."
     )
     spring_rate: Annotated[float, Field(ge=0, le=1e4), Unit("N/mm")] | None = Field(
-        None, description="What the spring's force gains with the lift. Default: 4."
+        None, description="Rate of the spring: its force over the lift. Default: 4."
     )
     spring_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] | None = Field(
         None, description="Torque of a lever's spring at the lowest place. Default: 4."
     )
     spring_stiffness: Annotated[float, Field(ge=0, le=1e4), Unit("N*m/rad")] | None = Field(
-        None, description="What that torque gains with the swing. Default: 4."
+        None, description="Rate of a lever's spring: its torque over the swing. Default: 4."
     )
     thickness: Millimetres = Field(
         10.0, ge=1, le=100, description="Thickness of a cam, and length of a roller.", json_schema_extra=FIRST

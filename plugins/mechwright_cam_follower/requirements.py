@@ -50,7 +50,9 @@ class SizeRequirement(Parameters):
         None, description="Lift at the end of each segment. Default: 15, 15, 0, 0.", json_schema_extra=FIRST
     )
     swings: Annotated[tuple[Swing, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] | None = Field(
-        None, description="The same of a lever. Default: 20, 20, 0, 0.", json_schema_extra=FIRST
+        None,
+        description="Angle of a lever at the end of each segment. Default: 20, 20, 0, 0.",
+        json_schema_extra=FIRST,
     )
     laws: Annotated[tuple[LawName, ...], Field(min_length=1, max_length=MOST_SEGMENTS)] = Field(
         ("cycloidal",),

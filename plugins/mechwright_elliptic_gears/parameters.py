@@ -108,9 +108,9 @@ class EllipticGearParams(Parameters):
     phase_joint: Literal["fixed", "pins", "clamp"] | None = Field(
         None,
         description=(
-            "What joins gears 3 and 4. fixed: a key or three dowels, for one phase; pins: a pin in one hole "
+            "Joint of gears 3 and 4. fixed: a key or three dowels, for one phase; pins: a pin in one hole "
             "of a dividing circle, a hole for each of phases; clamp: screws and a scale with a mark for "
-            "each. Left out, fixed."
+            "each. Default: fixed."
         ),
     )
     phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=MOST_PHASES)] | None = Field(

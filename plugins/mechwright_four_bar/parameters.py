@@ -142,8 +142,8 @@ class FourBarParams(Parameters):
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,
-        description="Least distance of the holes in the ground plate's corners from the line A0-B0; left "
-        "out, as near as the bores leave room.",
+        description="Least distance of the holes in the ground plate's corners from the line A0-B0. "
+        "Default: as near as the bores leave room.",
     )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 

@@ -72,7 +72,7 @@ class GenevaParams(Parameters):
     offset_angle: Annotated[float, Field(ge=-60, le=60), Unit("deg")] | None = Field(
         None,
         description=(
-            "Half the angle between the mouths of a slot; its sign tells the island's side. Left out, "
+            "Half the angle between the mouths of a slot; its sign tells the island's side. Default: "
             "0 for straight slots, usual for others."
         ),
     )

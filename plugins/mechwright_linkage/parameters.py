@@ -175,7 +175,7 @@ class LinkageParams(Parameters):
         0.0, description="Acceleration of free fall along X; 0 for a machine that lies flat."
     )
     gravity_y: Annotated[float, Field(ge=-100, le=100), Unit("m/s^2")] = Field(
-        0.0, description="The same along Y: -9.81 for a machine that stands upright."
+        0.0, description="Gravity along Y: -9.81 for a machine that stands upright."
     )
     thickness: Millimetres = Field(
         6.0, ge=1, le=100, description="Of the moving links.", json_schema_extra=FIRST
@@ -208,8 +208,8 @@ class LinkageParams(Parameters):
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,
-        description="Least distance of these holes from the outermost ground pivot across the plate; left "
-        "out, as near as the bores leave room.",
+        description="Least distance of these holes from the outermost ground pivot across the plate. "
+        "Default: as near as the bores leave room.",
     )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 

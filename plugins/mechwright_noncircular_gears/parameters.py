@@ -172,7 +172,7 @@ class NoncircularParams(Parameters):
         le=MOST_TEETH,
         description=(
             "Number of teeth of the driver; the driven gear has teeth × N2/N1. Of sectors, pitches of the "
-            "travel; there are teeth for half a pitch more at each end. Left out, 40, or the least greater "
+            "travel; there are teeth for half a pitch more at each end. Default: 40, or the least greater "
             "number without undercut."
         ),
         json_schema_extra={**FIRST, **FITTED},
@@ -214,8 +214,8 @@ class NoncircularParams(Parameters):
     cutter: Literal["rack", "shaper"] | None = Field(
         None,
         description=(
-            "What makes the fillets. rack: of pitch curves that are convex; shaper: a round cutter, of "
-            "hollow ones too. Left out, a rack where both curves are convex."
+            "Cutter that makes the fillets. rack: of pitch curves that are convex; shaper: a round cutter, "
+            "of hollow ones too. Default: a rack where both curves are convex."
         ),
     )
     shaper_radius: Annotated[float, Field(ge=4, le=100), Unit("")] | None = Field(

@@ -46,12 +46,12 @@ class PlateParams(Parameters):
     )
     layers: dict[str, Word] = Field(
         default_factory=dict,
-        description='What layers or colours mean, as { "Layer 1" = "pocket 3", "colour 1" = "bore H7" }.',
+        description='Meaning of layers or colours, as { "Layer 1" = "pocket 3", "colour 1" = "bore H7" }.',
         json_schema_extra=FIRST,
     )
     holes: dict[str, Word] = Field(
         default_factory=dict,
-        description='What circles of a diameter mean, as { "5" = "bore H7", "4.2" = "M5" }.',
+        description='Meaning of circles of a diameter, as { "5" = "bore H7", "4.2" = "M5" }.',
         json_schema_extra=FIRST,
     )
 

@@ -145,8 +145,8 @@ class SliderCrankParams(Parameters):
     )
     screw_offset: Annotated[float, Field(ge=1, le=10000), Unit("mm")] | None = Field(
         None,
-        description="Least distance of these holes from the line through the crank's pivot along the slide; "
-        "left out, beside all that moves.",
+        description="Least distance of these holes from the line through the crank's pivot along the slide. "
+        "Default: beside all that moves.",
     )
     play: Millimetres = Field(0.05, ge=0, le=2, description="Play of the slider on each side.")
     gap: Millimetres = Field(0.3, ge=0, le=20, description="Air between plates of neighbouring layers.")

@@ -107,7 +107,7 @@ class FourBarTable(Parameters):
     )
     start: Start = Field(
         None,
-        description="Input angle at the start; 0 where the input link points at the output axis. Left out, "
+        description="Input angle at the start; 0 where the input link points at the output axis. Default: "
         "0, or where the swing of an input begins that cannot turn fully.",
         json_schema_extra=FIRST,
     )
@@ -159,7 +159,9 @@ class FiveBarTable(Parameters):
         json_schema_extra=FIRST,
     )
     a1n: Pin = Field(
-        published_example.PINS["a1n"], description="The same in phase 2.", json_schema_extra=FIRST
+        published_example.PINS["a1n"],
+        description="Pin of crank and coupler in phase 2.",
+        json_schema_extra=FIRST,
     )
     b0: Pin = Field(published_example.PINS["b0"], description="Axis of the arm.", json_schema_extra=FIRST)
     b1: Pin = Field(
@@ -173,7 +175,9 @@ class FiveBarTable(Parameters):
         json_schema_extra=FIRST,
     )
     c1n: Pin = Field(
-        published_example.PINS["c1n"], description="The same in phase 2.", json_schema_extra=FIRST
+        published_example.PINS["c1n"],
+        description="Pin of coupler and rocker in phase 2.",
+        json_schema_extra=FIRST,
     )
     point: Pin = Field(
         published_example.TABLE_2[0],
@@ -208,19 +212,21 @@ class FiveBarTable(Parameters):
     start: Degrees = Field(
         0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 1 starts."
     )
-    start_n: Degrees = Field(0.0, ge=-360, le=360, description="The same in phase 2.")
+    start_n: Degrees = Field(
+        0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 2 starts."
+    )
     travel: Degrees = Field(
         published_example.ANGLES[-1],
         ge=-720,
         le=720,
-        description="How far the crank turns in phase 1, from its start.",
+        description="Turn of the crank in phase 1, from its start.",
         json_schema_extra=FIRST,
     )
     travel_n: Degrees = Field(
         published_example.ANGLES_N[-1],
         ge=-720,
         le=720,
-        description="The same in phase 2.",
+        description="Turn of the crank in phase 2, from its start.",
         json_schema_extra=FIRST,
     )
     path: tuple[Pin, ...] = Field(
@@ -271,7 +277,7 @@ class SphericalParams(Parameters):
 
     kind: Literal["five-bar", "four-bar"] = Field(
         "five-bar",
-        description="Which of the tables five_bar and four_bar counts; the other one stays as it is.",
+        description="Which of the tables five_bar and four_bar is used. The other table is not allowed.",
         json_schema_extra=FIRST,
     )
     radius: Millimetres = Field(

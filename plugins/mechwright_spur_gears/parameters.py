@@ -115,9 +115,9 @@ class SpurGearParams(Parameters):
     )
     shift_rule: Literal["no-undercut", "equal-sliding"] | None = Field(
         None,
-        description="How shifts of two gears that are left out are chosen. no-undercut, if it is left out: "
-        "none, or the least without undercut; of a sum that the centre distance asks for, more for the "
-        "smaller gear. equal-sliding: the same sum, shared so that the feet of both flanks slide alike.",
+        description="Choice of the shifts of two gears, where the table states none. no-undercut (default): "
+        "none, or the least without undercut; the smaller gear gets more of a sum that the centre distance "
+        "needs. equal-sliding: the same sum, shared so that the feet of both flanks slide alike.",
     )
     addendum: Ratio = Field(
         1.0, ge=0.5, le=1.3, description="Tooth height over the rack's pitch line, modules."
@@ -157,14 +157,14 @@ class SpurGearParams(Parameters):
     )
     planet_spacing: Literal["equal", "nearest"] | None = Field(
         None,
-        description="equal, if it is left out: planets stand at equal angles. nearest: at the angles next to "
-        "them at which they mesh.",
+        description="equal (default): planets stand at equal angles. nearest: at the angles next to them at "
+        "which they mesh.",
     )
     fixed_member: Member | None = Field(
-        None, description="What stands still. Default: the ring.", json_schema_extra=FITTED
+        None, description="Member that stands still. Default: the ring.", json_schema_extra=FITTED
     )
     driving_member: Member | None = Field(
-        None, description="What is driven from outside. Default: the sun.", json_schema_extra=FITTED
+        None, description="Member that is driven from outside. Default: the sun.", json_schema_extra=FITTED
     )
     pin_diameter: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None,

@@ -81,9 +81,7 @@ def test_gears_are_as_wide_as_their_teeth_want(given):
     assert used > 0.9
     assert not errors_of(found)
     chosen = [one.message for one in FAMILY.check(found) if one.code == "five-bar.chosen"]
-    assert chosen == [
-        f"left out, and chosen as the rest of the design wants it: gear_thickness = {found.gear_thickness:g}"
-    ]
+    assert chosen == [f"defaults chosen for this design: gear_thickness = {found.gear_thickness:g}"]
 
 
 def test_many_have_gears_as_wide_as_each_by_itself():

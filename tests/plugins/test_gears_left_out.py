@@ -90,7 +90,7 @@ def test_one_key_that_is_given_is_not_the_mistake_of_one_that_is_not(family, giv
 
 def test_a_note_tells_what_was_chosen():
     said = [one.message for one in EllipticGears().check(EllipticGearParams(eccentricity=0.64, bore=8))]
-    assert "left out, and chosen as the rest of the design wants it: teeth = 26" in said
+    assert "defaults chosen for this design: teeth = 26" in said
     assert not any(one.code == "gear.chosen" for one in EllipticGears().check(EllipticGearParams()))
 
 

@@ -131,7 +131,7 @@ class SecondSide(Parameters):
     )
     flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
     locate: Literal["bore", "edges", "dowels"] = Field(
-        "bore", description="What X0 Y0 is measured from: the largest bore, the plate's edges, or two dowels."
+        "bore", description="Reference of X0 Y0: the largest bore, the plate's edges, or two dowels."
     )
     dowel_diameter: Millimetres = Field(
         6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."

@@ -49,7 +49,7 @@ class Posting(Parameters):
     exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
     offsets: bool = Field(False, description="Write the measured offsets into the program (G10).")
     d_value: Literal["radius", "diameter"] = Field(
-        "radius", description="What Fanuc and Haas keep in a D offset; LinuxCNC and Mach3 keep the diameter."
+        "radius", description="Content of a D offset of Fanuc and Haas; LinuxCNC and Mach3 keep the diameter."
     )
     tool_change: ToolChange | None = Field(
         None,

@@ -86,7 +86,7 @@ class Tool(Parameters):
 
     name: str = Field(min_length=1, max_length=40, pattern=r"^[a-z0-9][a-z0-9_.-]*$", description="Its name.")
     number: int = Field(ge=1, le=9999, description="T number; the length offset H is the same.")
-    kind: ToolKind = Field(description="What it is.")
+    kind: ToolKind = Field(description="Kind of tool.")
     diameter: Millimetres = Field(gt=0, le=100, description="Cutting diameter.")
     flutes: int = Field(2, ge=1, le=12, description="Number of cutting edges.")
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
@@ -136,7 +136,7 @@ class Tool(Parameters):
         40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
     )
     holder: str = Field("", max_length=40, description="Its holder, as the setup sheet names it.")
-    purpose: str = Field("", max_length=80, description="What it is for, as lists and sheets say it.")
+    purpose: str = Field("", max_length=80, description="Purpose, as lists and sheets print it.")
     wear_length: Millimetres = Field(
         0.0, ge=-2, le=2, description="Wear of its length, below 0 for one that is shorter than measured."
     )
@@ -146,7 +146,7 @@ class Tool(Parameters):
     life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
         None, description="Minutes in cut after which an edge is worn."
     )
-    substrate: Literal["carbide", "hss"] = Field("carbide", description="What it is made of.")
+    substrate: Literal["carbide", "hss"] = Field("carbide", description="Material of the cutting edge.")
     coating: str = Field("", max_length=20, description="Its coating, as the setup sheet names it.")
     length: Millimetres | None = Field(
         None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."

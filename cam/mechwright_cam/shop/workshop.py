@@ -70,4 +70,4 @@ class Workshop(Parameters):
     pins: tuple[Annotated[Millimetres, Field(gt=0, le=50)], ...] = Field(
         (), max_length=50, description="Diameters of the dowel pins that are kept; empty: all."
     )
-    prefer: Prefer = Field(Prefer(), description="What holds where a design file says nothing.")
+    prefer: Prefer = Field(Prefer(), description="Values for design files that do not state their own.")

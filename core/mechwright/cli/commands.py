@@ -92,7 +92,8 @@ class New(Command):
             typer.Option(
                 "--from",
                 metavar="SOURCE",
-                help="What it begins with: an entry of the family's catalogue, or a file that it reads.",
+                help="Start of the design: an entry of the family's catalogue, or a file that the family "
+                "reads.",
             ),
         ] = "",
         everything: Annotated[
@@ -167,7 +168,7 @@ class Check(Command):
         ] = False,
         as_json: AsJson = False,
         tolerances: Annotated[
-            bool, typer.Option("--tolerances", help="What tolerances do: sensitivities, worst case, yield.")
+            bool, typer.Option("--tolerances", help="Effect of tolerances: sensitivities, worst case, yield.")
         ] = False,
         workers: Workers = None,
     ) -> None:

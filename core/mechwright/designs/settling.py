@@ -137,7 +137,7 @@ def _open(key: str, design: _Open) -> bool:
 def told(chosen: Mapping[str, Any]) -> Finding:
     """What was chosen."""
     said = ", ".join(f"{key.removeprefix('parameters.')} = {_shown(value)}" for key, value in chosen.items())
-    return Finding.note(CHOSEN, f"left out, and chosen as its frame or chain wants it: {said}")
+    return Finding.note(CHOSEN, f"defaults chosen for the frame or the chain: {said}")
 
 
 def _shown(value: Any) -> str:

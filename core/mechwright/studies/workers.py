@@ -234,7 +234,7 @@ class Cluster:
                 if time.monotonic() >= end:
                     said = f"; it had ended: {why}" if why else ""
                     raise PluginError(
-                        f"--scheduler: {self.address}: nobody answers within {seconds:g} s{said}"
+                        f"--scheduler: {self.address}: no scheduler answers within {seconds:g} s{said}"
                     ) from error
                 time.sleep(0.5)
 

@@ -262,7 +262,7 @@ LOADS = all_of(
 NOTES = all_of(
     Note(
         "follower.fitted",
-        lambda m: f"left out, and smaller than usual so that walls stay: {_smaller(m)}",
+        lambda m: f"defaults reduced so that walls stay: {_smaller(m)}",
         when=_smaller,
     ),
     *map(_size_note, range(2)),

@@ -70,7 +70,7 @@ class StandTable(Parameters):
     motor_flange: Annotated[float, Field(ge=20, le=300), Unit("mm")] | None = Field(
         None,
         description="Side of the square of screws in a flange about the input axis, on which a motor goes; "
-        "both fixed axes then have bushes. Left out, there is none.",
+        "both fixed axes then have bushes. Default: there is none.",
     )
     screw: Millimetres = Field(6.6, ge=1, le=50, description="Diameter of the screw holes in the base plate.")
 

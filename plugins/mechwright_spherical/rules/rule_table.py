@@ -33,7 +33,7 @@ def _sizes(m: SphericalTable) -> Iterator[Finding]:
     other = [name for name in NAMES if name in out and getattr(own, name) != getattr(USUAL, name)]
     if other:
         said = ", ".join(f"hardware.{name} = {getattr(own, name):g}" for name in other)
-        said = f"left out, and chosen so that links and pins have room: {said}"
+        said = f"defaults chosen so that links and pins have room: {said}"
         yield Finding.note("spherical.sizes", said)
 
 

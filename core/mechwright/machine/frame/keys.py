@@ -18,7 +18,7 @@ class FrameKeys(Parameters):
     frame: FrameName = Field(
         "none",
         description=(
-            "What carries the shafts. plate: the mechanism's own ground plate, the motor behind it; plates: "
+            "Support of the shafts. plate: the mechanism's own ground plate, the motor behind it; plates: "
             "two bearing plates on pillars; base: either of them on legs over a base plate, with the motor."
         ),
         json_schema_extra=FIRST,

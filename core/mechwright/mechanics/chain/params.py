@@ -23,8 +23,8 @@ class StageTable(Parameters):
         0.0,
         ge=-3600,
         le=3600,
-        description="Angle of this stage's input, as its own channels count it, when the chain begins; left "
-        "out, 0, and of sectors what puts their swing into their travel.",
+        description="Angle of this stage's input, as its own channels count it, when the chain begins. "
+        "Default: 0, and for sectors the angle that puts their swing into their travel.",
         json_schema_extra=FITTED,
     )
     turned: Degrees = Field(

@@ -36,10 +36,10 @@ class FigureLimit(Parameters):
         description='As solve tells it, with the number of its stage: "1.pressure_angle_max", "2.index_time".'
     )
     least: Annotated[float, Field(ge=-1e12, le=1e12)] | None = Field(
-        None, description="It is at least this; angles in degrees."
+        None, description="Least value; angles in degrees."
     )
     most: Annotated[float, Field(ge=-1e12, le=1e12)] | None = Field(
-        None, description="It is at most this; angles in degrees."
+        None, description="Greatest value; angles in degrees."
     )
 
     @model_validator(mode="after")

@@ -139,4 +139,4 @@ def chosen(code: str, params: Parameters, usual: Mapping[str, float]) -> Iterato
     other = {name: getattr(params, name) for name in usual if name not in params.model_fields_set}
     said = ", ".join(f"{name} = {value:g}" for name, value in other.items() if value != usual[name])
     if said:
-        yield Finding.note(code, f"left out, and chosen as the rest of the design wants it: {said}")
+        yield Finding.note(code, f"defaults chosen for this design: {said}")

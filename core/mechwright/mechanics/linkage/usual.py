@@ -95,7 +95,7 @@ def told(code: str, usual: JointSizes, params: Parameters) -> Iterator[Finding]:
     ]
     if smaller:
         said = ", ".join(f"{name} = {getattr(params, name):g}" for name in smaller)
-        yield Finding.note(code, f"left out, and smaller than usual so that bores leave their rims: {said}")
+        yield Finding.note(code, f"defaults reduced so that bores leave their rims: {said}")
 
 
 def of_table(usual: JointSizes, params: Parameters, fits: Fits) -> dict[str, float]:
