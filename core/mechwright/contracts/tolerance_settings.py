@@ -50,7 +50,8 @@ class ToleranceSettings(Parameters):
     )
     length: Plus | None = Field(None, description="Of all lengths, plus and minus. Default: general.")
     angle: Angle | None = Field(
-        None, description="Of all angles of links, plus and minus. Default: by general, proof as fine."
+        None,
+        description="Of all angles of links, plus and minus. Default: general; fine where general is proof.",
     )
     centre: Plus | None = Field(
         None, description="Of distances between axes, plus and minus. Default: general."

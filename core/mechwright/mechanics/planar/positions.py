@@ -34,6 +34,7 @@ from mechwright.mechanics.planar.outer_joints import (
 from mechwright.mechanics.planar.rigid import BodyMotion, PointMotion, Turning
 
 NO_STEPS = range(0)
+"""Where every group has a closed form, no way has to be followed from the drawn pose."""
 
 
 @dataclass(frozen=True)
