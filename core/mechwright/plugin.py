@@ -3,6 +3,8 @@
 from mechwright.contracts.plugin import Plugin
 from mechwright.machine.inspection import MachineDrive
 from mechwright.machine.page import DrivePage
+from mechwright.machine.stack_inspection import AxialStacks
+from mechwright.machine.stacks_page import StacksPage
 from mechwright.machine.table import MachineTable
 from mechwright.pipeline.file_names import FileNames
 from mechwright.pipeline.tables import MotionTables
@@ -22,4 +24,6 @@ def mechwright_register() -> list[type[Plugin]]:
         MachineTable,
         MachineDrive,
         DrivePage,
+        AxialStacks,
+        StacksPage,
     ]

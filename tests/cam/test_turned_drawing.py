@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.part import Instance, Part
-from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, tube
+from mechwright.contracts.turned import EndThread, Groove, KeySeat, Length, Step, Turned, tube
 from mechwright.errors import GeometryError
 from mechwright_cad.sheet.frame import MARGIN, SHEETS
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
@@ -91,8 +91,24 @@ def test_every_length_says_what_it_measures():
         measured = (one.second[0] - one.first[0]) / sheet.scale
         assert float(one.text.text.split()[0]) == pytest.approx(measured, abs=6e-4)
         found[one.text.text] = one
-    # Shoulders, both ends of the seat, the groove, the whole length, and the width of the seat.
-    assert set(found) == {"9", "13", "20", "36", "53", "59", "65", "4 N9"}
+    # Shoulders, where the seat begins and its length, the groove, the whole length, and the seat's width.
+    words = {text.partition(" N9")[0] for text in found}
+    assert words == {"9", "13", "20", "16 (+0.2/0)", "53", "59", "65", "4"}
+    assert sum(" N9" in text for text in found) == 1
+
+
+def test_a_length_with_limits_is_measured_from_the_face_that_bears():
+    (groove,) = SHAFT.grooves
+    far = groove.at + groove.width
+    shoulders = Length("shoulder to shoulder", 9.0, 53.0, -0.05, 0.0)
+    loaded = Length("shoulder to far wall of the groove", 53.0, far, 0.0, 0.1)
+    sheet = drawn(replace(SHAFT, lengths=(shoulders, loaded)))
+    found = {one.text.text: (one.first[0], one.second[0]) for one in dimensions(sheet, "x")}
+    assert {"44 (0/-0.05)", f"{far - 53:g} (+0.1/0)", "9", "65"} <= set(found)
+    assert not {"53", f"{groove.at:g}"} & set(found), "what a length with limits places is not placed twice"
+    for one in dimensions(sheet, "x"):
+        measured = (one.second[0] - one.first[0]) / sheet.scale
+        assert float(one.text.text.split()[0]) == pytest.approx(measured, abs=6e-4)
 
 
 def test_every_diameter_is_said_with_its_fit():
@@ -137,6 +153,7 @@ def test_threads_in_the_ends_are_drawn_as_deep_as_they_are_and_named():
 
 @example(SHAFT)
 @example(PILLAR)
+@example(replace(SHAFT, lengths=(Length("a", 9.0, 53.0, -0.05, 0.0), Length("b", 53.0, 59.9, 0.0, 0.1))))
 @example(replace(SHAFT, seats=(*SHAFT.seats, KeySeat(0, 9, 3, 3.2)), note="Hardened 58 HRC"))
 @given(turned_parts)
 @settings(max_examples=40, deadline=None)

@@ -4,9 +4,11 @@ import math
 from itertools import pairwise
 
 import pytest
+from cadquery import Location, Vector
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.materials import material
+from mechwright.contracts.turned import KeySeat
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore
 from mechwright.standards.bearings import bearing, bearing_for, bearings, thinner
@@ -14,7 +16,7 @@ from mechwright.standards.bushes import bush_for, bushes
 from mechwright.standards.circlips import bore_circlip, bore_circlips, shaft_circlip, shaft_circlips
 from mechwright.standards.couplings import BORES, coupling_for, couplings
 from mechwright.standards.dowels import dowel, dowel_for, dowels
-from mechwright.standards.keys import RANGES, key
+from mechwright.standards.keys import RANGES, depth_tolerance, key, length_tolerance
 from mechwright.standards.motors import gear_motors, motor_face, motor_faces, steppers
 from mechwright.standards.screws import lengths, screw, screw_size, screw_sizes, washer
 from mechwright.standards.table import names, table
@@ -213,12 +215,32 @@ def test_keys_are_those_of_the_keyways():
         if size.width in RANGES:
             assert RANGES[int(size.width)][0] >= size.width
     found = key(key_for_bore(12).width, 16)
-    assert found.bought(12).designation == "DIN 6885 - B 4 x 4 x 16"
+    assert found.bought(12).designation == "DIN 6885 - A 4 x 4 x 16"
+    assert key(4, 16, "B").bought(12).designation == "DIN 6885 - B 4 x 4 x 16"
     assert key(25, 100) is None, "no lengths in the table"
 
 
-def test_a_key_stands_in_its_seat():
+def test_a_key_with_round_ends_fills_a_closed_seat_and_bears_a_width_less():
     found = key(4, 16)
+    assert (found.seat_length, found.bears) == (16, 12)
+    solid = found.bought(12).shape.solid()
+    assert solid.Volume() == pytest.approx(4 * (4 * 12 + math.pi * 4))
+    seat = KeySeat(7.0, found.seat_length, 4.0, 3.5).piece(6.0, 30.0).solid()
+    left = solid.moved(Location(Vector(0, 0, 7))).intersect(seat)
+    assert left.Volume() == pytest.approx(seat.Volume()), "nothing of the seat is left empty"
+
+
+@pytest.mark.parametrize(
+    ("width", "depth", "length", "over"), [(6, 0.1, 28, 0.2), (8, 0.2, 32, 0.3), (8, 0.2, 90, 0.5)]
+)
+def test_seats_of_keys_have_tolerances_of_depth_and_length(width, depth, length, over):
+    assert depth_tolerance(width) == depth
+    assert length_tolerance(length) == over
+
+
+def test_a_key_with_square_ends_stands_in_its_open_seat():
+    found = key(4, 16, "B")
+    assert (found.seat_length, found.bears) == (18, 16)
     solid = found.bought(12).shape.solid()
     box = solid.BoundingBox()
     assert (box.xmin, box.xmax) == pytest.approx((6 - 2.5, 6 - 2.5 + 4))

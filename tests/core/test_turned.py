@@ -4,6 +4,7 @@ import math
 import pickle
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,7 +13,7 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Shape, ring
-from mechwright.contracts.turned import Groove, KeySeat, Step, Turned, tube
+from mechwright.contracts.turned import Groove, KeySeat, Length, Step, Turned, tube
 from mechwright.errors import GeometryError
 from mechwright.geometry.keyway import Opening
 from mechwright.standards.parts import dowel_part, key_part
@@ -74,10 +75,31 @@ def test_a_cone_may_end_in_a_point():
 
 def test_a_key_seat_takes_a_slot_with_a_flat_floor():
     plain = Turned((Step(12.0, 30.0),))
-    cut = replace(plain, seats=(KeySeat(10.0, 20.0, 4.0, 3.5),))
-    r, half = 6.0, 2.0
-    slot = half * math.sqrt(r * r - half * half) + r * r * math.asin(half / r) - 4.0 * 3.5
-    assert plain.shape.solid().Volume() - cut.shape.solid().Volume() == pytest.approx(20 * slot, rel=1e-9)
+    r, half, floor = 6.0, 2.0, 3.5
+    y, weights = np.polynomial.legendre.leggauss(400)
+    deep, end = np.sqrt(r * r - (half * y) ** 2) - floor, np.sqrt(half * half - (half * y) ** 2)
+    for at, round_ends in ((10.0, 1), (5.0, 2)):
+        cut = replace(plain, seats=(KeySeat(at, 20.0, 4.0, floor),))
+        straight = 20 - round_ends * half
+        taken = half * (weights * deep * (straight + round_ends * end)).sum()
+        assert plain.shape.solid().Volume() - cut.shape.solid().Volume() == pytest.approx(taken, rel=1e-5)
+
+
+def test_a_length_with_limits_goes_from_edge_to_edge():
+    groove = Groove(40.0, 0.9, 7.6)
+    wall = Length("shoulder to far wall of the groove", 33.0, 40.9, 0.0, 0.1)
+    made = replace(SHAFT, grooves=(groove,), lengths=(wall,))
+    assert made.length_of(wall.name).nominal == 7.9
+    moved = made.lengthened(3.0).lengths[0]
+    assert (moved.low, moved.high, moved.nominal) == (36.0, 43.9, 7.9)
+    with pytest.raises(GeometryError, match="no length 'hub'; it has: shoulder"):
+        made.length_of("hub")
+    with pytest.raises(
+        GeometryError, match="ends at 40.5 mm, where the part has no edge; edges: 0, 9, 13, 33"
+    ):
+        replace(made, lengths=(replace(wall, high=40.5),))
+    with pytest.raises(GeometryError, match="the lower one comes first"):
+        replace(made, lengths=(replace(wall, lower=0.2),))
 
 
 @pytest.mark.parametrize(
@@ -135,6 +157,7 @@ def test_what_no_standard_has_is_made():
     assert odd.kind == "turned"
     assert odd.turned.steps[0].fit.text == "4 m6 (+0.004/+0.012)"
     standard, plain = Opening(12, 4, 1.8), Opening(12, 3.5, 2.0)
+    # The seats of these keys are open at the end of their shaft.
     assert key_part("key", standard, 10, (), steel).bought.designation == "DIN 6885 - B 4 x 4 x 10"
     cut = key_part("key", plain, 10, (), steel)
     assert cut.kind == "solid"

@@ -121,6 +121,8 @@ def _note(feature: Feature) -> str:
     """What the plan view cannot show of a recess."""
     radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
     round_ = f", floor radius R{radius:g}" if radius > 0 else ""
+    if isinstance(feature, Bore) and feature.depth_limits is not None:
+        return f"{feature.name}: {feature.depth_text} mm deep".replace("±", "%%p")
     if feature.top > 0:
         down = f"from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
         return f"{feature.name}: {down}{round_}"

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from mechwright.contracts.part import Part
-from mechwright.contracts.turned import KeySeat, Turned
+from mechwright.contracts.turned import KeySeat, Length, Turned
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
@@ -33,7 +33,7 @@ class _Plan:
     """What a sheet has to hold: names of labels, lengths from the base line, cuts through seats."""
 
     labels: tuple[tuple[float, float, str], ...]
-    lengths: tuple[float, ...]
+    lengths: tuple[tuple[float, float, str], ...]
     seats: tuple[KeySeat, ...]
 
     @classmethod
@@ -50,20 +50,49 @@ class _Plan:
         for thread in turned.threads:
             at = 0.0 if thread.end == "lower" else turned.length
             found.append((at, thread.core, words.of_thread(thread)))
-        ends = {turned.length, *turned.starts[1:]}
-        ends |= {groove.at for groove in turned.grooves}
-        for seat in turned.seats:
-            ends |= {seat.at, seat.at + seat.length}
-        kept = sorted(round(end, 6) for end in ends if end > 0)
-        return cls(tuple(found), tuple(dict.fromkeys(kept)), _different(turned.seats))
+        return cls(tuple(found), tuple(_lengths(turned)), _different(turned.seats))
 
     def size(self, turned: Turned, scale: float) -> tuple[float, float]:
         """Width and height of all views with their dimensions, mm of the sheet."""
         texts = max(width_of(text) + scale * at for at, _, text in self.labels)
+        # The text of a short length stands to the right of it.
+        texts = max(texts, *(scale * high + 2 * ROW + width_of(text) for _, high, text in self.lengths))
         long = max(scale * turned.length, texts) + 2 * ROW + OVERHANG
         cut = _beside(turned, scale) if self.seats else 0.0
         high = labels_height(len(self.labels)) + scale * turned.greatest + rows_height(len(self.lengths))
         return long + len(self.seats) * cut, high
+
+
+def _lengths(turned: Turned) -> list[tuple[float, float, str]]:
+    """Both ends of every length and its text, the shortest first.
+
+    A length with limits of its own goes from edge to edge, and places one of both. Every edge that no such
+    length places is measured from the foot.
+    """
+    ends = {turned.length, *turned.starts[1:], *(groove.at for groove in turned.grooves)}
+    found = []
+    for seat in turned.seats:
+        closed = seat.at > 0 and seat.at + seat.length < turned.length
+        ends.add(seat.at if closed else seat.at or seat.length)
+        if closed:
+            text = words.of_seat_length(seat, turned.length)
+            found.append((seat.at, seat.at + seat.length, text))
+    open_ends = {round(end, 6) for end in ends if end > 0}
+    for one in turned.lengths:
+        found.append((one.low, one.high, one.text))
+        open_ends.discard(_placed_by(one, turned, open_ends))
+    found += [(0.0, end, words.number(end)) for end in open_ends]
+    return sorted(found, key=lambda one: (round(one[1] - one[0], 6), one))
+
+
+def _placed_by(one: Length, turned: Turned, open_ends: set[float]) -> float:
+    """The edge, of those measured from the foot, that a length with limits places instead."""
+    walls = {round(g.at + g.width, 6): round(g.at, 6) for g in turned.grooves}
+    for end in (one.high, one.low):
+        edge = walls.get(round(end, 6), round(end, 6))
+        if edge in open_ends:
+            return edge
+    return 0.0
 
 
 _AT_A_CONE = 0.9
@@ -126,11 +155,13 @@ def turned_sheet(part: Part, design: str = "") -> Sheet:
         round(at + step.length, 6): step.diameter / 2
         for at, step in zip(turned.starts, turned.steps, strict=True)
     }
-    for row, end in enumerate(plan.lengths, start=0):
-        foot = (left, axis - scale * radius[0.0])
-        at = (left + scale * end, axis - scale * radius.get(end, _radius(turned, end)))
+    for row, (low, high, text) in enumerate(plan.lengths):
+        foot, at = (
+            (left + scale * end, axis - scale * radius.get(round(end, 6), _radius(turned, end)))
+            for end in (low, high)
+        )
         y = axis - scale * turned.greatest / 2 - FREE - ROW * row
-        length(sheet, foot, at, y, words.number(end))
+        length(sheet, foot, at, y, text)
     x = wide - MARGIN - EDGE - beside - len(plan.seats) * _beside(turned, scale)
     for seat in plan.seats:
         _cut(sheet, turned, seat, (x + _to_middle(turned, scale), axis))
@@ -165,9 +196,8 @@ def _cut(sheet: Sheet, turned: Turned, seat: KeySeat, centre: Point) -> None:
     top = centre[1] + sheet.scale * step / 2
     y = top + ROW
     sheet.add(Text((centre[0], y + 2 * ROW), _CUT, "TEXT", align="middle"))
-    length(sheet, (left[0], left[1] + 2.0), (right[0], right[1] + 2.0), y, f"{words.number(seat.width)} N9")
-    across_floor = step / 2 + seat.floor
-    deep = f"{words.number(across_floor)} (0/-{'0.1' if seat.width <= 6 else '0.2'})"
+    length(sheet, (left[0], left[1] + 2.0), (right[0], right[1] + 2.0), y, words.of_seat_width(seat))
+    deep = words.of_seat_depth(seat, step)
     upright(sheet, (floor[0], floor[1]), opposite, centre[0] + sheet.scale * step / 2 + ROW, deep)
 
 

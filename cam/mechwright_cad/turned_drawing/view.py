@@ -40,11 +40,25 @@ def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
             sheet.lines([(x0, axis + half), (x0 + deep, axis + half)], "HATCH")
             sheet.lines([(x0 + deep, axis - half), (x0 + deep, axis + half)], "HATCH")
     for seat in turned.seats:
-        x0, x1, half = left + s * seat.at, left + s * (seat.at + seat.length), s * seat.width / 2
-        sheet.lines(
-            [(x0, axis - half), (x1, axis - half), (x1, axis + half), (x0, axis + half), (x0, axis - half)]
-        )
+        sheet.lines([(left + s * z, axis + s * y) for z, y in _mouth(seat, turned.length)])
     sheet.lines([(left - OVERHANG, axis), (end + OVERHANG, axis)], "CENTRE")
+
+
+def _mouth(seat: KeySeat, part: float) -> list[Point]:
+    """The closed line (z, y) of a key seat seen from its open side, half circles at its closed ends."""
+    half, (lower, upper) = seat.width / 2, seat.piece(1.0, part).round_ends
+    low, high = seat.at, seat.at + seat.length
+    line = (
+        list(_arc((high - half, 0.0), half, -math.pi / 2, math.pi / 2))
+        if upper
+        else [(high, -half), (high, half)]
+    )
+    line += (
+        list(_arc((low + half, 0.0), half, math.pi / 2, 3 * math.pi / 2))
+        if lower
+        else [(low, half), (low, -half)]
+    )
+    return [*line, line[0]]
 
 
 def _edges(corners: list[Point]) -> list[Point]:

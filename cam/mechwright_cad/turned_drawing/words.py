@@ -3,7 +3,10 @@
 import re
 
 from mechwright.contracts.fits import signed
-from mechwright.contracts.turned import EndThread, Groove, Step, Turned
+from mechwright.contracts.limits import limits
+from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned
+from mechwright.errors import DesignError
+from mechwright.standards.keys import depth_tolerance, length_tolerance
 
 FINE, FAIR, PLAIN = "Ra 0.8", "Ra 1.6", "Ra 3.2"
 """Roughness of seats that are pressed, of those that turn or slide, and of all else, µm."""
@@ -41,6 +44,27 @@ def of_groove(groove: Groove) -> str:
     """The diameter and width of a groove."""
     limits = f" (0/{signed(-groove.under)})" if groove.under else ""
     return f"⌀{number(groove.diameter)}{limits}, {number(groove.width)} H13 wide"
+
+
+def of_seat_width(seat: KeySeat) -> str:
+    """The width of a key seat with its class, and the limit deviations where the table of limits has them."""
+    try:
+        lower, upper = limits(seat.width, seat.limits)
+    except DesignError:
+        return f"{number(seat.width)} {seat.limits}"
+    return f"{number(seat.width)} {seat.limits} ({signed(upper / 1000)}/{signed(lower / 1000)})"
+
+
+def of_seat_depth(seat: KeySeat, step: float) -> str:
+    """What is left of a step's diameter under a seat, as it is measured."""
+    return f"{number(step / 2 + seat.floor)} (0/{signed(-depth_tolerance(seat.width))})"
+
+
+def of_seat_length(seat: KeySeat, part: float) -> str:
+    """The length of a seat over all, mm; that of a closed one is its key's and has the key's tolerance."""
+    closed = seat.at > 0 and seat.at + seat.length < part
+    limits_of = f" (+{number(length_tolerance(seat.length))}/0)" if closed else ""
+    return f"{number(seat.length)}{limits_of}"
 
 
 def of_bore(turned: Turned) -> str:

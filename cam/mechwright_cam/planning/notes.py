@@ -59,6 +59,11 @@ def notes(
         for f in job.features
         if isinstance(f, Bore) and f.fit
     ]
+    lines += [
+        f"{f.name}: {f.depth_text.replace('±', '+-')}{' mm' if to.units == 'inch' else ''} deep"
+        for f in job.features
+        if isinstance(f, Bore) and f.depth_limits is not None
+    ]
     if job.jaws:
         low, _, high, _ = job.jaws[0].face.bounds
         axis = "X"

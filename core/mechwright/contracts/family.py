@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mechwright.arrays import Array
     from mechwright.contracts.answers import Evaluated, Findings, Parts, WholeMotion
     from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.evaluation import Batch
     from mechwright.contracts.figure import Figure, PartMass
@@ -166,6 +167,13 @@ class Family(Plugin, Generic[P]):
             ``"parameters.bore: gears without a bore have no shafts; set bore = 10"``.
         """
         return None
+
+    def stacks(self, params: P) -> "Sequence[AxialStack]":  # noqa: ARG002 - used by some
+        """Axial stacks of its own parts, each a closed loop of lengths with the play that is meant.
+
+        It is asked of a design whose ``check`` finds no error. The default says that there are none.
+        """
+        return ()
 
     def transmission(self, params: P) -> "Transmission | None":  # noqa: ARG002 - used by some
         """The mechanism as a stage of a chain, whose input another stage may turn.

@@ -11,7 +11,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.materials import material
 from mechwright.contracts.moments import moments, prism
 from mechwright.contracts.part import Part
-from mechwright.contracts.shape import Prism, Revolve, Shape
+from mechwright.contracts.shape import Prism, Revolve, Shape, Slot
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
 
@@ -70,6 +70,8 @@ def _volume_moments(part: Part, solid: "Callable[[Part], cq.Solid]") -> Array:
 def _plain(shape: Shape) -> bool:
     """Whether a shape is a full turn of a profile, also less a hole that lies wholly in it, or one prism."""
     if len(shape.pieces) > 1 or len(shape.less) > 1:
+        return False
+    if any(isinstance(one, Slot) for one in (*shape.pieces, *shape.less)):
         return False
     piece = shape.pieces[0]
     if not shape.less:

@@ -20,7 +20,7 @@ from mechwright.contracts.guard import later
 from mechwright.contracts.measure import Measure
 from mechwright.contracts.result import maker
 from mechwright.contracts.shape import Shape
-from mechwright.contracts.turned import Turned
+from mechwright.contracts.turned import Turned, limited
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
 from mechwright.geometry.segments import Point, Segment
@@ -95,6 +95,8 @@ class Bore:
     """A round hole.
 
     With a ``fit`` the diameter is the middle of its tolerance; drawing and program note its limits.
+    ``depth_limits`` are the lower and the upper limit deviation of the depth of a blind one, mm. Without them
+    its depth has the general tolerance.
     """
 
     name: str
@@ -103,6 +105,18 @@ class Bore:
     top: float
     depth: float
     fit: Fit | None = None
+    depth_limits: tuple[float, float] | None = None
+
+    @property
+    def depth_text(self) -> str:
+        """Depth with its limit deviations, as a drawing notes it.
+
+        >>> Bore("seat", (0, 0), 22, 0, 7, None, (-0.025, 0.025)).depth_text
+        '7 ±0.025'
+        """
+        if self.depth_limits is None:
+            return f"{self.depth:g}"
+        return limited(self.depth, *self.depth_limits)
 
 
 @dataclass(frozen=True)

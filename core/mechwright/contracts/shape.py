@@ -51,6 +51,43 @@ class Prism:
 
 
 @dataclass(frozen=True)
+class Slot(Prism):
+    """An upright box whose lower and upper end may be half circles across y, as an end mill leaves them.
+
+    The corners are those of the box; ``round_ends`` says which of both ends is round.
+    """
+
+    round_ends: tuple[bool, bool] = (True, True)
+
+    def solid(self) -> "cq.Solid":
+        """By the CAD kernel."""
+        import cadquery as cq
+
+        xs, ys = zip(*self.corners, strict=True)
+        x, middle, half = min(xs), (min(ys) + max(ys)) / 2, (max(ys) - min(ys)) / 2
+        low, high = (
+            end + inwards * half * is_round
+            for end, inwards, is_round in zip((self.low, self.high), (1, -1), self.round_ends, strict=True)
+        )
+
+        def at(y: float, z: float) -> "cq.Vector":
+            return cq.Vector(x, middle + y, z)
+
+        def end(first: float, straight: float, tip: float) -> "cq.Edge":
+            if straight == tip:
+                return cq.Edge.makeLine(at(first, straight), at(-first, straight))
+            return cq.Edge.makeThreePointArc(at(first, straight), at(0.0, tip), at(-first, straight))
+
+        edges = [
+            end(-half, low, self.low),
+            cq.Edge.makeLine(at(half, low), at(half, high)),
+            end(half, high, self.high),
+            cq.Edge.makeLine(at(-half, high), at(-half, low)),
+        ]
+        return cq.Solid.extrudeLinear(cq.Wire.assembleEdges(edges), [], cq.Vector(max(xs) - x, 0, 0))
+
+
+@dataclass(frozen=True)
 class Shape:
     """Pieces put together, less others.
 
@@ -70,6 +107,9 @@ class Shape:
         """The same upside down: what pointed up points down."""
 
         def over(piece: Revolve | Prism) -> Revolve | Prism:
+            if isinstance(piece, Slot):
+                lower, upper = piece.round_ends
+                return Slot(piece.corners, -piece.high, -piece.low, (upper, lower))
             if isinstance(piece, Prism):
                 return Prism(piece.corners, -piece.high, -piece.low)
             return Revolve(tuple((r, -z) for r, z in piece.profile[::-1]), piece.axis, piece.sweep)
@@ -111,3 +151,15 @@ def hexagon(across: float, low: float, high: float) -> Prism:
 def box(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Prism:
     """A box between two values of each coordinate, mm."""
     return Prism(((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])), *z)
+
+
+def slot(
+    x: tuple[float, float], width: float, z: tuple[float, float], round_ends: tuple[bool, bool] = (True, True)
+) -> Slot:
+    """A slot about y = 0 between two values of x and of z, mm; see :class:`Slot`.
+
+    >>> round(slot((0, 1), 4, (0, 10)).solid().Volume() - 4 * 6 - math.pi * 4, 9)
+    0.0
+    """
+    half = width / 2
+    return Slot(box(x, (-half, half), z).corners, *z, round_ends)

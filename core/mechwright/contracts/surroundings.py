@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.joint import GROUND, Joint, Vector
 from mechwright.contracts.motion import Motion, Poses, Rates
@@ -47,11 +48,14 @@ class Surroundings:
         Bodies that the parts are instances of, beside those of the motion.
     findings
         What there is to say of them: of the stage ``parts``.
+    stacks
+        Axial stacks of these parts, each with the play that is meant.
     """
 
     parts: tuple[Part, ...] = ()
     places: Mapping[str, Place] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
+    stacks: tuple[AxialStack, ...] = ()
 
     def around(self, motion: Motion) -> Motion:
         """The motion with the places as bodies, each fixed to what it stands on.

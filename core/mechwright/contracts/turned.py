@@ -7,16 +7,20 @@ step
 groove
     A ring cut into a step, such as a circlip's.
 key seat
-    A slot along the axis with a flat floor, on the side of +x; where it reaches the end of the part it is
-    open there.
+    A slot along the axis with a flat floor, on the side of +x. It is milled by a cutter of its own width, so
+    its ends are half circles; where it reaches the end of the part it is open there.
+length
+    From one edge of the part to another, with limits of its own. It decides a stack, so it is measured from
+    the face that bears: the loaded wall of a circlip's groove, the shoulder of a bearing.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
-from mechwright.contracts.fits import Fit
-from mechwright.contracts.shape import Revolve, Shape, box, ring
+from mechwright.contracts.fits import Fit, signed
+from mechwright.contracts.shape import Revolve, Shape, Slot, ring, slot
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
@@ -60,12 +64,58 @@ class Groove:
 
 @dataclass(frozen=True)
 class KeySeat:
-    """A seat from ``at`` upwards, mm: its length, width, and the x of its ``floor``."""
+    """A seat from ``at`` upwards, mm: its length over all, width, and the x of its ``floor``.
+
+    ``limits`` is the tolerance class of its width.
+    """
 
     at: float
     length: float
     width: float
     floor: float
+    limits: str = "N9"
+
+    def piece(self, x: float, part: float) -> Slot:
+        """What the cutter takes, out to x, of a part of that length, mm: half circles but at an open end."""
+        top = self.at + self.length
+        round_ends = (self.at > TOLERANCES.closure, top < part - TOLERANCES.closure)
+        return slot((self.floor, x), self.width, (self.at, top), round_ends)
+
+
+@dataclass(frozen=True)
+class Length:
+    """A length from ``low`` to ``high``, both edges of the part, mm, with its limit deviations.
+
+    ``name`` says what it is in the stack that it decides.
+    """
+
+    name: str
+    low: float
+    high: float
+    lower: float
+    upper: float
+
+    @property
+    def nominal(self) -> float:
+        """Mm."""
+        return round(self.high - self.low, 6)
+
+    @property
+    def text(self) -> str:
+        """With its limit deviations, as a drawing notes it."""
+        return limited(self.nominal, self.lower, self.upper)
+
+
+def limited(nominal: float, lower: float, upper: float) -> str:
+    """A size with its limit deviations, as a drawing notes it.
+
+    >>> limited(22.8, -0.05, 0.0), limited(20, -0.02, 0.02)
+    ('22.8 (0/-0.05)', '20 ±0.02')
+    """
+    shown = f"{round(nominal, 3):g}"
+    if math.isclose(upper, -lower):
+        return f"{shown} ±{upper:g}"
+    return f"{shown} ({signed(upper)}/{signed(lower)})"
 
 
 TAP_RUN = 3.0
@@ -119,12 +169,14 @@ class Turned:
         A line more on its drawing.
     threads
         In its ends; of a part without a bore.
+    lengths
+        Lengths with limits of their own, each from edge to edge; all others have the general tolerance.
 
     Raises
     ------
     GeometryError
         A size is not above 0, threads meet or leave no wall, a groove or seat lies outside of the part or
-        cuts nothing, or the bore or the chamfer is as large as a step.
+        cuts nothing, the bore or the chamfer is as large as a step, or a length ends at no edge.
 
     Examples
     --------
@@ -142,6 +194,7 @@ class Turned:
     note: str = ""
     threads: tuple[EndThread, ...] = ()
     tapped: bool = False
+    lengths: tuple[Length, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.steps or not all(step.diameter > 0 and step.length > 0 for step in self.steps):
@@ -180,6 +233,22 @@ class Turned:
                     f"a key seat {seat.width:g} mm wide with its floor at {seat.floor:g} mm cuts nothing, or "
                     f"the bore; the part has a radius of {self.greatest / 2:g} mm"
                 )
+        self._check_lengths()
+
+    def _check_lengths(self) -> None:
+        edges = self.edges
+        for one in self.lengths:
+            for end in (one.low, one.high):
+                if not any(math.isclose(end, edge, abs_tol=TOLERANCES.closure) for edge in edges):
+                    raise GeometryError(
+                        f"the length {one.name!r} ends at {end:g} mm, where the part has no edge; edges: "
+                        f"{', '.join(f'{edge:g}' for edge in edges)}"
+                    )
+            if not (one.low < one.high and one.lower <= one.upper):
+                raise GeometryError(
+                    f"the length {one.name!r} from {one.low:g} to {one.high:g} mm with limits {one.lower:g} "
+                    f"to {one.upper:g} mm; the lower one comes first"
+                )
 
     def _check_threads(self) -> None:
         deep = sum(thread.drilled for thread in self.threads)
@@ -207,6 +276,22 @@ class Turned:
         return tuple(sum(step.length for step in self.steps[:k]) for k in range(len(self.steps)))
 
     @property
+    def edges(self) -> tuple[float, ...]:
+        """Heights of all faces across the axis: ends, steps, walls of grooves, ends of key seats; mm."""
+        found = {*self.starts, self.length}
+        found |= {end for one in self.grooves for end in (one.at, one.at + one.width)}
+        found |= {end for one in self.seats for end in (one.at, one.at + one.length)}
+        return tuple(sorted(dict.fromkeys(round(one, 6) for one in found)))
+
+    def length_of(self, name: str) -> Length:
+        """The length of that name; raises GeometryError where there is none."""
+        for one in self.lengths:
+            if one.name == name:
+                return one
+        known = ", ".join(one.name for one in self.lengths) or "none"
+        raise GeometryError(f"a turned part has no length {name!r}; it has: {known}")
+
+    @property
     def length(self) -> float:
         """Mm."""
         return sum(step.length for step in self.steps)
@@ -223,6 +308,7 @@ class Turned:
             steps=(replace(first, length=first.length + more), *rest),
             grooves=tuple(replace(one, at=one.at + more) for one in self.grooves),
             seats=tuple(replace(one, at=one.at + more) for one in self.seats),
+            lengths=tuple(replace(one, low=one.low + more, high=one.high + more) for one in self.lengths),
         )
 
     @property
@@ -271,10 +357,7 @@ class Turned:
         return Shape(
             (body,),
             (
-                *(
-                    box((one.floor, wide), (-one.width / 2, one.width / 2), (one.at, one.at + one.length))
-                    for one in self.seats
-                ),
+                *(one.piece(wide, self.length) for one in self.seats),
                 *(thread.hole(self.length, screwed=screwed) for thread in self.threads),
             ),
         )

@@ -42,6 +42,7 @@ from mechwright.plugins.host import Host
 from mechwright.reading import once
 
 if TYPE_CHECKING:
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.surroundings import Surroundings
 
@@ -121,6 +122,12 @@ class Design:
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts
+
+    @property
+    def stacks(self) -> "tuple[AxialStack, ...]":
+        """The axial stacks of the mechanism and of what stands around it."""
+        around = (one for around in self.surroundings for one in around.stacks)
+        return (*self.family.stacks(self.params), *around)
 
     @cached_property
     def surroundings(self) -> "tuple[Surroundings, ...]":

@@ -17,10 +17,11 @@ from mechwright.machine.motors import Choice
 from mechwright.machine.outputs import fixed_to
 from mechwright.machine.settings import MachineSettings
 from mechwright.mechanics.strength.allowed import REVERSING_KEY, allowed
-from mechwright.mechanics.strength.fastening import key_pressure
+from mechwright.mechanics.strength.fastening import LONGEST_KEY, key_pressure
 from mechwright.mechanics.strength.shaft import least_diameter, von_mises
 from mechwright.pipeline.build import Build
 from mechwright.standards.couplings import coupling_for
+from mechwright.standards.keys import bearing_length
 
 SAFETY = 2.0
 """Of the endurance limit over the stress of torsion, for key seats, shoulders and unknown bending."""
@@ -92,13 +93,16 @@ def _key(key: Part, here: list[Part], shaft: Part, torque: float, *, reverses: b
     """Pressure on the hub's side of a key, in the weakest plate on the shaft."""
     assert key.bought is not None  # noqa: S101 - the caller looked
     assert shaft.turned is not None  # noqa: S101
-    width, _, length = (float(word) for word in key.bought.designation.rpartition(" B ")[2].split(" x "))
+    form, _, sizes = key.bought.designation.rpartition(" - ")[2].partition(" ")
+    width, _, length = (float(word) for word in sizes.split(" x "))
+    bears = bearing_length(length, width, "A" if form == "A" else "B")
+    bears = min(bears, LONGEST_KEY * shaft.turned.greatest)
     size = key_of_width(width)
     assert size is not None  # noqa: S101 - it is a standard key
     hubs = [part.material for part in here if part.kind == "plate"] or [shaft.material]
     hub = min(hubs, key=lambda name: allowed(name).key)
     limit = allowed(hub).key * (REVERSING_KEY if reverses else 1.0)
-    pressure = key_pressure(torque, shaft.turned.greatest, size.height - size.shaft_depth, length)
+    pressure = key_pressure(torque, shaft.turned.greatest, size.height - size.shaft_depth, bears)
     words = (
         f"the key {width:g} x {size.height:g} x {length:g} presses with {pressure:.3g} MPa on the {hub} of "
         f"its hub at {torque:.3g} N·m; {limit:g} are allowed"
@@ -106,7 +110,7 @@ def _key(key: Part, here: list[Part], shaft: Part, torque: float, *, reverses: b
     )
     if pressure <= limit:
         return Finding.note("machine.key-pressure", words, pressure, "MPa")
-    wanted = math.ceil(length * pressure / limit)
+    wanted = math.ceil(length - bears + bears * pressure / limit)
     return Finding.warning(
         "machine.key-pressure",
         "machine",

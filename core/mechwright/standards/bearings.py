@@ -8,6 +8,9 @@ from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
+_NARROWER = ((50.0, 0.12), (120.0, 0.15))
+"""Bores up to and including, and by how much a ring may be narrower than nominal, mm: ISO 492, Normal."""
+
 
 @dataclass(frozen=True)
 class Bearing:
@@ -51,6 +54,15 @@ class Bearing:
     def static(self) -> float:
         """Static load rating, N."""
         return 1000 * self.c0
+
+    @property
+    def narrower(self) -> float:
+        """By how much its width may be below the nominal one, mm.
+
+        >>> bearing("6000").narrower
+        0.12
+        """
+        return next(under for most, under in _NARROWER if self.bore <= most)
 
     @property
     def bought(self) -> Bought:

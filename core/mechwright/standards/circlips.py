@@ -19,6 +19,9 @@ from mechwright.standards.table import table
 YIELD = 200.0
 """Yield strength for which DIN 471 and 472 print the loads of grooves, MPa."""
 
+_THINNER = ((0.8, 0.05), (1.75, 0.06), (3.0, 0.07))
+"""Thicknesses up to and including, and by how much a ring may be thinner, mm; handbook."""
+
 _SHARE = 1.2
 """By how much the printed load of a groove is below yield on its area."""
 
@@ -63,6 +66,15 @@ class Circlip:
     def width(self) -> float:
         """Width m of the groove, H13."""
         return round(self.thickness + 0.1, 6)
+
+    @property
+    def thinner(self) -> float:
+        """By how much its thickness may be below the nominal one, mm.
+
+        >>> shaft_circlip(10).thinner, shaft_circlip(8).thinner
+        (0.06, 0.05)
+        """
+        return next(under for most, under in _THINNER if self.thickness <= most)
 
     @property
     def edge(self) -> float:

@@ -31,8 +31,11 @@ def dowel_part(
 def key_part(
     name: str, opening: Opening, length: float, instances: Sequence[Instance], colour: Colour = GREY
 ) -> Part:
-    """The key of a keyway on z = 0, ``length`` mm long: DIN 6885 where it is sold so, else cut from a bar."""
-    sold = key(opening.width, length)
+    """The key in a seat that is open at the end of its shaft, on z = 0, ``length`` mm long.
+
+    It is one of DIN 6885, form B, where that is sold in this length, else it is cut from a bar.
+    """
+    sold = key(opening.width, length, "B")
     if sold is not None:
         return Part(name, None, 0.0, STEEL, tuple(instances), colour, bought=sold.bought(opening.bore))
     x = (opening.bore / 2 - opening.seat_depth, opening.key_top)

@@ -114,11 +114,14 @@ def _running(diameter: float, length: float) -> Step:
 
 
 def _shaft(diameter: float, length: float, seat_length: float, opening: Opening | None) -> Turned:
-    """A cylinder; with a key seat over the upper ``seat_length``."""
+    """A cylinder; with a key seat whose straight sides are the upper ``seat_length``.
+
+    The seat is open at the top and ends below in the half circle of its mill.
+    """
     seats: tuple[KeySeat, ...] = ()
     if opening is not None:
-        floor = opening.bore / 2 - opening.seat_depth
-        seats = (KeySeat(length - seat_length, seat_length, opening.width, floor),)
+        floor, over_all = opening.bore / 2 - opening.seat_depth, seat_length + opening.width / 2
+        seats = (KeySeat(length - over_all, over_all, opening.width, floor),)
     return Turned((_running(diameter, length),), seats=seats)
 
 

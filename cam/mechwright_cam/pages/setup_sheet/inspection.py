@@ -57,7 +57,16 @@ def _listed(job: Job, to: Lengths) -> Iterator[Measured]:
                 nominal, least, greatest = (_text(value, to, 4) for value in (fit.size, low, high))
                 yield Measured(what, nominal, least, greatest, fit.name)
         if isinstance(feature, Bore | Pocket) and not _through(job, feature):
-            yield _general(f"{feature.name}, depth", feature.depth, to)
+            yield _depth(feature, to)
+
+
+def _depth(feature: Bore | Pocket, to: Lengths) -> Measured:
+    what, limits = f"{feature.name}, depth", feature.depth_limits if isinstance(feature, Bore) else None
+    if limits is None:
+        return _general(what, feature.depth, to)
+    sizes = (feature.depth, feature.depth + limits[0], feature.depth + limits[1])
+    nominal, least, greatest = (_text(value, to, 3) for value in sizes)
+    return Measured(what, nominal, least, greatest, "limits of the drawing")
 
 
 def _through(job: Job, feature: Feature) -> bool:

@@ -369,6 +369,12 @@ def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, 
     fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
     if fits:
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
+    deep = [f for f in job.features if isinstance(f, Bore) and f.depth_limits is not None]
+    if deep:
+        said = ", ".join(f"{f.name} {f.depth_text} mm" for f in deep)
+        lines.append(
+            f"Measure depths before the part comes off: {said}. Correct the tool's length for the last pass."
+        )
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
         sides, what = "", "parts" if isinstance(job.part, Nest) else "part"

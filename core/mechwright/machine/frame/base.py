@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from mechwright.contracts.bought import BlindThread, Bought
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
-from mechwright.contracts.turned import EndThread, Step, Turned
+from mechwright.contracts.turned import EndThread, Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.fixing import fixing, put_fixing
@@ -30,6 +30,9 @@ UNDER = 10.0
 
 FOOT = (20.0, 15.0, 6.0)
 """Diameter and height of a foot and the depth of its thread, mm: higher than a screw's head."""
+
+LEG = 0.05
+"""Limit deviations of the height of a leg, plus and minus, mm."""
 
 HOLE = 6.0
 """Of the base plate's screws, mm: a drill, for mills of the clearance's size do not reach through."""
@@ -125,6 +128,7 @@ def add_base(
     leg = Turned(
         (Step(PILLAR, under - top),),
         note=NOTE.replace("pillars", "legs"),
+        lengths=(Length("height of the legs", 0.0, under - top, -LEG, LEG),),
         threads=(
             EndThread("lower", SCREW, PITCH, fixing.length - thickness + SPARE),
             EndThread("upper", SCREW, PITCH, depth + SPARE),

@@ -11,13 +11,14 @@ from dataclasses import dataclass
 import shapely
 
 from mechwright.contracts.surroundings import OVER, Place, turned
-from mechwright.contracts.turned import EndThread, Step, Turned
+from mechwright.contracts.turned import EndThread, Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.coupled import (
     BESIDE,
     GAP,
     PLATE,
+    SHAFT_GAP,
     TURNS,
     Coupled,
     Motor,
@@ -33,6 +34,9 @@ from mechwright.machine.frame.standing import Disc, Standing
 from mechwright.standards.couplings import BORES, Coupling, coupling_for
 from mechwright.standards.motors import MotorFace
 from mechwright.standards.screws import screw, screw_size
+
+HEIGHT, BRACKET_HEIGHT = 0.05, "pillars of the bracket"
+"""Limit deviations of the height of its pillars, plus and minus, mm, and the name of that length."""
 
 WIDER = 40
 """Its square of pillars is tried up to so much wider than it need be, mm."""
@@ -119,7 +123,7 @@ def bracket_for(
     diameter, coupling = stub_for(bore, face.shaft, torque)
     long, size = coupling.of.length, screw_size(SCREW)
     low = under - GAP - long
-    stub = (diameter, (inner - width) - (low + long / 2))
+    stub = (diameter, (inner - width) - (low + long / 2 + SHAFT_GAP))
     least = least_half(face, coupling)
     head = size.counterbore / 2 + BESIDE
     for wider in range(WIDER):
@@ -186,8 +190,10 @@ def _add_pillars(kit: Kit, bracket: Bracket, seat: float, under: float) -> None:
         EndThread("lower", SCREW, PITCH, below.length - PLATE + SPARE),
         EndThread("upper", SCREW, PITCH, above.length - (seat - under) + SPARE),
     )
-    note = "all four to one length in one setting, ±0.05"
-    form = Turned((Step(PILLAR, under - bracket.top),), note=note, threads=threads)
+    height = under - bracket.top
+    length = Length(BRACKET_HEIGHT, 0.0, height, -HEIGHT, HEIGHT)
+    note = "all four to one length in one setting"
+    form = Turned((Step(PILLAR, height),), note=note, threads=threads, lengths=(length,))
     for k, point in enumerate(bracket.corners, start=1):
         body = f"motor-pillar-{k}"
         kit.places[body] = Place((*point, 0.0))

@@ -27,6 +27,10 @@ PLATE = 6.0
 GAP = 1.0
 """Between coupling and bearing plate, and over the heads of the motor's screws, mm."""
 
+SHAFT_GAP = 1.5
+"""By how much the driven shaft ends above the middle of the coupling, mm: both shafts keep half a millimetre
+apart with all tolerances, and either is in its hub by four fifths of the depth."""
+
 FLANGE = 5.0
 """Thickness of a flange with through holes, mm: NEMA 23 motors have 4.8 to 5."""
 
@@ -78,6 +82,11 @@ class Coupled:
         """A place of the motor's plate in the ground, mm."""
         c, s = math.cos(self.angle), math.sin(self.angle)
         return self.axis[0] + c * place[0] - s * place[1], self.axis[1] + s * place[0] + c * place[1]
+
+
+def coupling_below(end: float, long: float) -> float:
+    """Height of the lower end of a coupling of a length, mm, on a shaft that ends at a height."""
+    return end - long / 2 - SHAFT_GAP
 
 
 def face_below(face: MotorFace, low: float, long: float) -> float:
@@ -157,7 +166,9 @@ def add_motor(kit: Kit, coupled: Coupled, body: str) -> None:
     # Each shaft goes into half of the coupling, that of the motor as far as it is long enough.
     inside = coupled.face + coupled.motor.face.shaft_length - coupled.coupling_low
     empty = max(coupled.coupling.of.length / 2 - inside, 0.0)
-    kit.bought("coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low, play=empty)
+    kit.bought(
+        "coupling", coupled.coupling.bought, "motor-shaft", coupled.coupling_low, play=max(empty, SHAFT_GAP)
+    )
 
 
 def fasten_motor(kit: Kit, coupled: Coupled) -> None:

@@ -40,6 +40,7 @@ from mechwright.machine.frame.plates import (
     stock_for,
     thickness_for,
 )
+from mechwright.machine.frame.play import coupling_stack, shaft_stacks
 from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
@@ -61,7 +62,7 @@ def frame_around(
             said = [*strength(found, wanted)]
             if errors(said):
                 return Surroundings(findings=tuple(said))
-            return Surroundings(tuple(kit.parts.values()), kit.places, tuple(said))
+            return Surroundings(tuple(kit.parts.values()), kit.places, tuple(said), tuple(kit.stacks))
     except DesignError as error:
         return Surroundings(findings=(refusal("frame.design", "machine.frame", str(error)),))
     return Surroundings(findings=tuple(found))
@@ -205,11 +206,13 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     if keys.guard:
         add_guard(kit, standing, levels)
     for seat in frame.seats:
-        add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
+        shaft = add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
+        kit.stacks += shaft_stacks(seat, shaft, levels)
     _add_columns(kit, frame, keys, posts)
     if bracket is not None:
         body = frame.driver.spindle.body
         add_bracket(kit, bracket, body, (levels.lower, frame.under), material)
+        kit.stacks.append(coupling_stack(bracket, frame.driver, levels.lower, thickness))
     return kit
 
 

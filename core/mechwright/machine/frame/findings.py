@@ -145,7 +145,7 @@ def _joint(spindle: Spindle, torque: float) -> Iterator[Finding]:
     if key is None:
         yield from _bonded(spindle, torque)
         return
-    length = min(key.length, LONGEST_KEY * hub.bore)
+    length = min(key.bears, LONGEST_KEY * hub.bore)
     proud = key.size.height - key.size.shaft_depth
     pressure = key_pressure(torque, hub.bore, proud, length) if torque else 0.0
     most = REVERSING_KEY * allowed(hub.material).key

@@ -19,7 +19,7 @@ from mechwright.contracts.surroundings import OVER, Place, Surroundings, Turn
 from mechwright.errors import DesignError
 from mechwright.machine.frame.base import FOOT, HOLE, LEAST, MOST, SLENDER, add_foot, base_stock
 from mechwright.machine.frame.bracket import Bracket, add_bracket, least_half
-from mechwright.machine.frame.coupled import face_below, outline
+from mechwright.machine.frame.coupled import coupling_below, face_below, outline
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.findings import BOND, BOND_SAFETY
 from mechwright.machine.frame.ground_refusals import GroundError, plate_key_faults, refusal
@@ -121,7 +121,7 @@ def _bracket(flange: Flange, wanted: Wanted) -> Bracket | None:
         raise _fault(
             "frame.flange", flange.size_key, said, 2 * flange.half, 2.0 * least, "mm", remedy, change
         )
-    low = -flange.end - coupling.of.length / 2
+    low = coupling_below(-flange.end, coupling.of.length)
     stub = (flange.diameter, flange.end - flange.outer)
     motor_face = face_below(face, low, coupling.of.length)
     return Bracket(wanted.motor, coupling, (0.0, 0.0), 0.0, low, motor_face, flange.half, stub)

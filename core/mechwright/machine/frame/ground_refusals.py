@@ -13,7 +13,16 @@ from mechwright.contracts.mounting import GroundPlate
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.base import HOLE
-from mechwright.machine.frame.coupled import BESIDE, GAP, PLATE, TURNS, face_below, outline
+from mechwright.machine.frame.coupled import (
+    BESIDE,
+    GAP,
+    PLATE,
+    SHAFT_GAP,
+    TURNS,
+    coupling_below,
+    face_below,
+    outline,
+)
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.keys import FrameKeys
@@ -115,7 +124,7 @@ def coupling_on(ground: GroundPlate, wanted: Wanted) -> Coupling | None:
         coupling = coupling_for(wanted.motor.face.shaft, ground.diameter, wanted.torque)
     except OverloadError as error:
         raise GroundError(overloaded(error, wanted)) from error
-    have, need = ground.bare - ground.end, GAP + coupling.of.length / 2
+    have, need = ground.bare - ground.end, GAP + coupling.of.length / 2 - SHAFT_GAP
     if have < need:
         said = f"its coupling of {coupling.of.length:g} mm takes more"
         raise GroundError(longer(ground, said, need - have))
@@ -211,7 +220,7 @@ def _hanging(
     """Raises GroundError for what hangs beside the shaft where coupling and motor's plate are."""
     if wanted.motor is None or coupling is None:
         return
-    low = ground.end - coupling.of.length / 2
+    low = coupling_below(ground.end, coupling.of.length)
     plate = face_below(wanted.motor.face, low, coupling.of.length) + PLATE
     axis = shapely.Point(ground.axis)
     for one in pieces:

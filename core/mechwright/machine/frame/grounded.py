@@ -19,6 +19,7 @@ from mechwright.machine.frame.coupled import (
     PLATE,
     Coupled,
     add_motor,
+    coupling_below,
     face_below,
     fasten_motor,
     motor_holes,
@@ -70,7 +71,7 @@ def base_under(
         angle = foot_of(keys, ground, space, motion, wanted, coupling)
         coupled = None
         if wanted.motor is not None and coupling is not None:
-            low = ground.end - coupling.of.length / 2
+            low = coupling_below(ground.end, coupling.of.length)
             face = face_below(wanted.motor.face, low, coupling.of.length)
             coupled = Coupled(wanted.motor, coupling, ground.axis, angle, low, face)
         if keys.frame == "plate":

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.part import Colour, Feature, Instance, Part, Profile
 from mechwright.contracts.surroundings import Place
@@ -19,10 +20,11 @@ STEEL = "steel"
 
 @dataclass
 class Kit:
-    """Parts by name, each with its copies, and the places where they stand."""
+    """Parts by name, each with its copies, the places where they stand, and the stacks they make."""
 
     parts: dict[str, Part] = field(default_factory=dict)
     places: dict[str, Place] = field(default_factory=dict)
+    stacks: list[AxialStack] = field(default_factory=list)
 
     def put(self, part: Part, body: str, z: float) -> None:
         """A copy of a part in a body, its underside at the height z, mm."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.surroundings import OVER, Place
-from mechwright.contracts.turned import TAP_RUN, EndThread, Step, Turned
+from mechwright.contracts.turned import TAP_RUN, EndThread, Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.kit import Kit
@@ -34,7 +34,13 @@ SPARE = 0.5
 EDGE = 9.0
 """From a pillar's axis to the plate's edge, mm: one and a half pillars' radii, and as much as 1.5 threads."""
 
-NOTE = "all pillars to one length in one setting, ±0.05"
+NOTE = "all pillars to one length in one setting"
+
+HEIGHT = 0.02
+"""Limit deviations of the height of a pillar between its shoulders, plus and minus, mm."""
+
+BETWEEN = "height of the pillars"
+"""Name of that length."""
 
 PITCH = screw_size(SCREW).pitch
 
@@ -98,7 +104,8 @@ def pillar(height: float, lower: float, upper: float, *, spigot: bool) -> Turned
         EndThread("lower", SCREW, PITCH, more + lower + SPARE),
         EndThread("upper", SCREW, PITCH, more + upper + SPARE),
     )
-    return Turned((*ends, Step(PILLAR, height), *ends), note=NOTE, threads=threads)
+    between = Length(BETWEEN, more, more + height, -HEIGHT, HEIGHT)
+    return Turned((*ends, Step(PILLAR, height), *ends), note=NOTE, threads=threads, lengths=(between,))
 
 
 def put_screw(kit: Kit, what: Screw, body: str, z: float) -> None:

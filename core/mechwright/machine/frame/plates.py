@@ -5,7 +5,7 @@ that face. The lower plate stands as it is drawn, the upper one is turned over a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore
@@ -21,6 +21,9 @@ STOCK = (6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 60)
 
 FLOOR = 2.5
 """Least thickness behind a bearing, mm: the shoulder that it leans on."""
+
+SEAT_DEPTH = (-0.025, 0.025)
+"""Limit deviations of the depth of a bearing's seat, mm: the floats of the shafts depend on it."""
 
 CORNER = 9.0
 """Radius of a plate's corners, mm."""
@@ -61,6 +64,8 @@ class Hole:
     steps: tuple[tuple[float, float, float], ...]
     fit: bool = False
     """Whether the first one is made to H7."""
+    depth_limits: tuple[float, float] | None = None
+    """Limit deviations of the depth of the first one, mm; None for the general tolerance."""
 
     @classmethod
     def through(cls, name: str, point: Point, diameter: float, thickness: float) -> "Hole":
@@ -73,7 +78,8 @@ class Hole:
         for number, (diameter, top, depth) in enumerate(self.steps):
             fit = hole_fit(diameter, "H7") if self.fit and number == 0 else None
             name = self.name if number == 0 else f"{self.name}-through"
-            found.append(Bore(name, self.point, fit.middle if fit else diameter, top, depth, fit))
+            limits = self.depth_limits if number == 0 else None
+            found.append(Bore(name, self.point, fit.middle if fit else diameter, top, depth, fit, limits))
         return found[::-1]
 
 
@@ -88,12 +94,13 @@ def bearing_hole(seat: Seat, thickness: float) -> Hole:
             (bearing.abutment, 0.0, thickness),
         ),
         fit=True,
+        depth_limits=SEAT_DEPTH,
     )
 
 
 def mirrored(hole: Hole) -> Hole:
     """The hole of a plate that is turned over about x."""
-    return Hole(hole.name, (hole.point[0], -hole.point[1]), hole.steps, hole.fit)
+    return replace(hole, point=(hole.point[0], -hole.point[1]))
 
 
 def add_plate(

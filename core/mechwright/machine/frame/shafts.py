@@ -2,22 +2,35 @@
 
 From below: the stub for the drive, the seat of the lower bearing, a shoulder against its inner ring, the
 collar that the hub stands on, the hub's seat, the circlip's groove, a shoulder against the upper bearing's
-inner ring, and its seat. The shaft floats between the shoulders of both plates with a little play.
+inner ring, and its seat. The shaft floats between the shoulders of both plates: shim rings behind the upper
+bearing take up what the tolerances leave beyond the play that is meant. Shim rings under the circlip do the
+same for the hub.
 """
 
 from dataclasses import dataclass
 
 from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.mounting import Hub
 from mechwright.contracts.surroundings import Place, turned
-from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
+from mechwright.contracts.turned import Groove, KeySeat, Length, Step, Turned
 from mechwright.geometry.keyway import key_of_width
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.seats import Seat
 from mechwright.standards.keys import LENGTHS, RANGES, Key
+from mechwright.standards.shims import THICKNESSES, Shim, shim_behind, shim_on
 
-PLAY = 0.2
-"""Axial play of a shaft between its bearings, mm; pillars and shafts are of steel: heat takes none of it."""
+PLAY = 0.15
+"""Nominal play of a shaft between its bearings with their shim ring, mm: tolerances take half of it."""
+
+RING = 0.2
+"""Thickness of the shim ring behind the upper bearing for which a frame is drawn, mm."""
+
+SHOULDERS, WALL = (-0.05, 0.0), (0.0, 0.1)
+"""Limits of the length between the shoulders, and from the collar to the loaded wall of the groove, mm."""
+
+COLLAR_EDGE, LOADED_WALL = "shoulder to shoulder", "collar to the loaded wall of the groove"
+"""Names of these lengths."""
 
 RELIEF = 1.0
 """Length of a shoulder that touches an inner ring alone, mm."""
@@ -48,6 +61,30 @@ class Levels:
         return self.upper - self.lower
 
 
+def ring_of(seat: Seat) -> Shim | None:
+    """The shim ring behind the upper bearing of a shaft; None where none is sold."""
+    return shim_behind(seat.bearing.bore, seat.bearing.outside)
+
+
+def ring_room(seat: Seat) -> float:
+    """What the bearing stands out of the upper plate for its shim ring, mm."""
+    return RING if ring_of(seat) is not None else 0.0
+
+
+def hub_ring(seat: Seat) -> Shim | None:
+    """The shim ring between a hub and its circlip; None where none is sold, or a recess is too narrow."""
+    hub, size = seat.spindle.hub, seat.circlip.size
+    return shim_on(size, hub.recess - 1.0, max(hub.bore, size))
+
+
+def hub_room(seat: Seat) -> float:
+    """By how much a hub may be thicker than drawn, mm: the groove lies so much higher.
+
+    It is the general tolerance of its length, and the thickness of the shim ring that is drawn.
+    """
+    return general_length(seat.spindle.hub.length, "medium")
+
+
 def lowest(seat: Seat) -> float:
     """Greatest height of the lower plate's inner face, mm, that the hub's collar leaves."""
     return seat.spindle.hub.low - RELIEF - LEAST_COLLAR
@@ -56,7 +93,8 @@ def lowest(seat: Seat) -> float:
 def highest(seat: Seat) -> float:
     """Least height of the upper plate's inner face, mm, that the circlip leaves."""
     ring = seat.circlip
-    return seat.spindle.hub.high + ring.width + ring.edge + RELIEF + PLAY
+    over = hub_room(seat) + ring.width + ring.edge + RELIEF + PLAY + ring_room(seat)
+    return seat.spindle.hub.high + over
 
 
 def collar(hub: Hub) -> float:
@@ -75,7 +113,7 @@ def sections(seat: Seat, levels: Levels, stub: tuple[float, float] | None = None
         Step(collar(hub), hub.low - levels.lower - RELIEF),
         Step(hub.bore, hub.length - SHORT, shaft_fit(hub.bore, "h6")),
     ]
-    rest = levels.upper - PLAY - (hub.high - SHORT)
+    rest = levels.upper - ring_room(seat) - PLAY - (hub.high - SHORT)
     steps += [Step(ring.size, rest - RELIEF), Step(min(bearing.shoulder, ring.size), RELIEF)]
     return [*steps, Step(bearing.bore, bearing.width + PLAY, shaft_fit(bearing.bore, "j6"))]
 
@@ -87,26 +125,50 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     kit.places[body] = Place(rotation=turned(hub.key_angle), on=spindle.body)
     kit.places[axis] = Place((*spindle.point, 0.0))
     foot = levels.lower - bearing.width - (stub[1] if stub else 0.0)
-    groove = Groove(hub.high - foot, ring.width, ring.groove, ring.tolerance)
+    over = hub.high + hub_room(seat)
+    groove = Groove(over - foot, ring.width, ring.groove, ring.tolerance)
     key = key_of(hub)
     seats: tuple[KeySeat, ...] = ()
     if key is not None:
         at = hub.low + (hub.length - key.length) / 2
-        seats = (KeySeat(at - foot, key.length, hub.key, hub.bore / 2 - key.size.shaft_depth),)
+        seats = (KeySeat(at - foot, key.seat_length, hub.key, hub.bore / 2 - key.size.shaft_depth),)
         name = f"key-{hub.key:g}x{key.size.height:g}x{key.length:g}".replace(".", "_")
         kit.bought(name, key.bought(hub.bore), body, at)
-    note = f"between shoulders of the bearings {levels.height - PLAY:.2f} ±0.05"
+    upper = levels.upper - ring_room(seat)
+    lengths = (
+        Length(COLLAR_EDGE, levels.lower - foot, upper - PLAY - foot, *SHOULDERS),
+        Length(LOADED_WALL, hub.low - foot, over + ring.width - foot, *WALL),
+    )
     shaft = Turned(
-        _merged(sections(seat, levels, stub)), chamfer=BREAK, grooves=(groove,), seats=seats, note=note
+        _merged(sections(seat, levels, stub)), chamfer=BREAK, grooves=(groove,), seats=seats, lengths=lengths
     )
     # Above its seat the shaft is as thick as the circlip's size, and does not fill a larger bore.
     empty = SHORT if ring.size < hub.bore else 0.0
     kit.turned(f"shaft-{spindle.name}", shaft, body, foot, play=empty)
-    kit.bought(f"circlip-{ring.size:g}", ring.bought, body, hub.high)
+    under = hub_ring(seat)
+    kit.bought(f"circlip-{ring.size:g}", ring.bought, body, over, play=0.0 if under else hub_room(seat))
+    if under is not None:
+        add_shim(kit, under, hub_room(seat), body, hub.high)
     name = f"bearing-{bearing.name.replace('/', '_')}"
-    for z in (levels.lower - bearing.width, levels.upper):
+    for z in (levels.lower - bearing.width, upper):
         kit.bought(name, bearing.bought, axis, z)
+    behind = ring_of(seat)
+    if behind is not None:
+        add_shim(kit, behind, RING, axis, upper + bearing.width)
     return shaft
+
+
+def add_shim(kit: Kit, shim: Shim, thickness: float, body: str, z: float) -> None:
+    """A shim ring of the thickness that is drawn, mm; what goes in is chosen after measuring."""
+    note = (
+        f"a set of {', '.join(f'{one:g}' for one in THICKNESSES)} mm: the play is measured, see stacks.html"
+    )
+    kit.bought(shim_name(shim, thickness), shim.bought(thickness, note), body, z)
+
+
+def shim_name(shim: Shim, thickness: float) -> str:
+    """Of the part that stands for the rings of a stack."""
+    return f"shim-{shim.inner:g}x{shim.outer:g}x{thickness:g}".replace(".", "_")
 
 
 def key_of(hub: Hub) -> Key | None:
