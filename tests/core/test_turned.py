@@ -95,7 +95,7 @@ def test_a_length_with_limits_goes_from_edge_to_edge():
     with pytest.raises(GeometryError, match="no length 'hub'; it has: shoulder"):
         made.length_of("hub")
     with pytest.raises(
-        GeometryError, match="ends at 40.5 mm, where the part has no edge; edges: 0, 9, 13, 33"
+        GeometryError, match=r"ends at 40\.5 mm, where the part has no edge; edges: 0, 9, 13, 33"
     ):
         replace(made, lengths=(replace(wall, high=40.5),))
     with pytest.raises(GeometryError, match="the lower one comes first"):

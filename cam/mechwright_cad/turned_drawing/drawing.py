@@ -64,33 +64,33 @@ class _Plan:
 
 
 def _lengths(turned: Turned) -> list[tuple[float, float, str]]:
-    """Both ends of every length and its text, the shortest first.
+    """Both ends of every length and its text: those from the foot, then those with limits, shortest first.
 
     A length with limits of its own goes from edge to edge, and places one of both. Every edge that no such
     length places is measured from the foot.
     """
     ends = {turned.length, *turned.starts[1:], *(groove.at for groove in turned.grooves)}
-    found = []
+    limited = []
     for seat in turned.seats:
-        closed = seat.at > 0 and seat.at + seat.length < turned.length
-        ends.add(seat.at if closed else seat.at or seat.length)
-        if closed:
-            text = words.of_seat_length(seat, turned.length)
-            found.append((seat.at, seat.at + seat.length, text))
-    open_ends = {round(end, 6) for end in ends if end > 0}
+        low, high = seat.at, seat.at + seat.length
+        if seat.round_ends(turned.length) == (True, True):
+            limited.append((low, high, words.of_seat_length(seat, turned.length)))
+            high = low
+        ends |= {low, high}
+    from_foot = {round(end, 6) for end in ends if end > 0}
     for one in turned.lengths:
-        found.append((one.low, one.high, one.text))
-        open_ends.discard(_placed_by(one, turned, open_ends))
-    found += [(0.0, end, words.number(end)) for end in open_ends]
-    return sorted(found, key=lambda one: (round(one[1] - one[0], 6), one))
+        limited.append((one.low, one.high, one.text))
+        from_foot.discard(_placed_by(one, turned, from_foot))
+    found = [(0.0, end, words.number(end)) for end in sorted(from_foot)]
+    return [*found, *sorted(limited, key=lambda one: (round(one[1] - one[0], 6), one))]
 
 
-def _placed_by(one: Length, turned: Turned, open_ends: set[float]) -> float:
+def _placed_by(one: Length, turned: Turned, from_foot: set[float]) -> float:
     """The edge, of those measured from the foot, that a length with limits places instead."""
     walls = {round(g.at + g.width, 6): round(g.at, 6) for g in turned.grooves}
     for end in (one.high, one.low):
         edge = walls.get(round(end, 6), round(end, 6))
-        if edge in open_ends:
+        if edge in from_foot:
             return edge
     return 0.0
 

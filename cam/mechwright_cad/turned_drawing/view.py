@@ -46,7 +46,7 @@ def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
 
 def _mouth(seat: KeySeat, part: float) -> list[Point]:
     """The closed line (z, y) of a key seat seen from its open side, half circles at its closed ends."""
-    half, (lower, upper) = seat.width / 2, seat.piece(1.0, part).round_ends
+    half, (lower, upper) = seat.width / 2, seat.round_ends(part)
     low, high = seat.at, seat.at + seat.length
     line = (
         list(_arc((high - half, 0.0), half, -math.pi / 2, math.pi / 2))

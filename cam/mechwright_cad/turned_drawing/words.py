@@ -4,7 +4,7 @@ import re
 
 from mechwright.contracts.fits import signed
 from mechwright.contracts.limits import limits
-from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned
+from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, limited
 from mechwright.errors import DesignError
 from mechwright.standards.keys import depth_tolerance, length_tolerance
 
@@ -62,9 +62,9 @@ def of_seat_depth(seat: KeySeat, step: float) -> str:
 
 def of_seat_length(seat: KeySeat, part: float) -> str:
     """The length of a seat over all, mm; that of a closed one is its key's and has the key's tolerance."""
-    closed = seat.at > 0 and seat.at + seat.length < part
-    limits_of = f" (+{number(length_tolerance(seat.length))}/0)" if closed else ""
-    return f"{number(seat.length)}{limits_of}"
+    if seat.round_ends(part) != (True, True):
+        return number(seat.length)
+    return limited(seat.length, 0.0, length_tolerance(seat.length))
 
 
 def of_bore(turned: Turned) -> str:

@@ -77,9 +77,12 @@ class KeySeat:
 
     def piece(self, x: float, part: float) -> Slot:
         """What the cutter takes, out to x, of a part of that length, mm: half circles but at an open end."""
-        top = self.at + self.length
-        round_ends = (self.at > TOLERANCES.closure, top < part - TOLERANCES.closure)
-        return slot((self.floor, x), self.width, (self.at, top), round_ends)
+        ends = (self.at, self.at + self.length)
+        return slot((self.floor, x), self.width, ends, self.round_ends(part))
+
+    def round_ends(self, part: float) -> tuple[bool, bool]:
+        """Whether its lower and its upper end are half circles, in a part of that length, mm."""
+        return self.at > TOLERANCES.closure, self.at + self.length < part - TOLERANCES.closure
 
 
 @dataclass(frozen=True)

@@ -104,7 +104,7 @@ def as_data(one: AxialStack) -> dict[str, Any]:
                 "name": part.name,
                 "part": part.part,
                 "sign": part.sign,
-                "nominal": part.nominal,
+                "nominal": round(part.nominal, 6),
                 "lower": part.lower,
                 "upper": part.upper,
                 "bought": part.bought,
