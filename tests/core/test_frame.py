@@ -33,14 +33,14 @@ from mechwright.errors import GeometryError, KinematicsError
 from mechwright.machine import MachineSettings
 from mechwright.machine.frame import findings
 from mechwright.machine.frame.bracket import bracket_for
-from mechwright.machine.frame.coupled import Coupled
+from mechwright.machine.frame.coupled import SHAFT_GAP, Coupled
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around
 from mechwright.machine.frame.findings import bent
 from mechwright.machine.frame.pillars import EDGE, PILLAR, SCREW, cap_screw, least_height, pillar, stud
 from mechwright.machine.frame.plates import STOCK, least_thickness, thickness_for
 from mechwright.machine.frame.seats import candidates, circlip_over, needed, seats
-from mechwright.machine.frame.shafts import PLAY, Levels, highest, key_of, lowest, sections
+from mechwright.machine.frame.shafts import PLAY, Levels, highest, key_of, lowest, ring_room, sections
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.standards.bearings import bearings
 from mechwright.standards.motors import motors
@@ -154,7 +154,8 @@ def test_everything_goes_onto_a_shaft_from_its_upper_end(bore, length, below, ab
     levels = Levels(lowest(seat) - below, highest(seat) + above)
     steps = sections(seat, levels)
     # Both inner rings are held, and the shaft has its play between the plates.
-    assert sum(step.length for step in steps) == pytest.approx(levels.height + 2 * seat.bearing.width)
+    room = levels.height - ring_room(seat)
+    assert sum(step.length for step in steps) == pytest.approx(room + 2 * seat.bearing.width)
     assert steps[0].diameter == steps[-1].diameter == seat.bearing.bore
     assert steps[-1].length == pytest.approx(seat.bearing.width + PLAY)
     for shoulder in (steps[1], steps[-2]):
@@ -252,7 +253,7 @@ def test_bearings_carry_the_force_and_the_moment_is_that_of_a_beam(bore, length,
     (seat, _), _ = seats(two(300.0, bore, high=length), PLATES)
     levels = Levels(lowest(seat) - 3, highest(seat) + 5)
     near, far, moment, slope = bent(seat, levels, force)
-    span = levels.height + seat.bearing.width
+    span = levels.height - ring_room(seat) + seat.bearing.width
     a = length / 2 - levels.lower + seat.bearing.width / 2
     assert near + far == pytest.approx(force)
     assert moment == pytest.approx(force * a * (span - a) / span / 1000)
@@ -297,7 +298,8 @@ def test_a_machine_has_every_hole_that_its_screws_want(motor):
 def test_motor_and_shaft_meet_in_the_middle_of_their_coupling(motor):
     """The bearing plate above lies from 40 to 52 mm; the shaft's bearing of 8 mm reaches down to its inner face."""
     found = bracket_for(motor, ((3.0, -2.0), 10.0, 8.0), (52.0, 40.0), 0.1, [])
-    assert 52.0 - 8.0 - found.stub[1] == pytest.approx(found.coupling_low + found.coupling.of.length / 2)
+    middle = found.coupling_low + found.coupling.of.length / 2
+    assert 52.0 - 8.0 - found.stub[1] == pytest.approx(middle + SHAFT_GAP)
     assert found.coupling_low + found.coupling.of.length < 40.0
     shaft = found.face + motor.face.shaft_length
     assert found.coupling_low < shaft <= found.coupling_low + found.coupling.of.length / 2
