@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.figure import Figure, PartMass
@@ -91,6 +92,12 @@ class FourBars(Family[FourBarParams]):
         refuse(self.check(params))
         table = self.table(params)
         return parts_of(table.layout, COLOURS, scales(table.params))
+
+    def stacks(self, params: FourBarParams) -> "Sequence[AxialStack]":
+        """The float of the driven link's shaft, where a circlip holds it."""
+        from mechwright.mechanics.linkage.parts.retention import stacks_of
+
+        return tuple(stacks_of(self.table(params).layout))
 
     def mounting(self, params: FourBarParams) -> "GroundPlate":
         """Its one ground plate with the crank's shaft."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure
     from mechwright.contracts.motion import Channel
@@ -79,6 +80,12 @@ class Linkages(Family[LinkageParams]):
 
         refuse(self.check(params), Stage.PARTS)
         return parts_of(self.table(params).layout)
+
+    def stacks(self, params: LinkageParams) -> "Sequence[AxialStack]":
+        """The float of the driven link's shaft, where a circlip holds it."""
+        from mechwright.mechanics.linkage.parts.retention import stacks_of
+
+        return tuple(stacks_of(self.table(params).layout))
 
     def mounting(self, params: LinkageParams) -> "GroundPlate":
         """Its ground plate with the driver's shaft."""

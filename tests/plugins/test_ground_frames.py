@@ -75,7 +75,7 @@ def test_from_the_ground_plate_down_to_the_feet_every_part_stands_on_the_next(ex
     assert high - low == FOOT[1]
     assert at["motor-plate"][1] - at["motor-plate"][0] == PLATE
     # The shaft ends in the middle of its coupling, and below the motor there is room for its cable.
-    assert sum(at["coupling"]) / 2 == pytest.approx(ground.end)
+    assert sum(at["coupling"]) / 2 == pytest.approx(ground.end - SHAFT_GAP)
     assert at["coupling"][1] < ground.bare <= ground.low
     assert at["motor"][0] - at["base-plate"][1] == pytest.approx(UNDER)
 

@@ -95,6 +95,11 @@ class Circlip:
         return math.pi / 4 * abs(self.size**2 - self.groove**2) * strength / _SHARE
 
     @property
+    def part_name(self) -> str:
+        """Of the part that it is in a machine: that of all rings of its size on shafts."""
+        return f"circlip-{self.size:g}"
+
+    @property
     def bought(self) -> Bought:
         """How it is ordered; a whole ring as far as the lugs sweep, from z = 0 to its thickness."""
         number = "DIN 472" if self.inside else "DIN 471"

@@ -82,9 +82,7 @@ def _hub(seat: Seat, shaft: Turned) -> AxialStack:
     ring, off = hub_ring(seat), hub_room(seat)
     contributors = (
         Contributor.of(shaft.length_of(LOADED_WALL), 1, name),
-        Contributor(
-            "circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, f"circlip-{circlip.size:g}"
-        ),
+        Contributor("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name),
         Contributor("hub, ISO 2768-m", -1, hub.length, -off, off),
     )
     return AxialStack(

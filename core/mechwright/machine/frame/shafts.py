@@ -146,7 +146,7 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     empty = SHORT if ring.size < hub.bore else 0.0
     kit.turned(f"shaft-{spindle.name}", shaft, body, foot, play=empty)
     under = hub_ring(seat)
-    kit.bought(f"circlip-{ring.size:g}", ring.bought, body, over, play=0.0 if under else hub_room(seat))
+    kit.bought(ring.part_name, ring.bought, body, over, play=0.0 if under else hub_room(seat))
     if under is not None:
         add_shim(kit, under, hub_room(seat), body, hub.high)
     name = f"bearing-{bearing.name.replace('/', '_')}"

@@ -10,6 +10,7 @@ from mechwright.mechanics.linkage import (
 )
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.parts import bushed, pin_span
+from mechwright.mechanics.linkage.parts.retention import retention_of
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT
 from mechwright.mechanics.planar.dynamics import GROUND
 
@@ -33,6 +34,9 @@ def masses_of(layout: Layout) -> dict[str, Mass]:
         if pin.head or pin.foot or pin.clamp is not None:
             head = cylinder_mass(HEAD * size, HEAD_HEIGHT * size, PIN_MATERIAL, pin.place, bore)
             found[pin.body].append(head)
+    held = retention_of(layout)
+    if held is not None:
+        found[held.pin.body] += held.masses()
     for _, plate, link, place in bushed(layout):
         length, bore = sizes.thickness_of(plate), size + sizes.running_fit
         found[link].append(cylinder_mass(sizes.roller, length, BUSHING_MATERIAL, place, bore))

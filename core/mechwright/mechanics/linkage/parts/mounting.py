@@ -3,6 +3,7 @@
 from mechwright.contracts.mounting import SCREW_HOLE, GroundPlate, MountingError
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.parts import BOLT, pin_span
+from mechwright.mechanics.linkage.parts.retention import retention_of
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
 
@@ -37,7 +38,7 @@ def mounting_of(layout: Layout) -> GroundPlate:
     low = layout.stack.bottom(GROUND)
     x = sorted({at.real for at in layout.screws})
     y = sorted({at.imag for at in layout.screws})
-    axis = shaft.places[GROUND]
+    axis, held = shaft.places[GROUND], retention_of(layout)
     return GroundPlate(
         GROUND,
         low,
@@ -52,6 +53,7 @@ def mounting_of(layout: Layout) -> GroundPlate:
         "parameters.screw_hole",
         "parameters.pin_diameter",
         "parameters.ground_thickness",
+        neck=0.0 if held is None else held.neck,
         offset=(y[1] - y[0]) / 2,
         bolts=("bolt", BOLT * sizes.hole) if layout.posts else None,
     )

@@ -12,6 +12,7 @@ from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.parts.frames import frame_of, roller_place
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.pins import Pin
+from mechwright.mechanics.linkage.parts.retention import retention_of
 from mechwright.mechanics.linkage.parts.scheme import GROUND_PLATES, UPPER
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, STEEL
 from mechwright.mechanics.planar.dynamics import GROUND
@@ -136,9 +137,16 @@ def _plates(
 def _pins(layout: Layout) -> Iterator[Part]:
     size = layout.sizes.pin_diameter
     head = (HEAD * size, HEAD_HEIGHT * size)
+    held = retention_of(layout)
     for pin in layout.pins:
         low, high = pin_span(layout, pin)
         frame = frame_of(pin, pin.body, pin.place)
+        if held is not None and held.pin is pin:
+            at = Instance(frame, low)
+            yield Part(pin.name, None, 0.0, PIN_MATERIAL, (at,), STEEL, turned=held.form)
+            ring = (Instance(frame, held.wall),)
+            yield Part(held.ring.part_name, None, 0.0, PIN_MATERIAL, ring, STEEL, bought=held.ring.bought)
+            continue
         if pin.clamp is not None:
             yield stud_part(pin.name, size, high - low, head, pin.clamp, Instance(frame, low - head[1]))
             continue
