@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure, PartMass
     from mechwright.contracts.motion import Channel
@@ -80,6 +81,15 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
         refuse(self.check(params))
         return parts_of(self.table(params))
+
+    def stacks(self, params: SliderCrankParams) -> "Sequence[AxialStack]":
+        """The float of the crank's shaft, where a circlip holds it."""
+        from mechwright_slider_crank.parts.base import shaft_stacks
+        from mechwright_slider_crank.parts.plates import layout_of
+
+        table = self.table(params)
+        low, high = layout_of(table).stack.spans["shaft"]
+        return tuple(shaft_stacks(table, high - low))
 
     def mounting(self, params: SliderCrankParams) -> "GroundPlate":
         """The base, if it has holes for the screws of legs."""

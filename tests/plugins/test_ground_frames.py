@@ -19,7 +19,7 @@ from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import design_of
 from mechwright.machine.frame.base import FOOT, UNDER
-from mechwright.machine.frame.coupled import PLATE
+from mechwright.machine.frame.coupled import PLATE, SHAFT_GAP
 from mechwright.machine.frame.sweep import space_of
 from mechwright.remedies import tried
 from mechwright.testing import commands

@@ -97,10 +97,12 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     """
     bodies = bodies_of(parts, motion, sample)
     whole = cq.Assembly(name=assembly_name(name, bodies))
+    # One shape for all copies of a part: two compounds of a plate and its marks would be two products.
+    shapes = {part.name: part_shape(part) for part in parts}
     for body in bodies:
         place = _location(body.poses, sample, body.instance.z)
         colour = cq.Color(*body.part.colour_of(body.instance))
-        whole.add(part_shape(body.part), name=body.name, loc=place, color=colour)
+        whole.add(shapes[body.part.name], name=body.name, loc=place, color=colour)
     return whole
 
 

@@ -6,12 +6,14 @@ one of its diameter.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from mechwright import DesignError, Outline
-from mechwright.contracts.turned import Groove, Step, Turned
+from mechwright.contracts.axial_stack import AxialStack, Contributor
+from mechwright.contracts.general_tolerances import general_length
+from mechwright.contracts.turned import Groove, Length, Step, Turned
 from mechwright.mechanics.linkage import (
     PIN_MATERIAL,
     Boss,
@@ -35,6 +37,13 @@ HEAD_SHARE, BESIDE = 1.5, 3.0
 
 UNDER = 1.5
 """From what stands out under the base to a coupling, mm: air of 1, and the break of an edge."""
+
+
+WALL, LOADED = (0.0, 0.1), "upper end of the shaft to the loaded wall of the groove"
+"""Limits of the length that decides the float of the shaft, mm, and its name."""
+
+FLOAT = (0.1, 1.0)
+"""Float of the shaft that is meant, mm, beside the gaps over and under the base."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +97,30 @@ def shaft_form(table: Mechanism, length: float) -> Turned:
     ring = end.ring
     # Its lower side is the ring's seat: the upper one has the base's air above it.
     groove = Groove(end.whole - table.given.gap - ring.width, ring.width, ring.groove, ring.tolerance)
-    return Turned(steps, grooves=(groove,))
+    held = Length(LOADED, groove.at, length + end.whole, *WALL)
+    return Turned(steps, grooves=(groove,), lengths=(held,))
+
+
+def shaft_stacks(table: Mechanism, length: float) -> Iterator[AxialStack]:
+    """The float of the shaft between crank and circlip; nothing without a circlip or under a high crank."""
+    ring, given = shaft_end(table).ring, table.given
+    if ring is None or abs(length - 2 * given.thickness - given.gap) > given.gap:
+        return
+    off = general_length(given.thickness, "medium")
+    yield AxialStack(
+        "float of the shaft",
+        (
+            Contributor.of(shaft_form(table, length).length_of(LOADED), 1, "shaft"),
+            *(
+                Contributor(f"{name}, ISO 2768-m", -1, given.thickness, -off, off, part=name)
+                for name in ("crank", "base")
+            ),
+            Contributor("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
+        ),
+        FLOAT[0],
+        FLOAT[1] + 2 * given.gap,
+        adjustable=LOADED,
+    )
 
 
 def shaft_masses(table: Mechanism, length: Any) -> list[Mass]:

@@ -37,6 +37,10 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
         Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
         for name in ("base", "rail", "crank", "rod", "slider")
     ]
+    screwed = layout.rail_screws
+    if screwed is not None:
+        parts[1] = screwed.threaded(parts[1])
+        parts += screwed.parts(heights.bottom("base"), under, foot, params.material)
     parts += _shaft_parts(table, spans["shaft"])
     for name, body in (("crank-pin", "crank-pin"), ("wrist-pin", "slider")):
         low, high = spans[name]
@@ -67,6 +71,5 @@ def _shaft_parts(table: Mechanism, span: tuple[float, float]) -> list[Part]:
     parts = [Part("shaft", None, 0.0, PIN_MATERIAL, (at,), GREY, turned=form)]
     if end.ring is not None:
         under = (Instance("crank", low - table.given.gap - end.ring.thickness),)
-        name = f"circlip-{end.ring.size:g}"
-        parts.append(Part(name, None, 0.0, PIN_MATERIAL, under, GREY, bought=end.ring.bought))
+        parts.append(Part(end.ring.part_name, None, 0.0, PIN_MATERIAL, under, GREY, bought=end.ring.bought))
     return parts

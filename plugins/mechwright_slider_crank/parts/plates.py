@@ -29,6 +29,7 @@ from mechwright_slider_crank.parameters import SliderCrankParams
 from mechwright_slider_crank.parts.base import base_outline, hole_places, rim_of
 from mechwright_slider_crank.parts.dimensions import Dimensions, clear_overhang
 from mechwright_slider_crank.parts.outlines import crank_outline, rails_of, rod_outline, slider_outline
+from mechwright_slider_crank.parts.rail_screws import NAMES, RailScrews, rail_screws, with_holes
 
 TURN_SAMPLES = 361
 """Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""
@@ -57,6 +58,8 @@ class Layout:
         The base's holes for screws, counter-clockwise from the lower left one; none without.
     heads
         Whether the joint pins have heads.
+    rail_screws
+        Those of the rails; None where dowels alone hold them.
     """
 
     sizes: Dimensions
@@ -66,6 +69,7 @@ class Layout:
     stack: Stack
     screws: tuple[complex, ...]
     heads: bool
+    rail_screws: RailScrews | None = None
 
     def has_head(self, pin: str) -> bool:
         """A pin has a head where the rod is on top of it: the plate it is pressed into needs none."""
@@ -138,8 +142,23 @@ def _laid_out(table: Mechanism, sizes: Dimensions) -> Layout:
             if heads:
                 continue
             raise
-        return Layout(sizes, outlines, rails, dowels, found, screws, heads)
+        screwed = None if params.screw_hole is None else _screwed(params, sizes, found, outlines)
+        if screwed is not None:
+            outlines["rail"] = with_holes(outlines["rail"], screwed.rail_holes)
+            outlines["base"] = with_holes(outlines["base"], screwed.base_holes(rails))
+        return Layout(sizes, outlines, rails, dowels, found, screws, heads, screwed)
     raise AssertionError("the loop returns or raises")
+
+
+def _screwed(
+    params: SliderCrankParams, sizes: Dimensions, found: Stack, outlines: Mapping[str, Outline]
+) -> RailScrews | None:
+    """The screws of the rails, through the base and what lifts the rails off it."""
+    lowest = found.layer["rail-1"] == 1
+    grip = params.thickness if lowest else found.bottom("rail-1") - found.bottom("base")
+    x0, _, x1, _ = outlines["rail"].bounds
+    dowel = (x1 - x0 - sizes.rail) / 2
+    return rail_screws(sizes, dowel, grip, params.thickness, params.material)
 
 
 def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[Plate]:
@@ -196,6 +215,11 @@ def body_poses(table: Mechanism, phi: Array) -> dict[str, Poses]:
     _, rails, dowels = rails_of(table, standing_dimensions(table))
     fixed = {f"rail-{number}": (base, place) for number, place in enumerate(rails, start=1)}
     fixed |= {f"dowel-{number}": (base, place) for number, place in enumerate(dowels, start=1)}
+    if params.screw_hole is not None:
+        screwed = layout_of(table).rail_screws
+        places = (0.0, 0.0) if screwed is None else screwed.places
+        there = (place + x for place in rails for x in places)
+        fixed |= {name: (base, place) for name, place in zip(NAMES, there, strict=True)}
     fixed["crank-pin"] = (bodies.crank, complex(params.crank))
     fixed["rod-end"] = (bodies.rod, complex(params.rod))
     poses = _link_poses(table, phi)
@@ -229,9 +253,10 @@ def held_by(params: SliderCrankParams) -> dict[str, Joint]:
     """What holds the bodies of :func:`body_poses`, the loop closed in the slider's pin."""
     rails = [f"rail-{number}" for number in (1, 2)]
     dowels = [f"dowel-{number}" for number in range(1, 5)]
+    screws = () if params.screw_hole is None else NAMES
     return {
         **fixed(GROUND, "base"),
-        **fixed("base", *rails, *dowels),
+        **fixed("base", *rails, *dowels, *screws),
         **fixed("crank", "crank-pin"),
         **fixed("rod", "rod-end"),
         "shaft": Joint("revolute", "base", "crank", drives=True),
