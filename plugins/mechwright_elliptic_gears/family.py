@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         Tolerances,
         Transmission,
     )
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.figure import Figure, PartMass
     from mechwright.contracts.rule_list import Rules
@@ -79,6 +80,12 @@ class EllipticGears(Family[EllipticGearParams]):
 
         refuse(self.check(params), Stage.PARTS)
         return parts_of(params)
+
+    def stacks(self, params: EllipticGearParams) -> "Sequence[AxialStack]":
+        """Play of the gears of a train on their shafts, and float of its input's shaft."""
+        from mechwright_elliptic_gears.parts.gear_parts import stacks_of
+
+        return stacks_of(params)
 
     def mounting(self, params: EllipticGearParams) -> "Mounting | GroundPlate":
         """The shafts of a pair; of a train its base plate."""

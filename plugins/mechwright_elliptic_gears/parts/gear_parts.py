@@ -25,6 +25,7 @@ from mechwright import (
     kept,
 )
 from mechwright.arrays import Array
+from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.mechanics.gearing import gear_measures, tip_sites
@@ -46,7 +47,8 @@ from mechwright_elliptic_gears.parts.dividing import START
 from mechwright_elliptic_gears.parts.gear import ellipse_of, outline_of, rack_of, teeth_of
 from mechwright_elliptic_gears.parts.layout import DOWELS, Layout, dividing_of, keeper_of, layout_of
 from mechwright_elliptic_gears.parts.plates import base_part, coupler_part
-from mechwright_elliptic_gears.parts.turned import keeper_parts, round_parts
+from mechwright_elliptic_gears.parts.retainers import disc_parts, discs_of, keep_of
+from mechwright_elliptic_gears.parts.turned import input_shaft, keeper_parts, round_parts
 
 
 def gear_marks(
@@ -297,10 +299,34 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     assert opening is not None  # noqa: S101 - a train has a bore
     plates: tuple[Part, ...] = (coupler_part(params, layout), base_part(params, layout))
     pin = dividing_of(params).pin_size if params.phase_joint == "pins" else None
-    turned = round_parts(layout, opening, keyed=params.keyed_phase, dowelled=params.dowelled, phase_pin=pin)
+    discs, keep = discs_of(params, layout), keep_of(params, layout)
+    turned = round_parts(
+        layout,
+        opening,
+        keyed=params.keyed_phase,
+        dowelled=params.dowelled,
+        phase_pin=pin,
+        discs=discs,
+        keep=keep,
+    )
+    turned += tuple(disc_parts(discs, layout))
+    if keep is not None:
+        turned += tuple(keep.parts(layout))
     if params.phase_joint == "clamp":
         plates += clamp_plates(params, layout)
         turned += (clamp_screw_part(params, layout),)
     if (keeper := keeper_of(params)) is not None:
         turned += keeper_parts(keeper, layout)
     return (*gears, *plates, *turned, *bush_parts(params, layout))
+
+
+def stacks_of(params: EllipticGearParams) -> tuple[AxialStack, ...]:
+    """The axial stacks of a train; none of a pair, whose shafts are a frame's."""
+    if params.stages == 1:
+        return ()
+    layout, opening = layout_of(params), opening_of(params)
+    keep, seat = keep_of(params, layout), opening if opening is not None and opening.has_keyway else None
+    found = [disc.stack() for disc in discs_of(params, layout)]
+    if keep is not None:
+        found.append(keep.stack(layout, input_shaft(layout, seat, keep)))
+    return tuple(found)

@@ -8,6 +8,7 @@ from mechwright.mechanics.gearing.pair_parts import pair_mounting
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import ellipse_of
 from mechwright_elliptic_gears.parts.layout import OUTWARDS, layout_of, screw_offset_of, screw_places
+from mechwright_elliptic_gears.parts.retainers import keep_of
 
 
 def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
@@ -34,6 +35,7 @@ def _base_of(params: EllipticGearParams) -> GroundPlate:
             ({"parameters.screw_hole": SCREW_HOLE},),
         )
     layout = layout_of(params)
+    keep = keep_of(params, layout)
     corner = screw_places(params)[-1]
     x, y = corner.real, corner.imag
     return GroundPlate(
@@ -52,5 +54,6 @@ def _base_of(params: EllipticGearParams) -> GroundPlate:
         "parameters.base_thickness",
         offset=screw_offset_of(params),
         outwards=OUTWARDS,
+        neck=0.0 if keep is None else keep.neck,
         length_key="parameters.stub_length",
     )

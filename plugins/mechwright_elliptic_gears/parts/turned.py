@@ -3,11 +3,12 @@
 They get no milling program.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
-from mechwright import Colour, Instance, KeySeat, Part, Step, Turned
+from mechwright import Colour, Groove, Instance, KeySeat, Part, Step, Turned
 from mechwright.contracts.fits import Fit, shaft_fit
-from mechwright.contracts.turned import tube
+from mechwright.contracts.turned import Length, limited, tube
 from mechwright.geometry.keyway import Opening
 from mechwright.standards.parts import dowel_part, key_part
 from mechwright_elliptic_gears.parts.keeper import PLATE, Keeper
@@ -22,6 +23,7 @@ from mechwright_elliptic_gears.parts.layout import (
     SPACER,
     Layout,
 )
+from mechwright_elliptic_gears.parts.retainers import LENGTH, LOADED, PLAY, WALL, Disc, Keep, spacer
 
 MATERIAL = "steel"
 """Of all round parts."""
@@ -30,10 +32,18 @@ _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.4
 
 
 def round_parts(
-    layout: Layout, opening: Opening, *, keyed: bool, dowelled: bool, phase_pin: Fit | None = None
+    layout: Layout,
+    opening: Opening,
+    *,
+    keyed: bool,
+    dowelled: bool,
+    phase_pin: Fit | None = None,
+    discs: Sequence[Disc] = (),
+    keep: Keep | None = None,
 ) -> tuple[Part, ...]:
     """Everything that is no plate.
 
+    ``discs`` and ``keep`` are what holds gears on their shafts, and the input's shaft in the base plate.
     ``keyed`` and ``dowelled`` say whether keys or dowels join gears 3 and 4, ``phase_pin`` has the limits
     of the pin that joins them by a dividing circle; where nothing does, a clamp has its own spacer there.
     """
@@ -42,21 +52,28 @@ def round_parts(
     foot = layout.base + layout.stub
     # Seats are open at the upper end of the shaft, so that gears and keys can be put on from there.
     seat = opening if opening.has_keyway else None
-    joints = ("joint-j", "joint-k")
+    joints, on = ("joint-j", "joint-k"), {disc.shaft: disc for disc in discs}
     parts = [
-        _part("shaft-2", _input(layout, low + t, seat), (Instance("gear-2", -foot),), _STEEL),
+        _part("shaft-2", input_shaft(layout, seat, keep), (Instance("gear-2", -foot),), _STEEL),
         _part(
             "shaft-4",
             _shaft(layout.bore, layout.base + high + t, high - low + t, seat)
             if keyed
-            else _standing(layout, high + t),
+            else _standing(layout, high + t, on.get("shaft-4")),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
+            PLAY if "shaft-4" in on else 0.0,
         ),
-        _part("shaft-5", _standing(layout, high + t), (Instance("axis-5", -layout.base),), _STEEL),
+        _part(
+            "shaft-5",
+            _standing(layout, high + t, on.get("shaft-5")),
+            (Instance("axis-5", -layout.base),),
+            _STEEL,
+            PLAY if "shaft-5" in on else 0.0,
+        ),
         _part(
             "hub-spacer",
-            tube(layout.bore, layout.spacer, layout.gap),
+            spacer(layout.bore, layout.spacer, layout.gap),
             (
                 Instance("axis-2"),
                 Instance("base"),
@@ -64,7 +81,7 @@ def round_parts(
             ),
             _BRASS,
         ),
-        _part("hub-spacer-5", tube(layout.bore, layout.spacer, high), (Instance("axis-5"),), _BRASS),
+        _part("hub-spacer-5", spacer(layout.bore, layout.spacer, high), (Instance("axis-5"),), _BRASS),
         _part(
             "joint-spacer",
             tube(layout.pin, SPACER * layout.pin, layout.crown),
@@ -103,8 +120,10 @@ def keeper_parts(keeper: Keeper, layout: Layout) -> tuple[Part, ...]:
     )
 
 
-def _part(name: str, turned: Turned, instances: tuple[Instance, ...], colour: Colour) -> Part:
-    return Part(name, None, 0.0, MATERIAL, instances=instances, colour=colour, turned=turned)
+def _part(
+    name: str, turned: Turned, instances: tuple[Instance, ...], colour: Colour, play: float = 0.0
+) -> Part:
+    return Part(name, None, 0.0, MATERIAL, instances, colour, turned=turned, play=play)
 
 
 def _running(diameter: float, length: float) -> Step:
@@ -125,9 +144,25 @@ def _shaft(diameter: float, length: float, seat_length: float, opening: Opening 
     return Turned((_running(diameter, length),), seats=seats)
 
 
-def _standing(layout: Layout, over: float) -> Turned:
-    """A shaft that is pressed into the base plate, and on which gears turn."""
-    return Turned((Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6")), _running(layout.bore, over)))
+def _standing(layout: Layout, over: float, disc: Disc | None) -> Turned:
+    """A shaft that is pressed into the base plate, and on which gears turn, with the thread of its disc."""
+    pressed = Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6"))
+    if disc is None:
+        return Turned((pressed, _running(layout.bore, over)))
+    note = f"pressed in until it stands {limited(over + disc.over, -LENGTH, LENGTH)} over the base plate"
+    return Turned((pressed, _running(layout.bore, over + disc.over)), note=note, threads=(disc.thread,))
+
+
+def input_shaft(layout: Layout, seat: Opening | None, keep: Keep | None) -> Turned:
+    """The shaft of gear 2, with the groove of its circlip where it has one."""
+    form = _input(layout, layout.lower + layout.thickness, seat)
+    if keep is None:
+        return form
+    ring, at = keep.circlip, layout.stub - keep.wall
+    groove = Groove(at, ring.width, ring.groove, ring.tolerance)
+    loaded = Length(LOADED, at, form.length, *WALL)
+    note = "gear 2 is bonded to it with retaining compound, flush with its upper end"
+    return replace(form, grooves=(groove,), lengths=(loaded,), note=note)
 
 
 def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:
