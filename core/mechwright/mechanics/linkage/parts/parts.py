@@ -12,7 +12,7 @@ from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.parts.frames import frame_of, roller_place
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.pins import Pin
-from mechwright.mechanics.linkage.parts.retention import retention_of
+from mechwright.mechanics.linkage.parts.retention import UNDER, Retention, retention_of
 from mechwright.mechanics.linkage.parts.scheme import GROUND_PLATES, UPPER
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, STEEL
 from mechwright.mechanics.planar.dynamics import GROUND
@@ -144,8 +144,7 @@ def _pins(layout: Layout) -> Iterator[Part]:
         if held is not None and held.pin is pin:
             at = Instance(frame, low)
             yield Part(pin.name, None, 0.0, PIN_MATERIAL, (at,), STEEL, turned=held.form)
-            ring = (Instance(frame, held.wall),)
-            yield Part(held.ring.part_name, None, 0.0, PIN_MATERIAL, ring, STEEL, bought=held.ring.bought)
+            yield _circlip(layout, held, frame)
             continue
         if pin.clamp is not None:
             yield stud_part(pin.name, size, high - low, head, pin.clamp, Instance(frame, low - head[1]))
@@ -157,6 +156,13 @@ def _pins(layout: Layout) -> Iterator[Part]:
             continue
         at = Instance(frame, low)
         yield pin_part(pin.name, size, high - low, (at,), *(head if pin.head else (0.0, 0.0)))
+
+
+def _circlip(layout: Layout, held: Retention, frame: str) -> Part:
+    """The circlip under the ground plate; its play is the float of the shaft."""
+    at, ring = (Instance(frame, held.wall),), held.ring
+    play = layout.sizes.washer + UNDER
+    return Part(ring.part_name, None, 0.0, PIN_MATERIAL, at, STEEL, bought=ring.bought, play=play)
 
 
 def _bushings(layout: Layout) -> Iterator[Part]:
