@@ -284,7 +284,7 @@ class Turned:
         found = {*self.starts, self.length}
         found |= {end for one in self.grooves for end in (one.at, one.at + one.width)}
         found |= {end for one in self.seats for end in (one.at, one.at + one.length)}
-        return tuple(sorted(dict.fromkeys(round(one, 6) for one in found)))
+        return tuple(sorted({round(one, 6): one for one in found}.values()))
 
     def length_of(self, name: str) -> Length:
         """The length of that name; raises GeometryError where there is none."""

@@ -2,7 +2,7 @@
 
 A disc with a screw in the upper end of a shaft that stands still keeps down what turns on it. A circlip with
 a ring under the base plate keeps the input's shaft down; gear 2 is bonded to it. Shim rings under the discs
-take up what the tolerances of the gears leave. A train whose coupler passes close over the gears has no discs.
+take up what the tolerances of the gears leave. A train whose coupler passes close over its gears has none.
 """
 
 from collections.abc import Iterator

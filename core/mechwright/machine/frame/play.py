@@ -29,7 +29,7 @@ FLOAT, RATTLE = (0.1, 0.31), 0.55
 LEFT, HUB_LEFT = 0.12, 0.05
 """What shim rings leave at least of a measured float, and of the gap over a hub, mm."""
 
-HUB_PLAY, HUB_RATTLE = 0.25, 0.75
+HUB_PLAY, HUB_RATTLE = 0.25, 0.9
 """Greatest play of a hub under its circlip with shim rings and without, mm."""
 
 APART = 0.5
