@@ -169,10 +169,7 @@ class Family(Plugin, Generic[P]):
         return None
 
     def stacks(self, params: P) -> "Sequence[AxialStack]":  # noqa: ARG002 - used by some
-        """Axial stacks of its own parts, each a closed loop of lengths with the play that is meant.
-
-        It is asked of a design whose ``check`` finds no error. The default says that there are none.
-        """
+        """Axial stacks of its own parts; asked of a design whose ``check`` finds no error."""
         return ()
 
     def transmission(self, params: P) -> "Transmission | None":  # noqa: ARG002 - used by some
@@ -300,12 +297,7 @@ class Family(Plugin, Generic[P]):
         """
         return None
 
-    def synthesise(
-        self,
-        kind: str,
-        requirement: Parameters,
-        progress: "Progress",
-    ) -> "Synthesis[P]":
+    def synthesise(self, kind: str, requirement: Parameters, progress: "Progress") -> "Synthesis[P]":
         """Find designs that meet a requirement.
 
         Parameters

@@ -111,7 +111,8 @@ def discs_of(params: EllipticGearParams, layout: Layout) -> tuple[Disc, ...]:
     if shim is None or params.screw_hole is None:
         return ()
     gear = (layout.thickness, general_length(layout.thickness, "medium"))
-    found = {"shaft-5": ("axis-5", (("hub-spacer-5", layout.upper, LENGTH), ("gear-5", *gear)))}
+    found: dict[str, tuple[str, tuple[tuple[str, float, float], ...]]] = {}
+    found["shaft-5"] = ("axis-5", (("hub-spacer-5", layout.upper, LENGTH), ("gear-5", *gear)))
     if params.phase_joint == "pins":
         between = ("hub-spacer", layout.gap, LENGTH)
         found["shaft-4"] = ("base", (between, ("gear-3", *gear), between, ("gear-4", *gear)))
