@@ -30,7 +30,7 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
 from mechwright.mechanics.gearing import gear_measures, tip_sites
 from mechwright.mechanics.gearing.usual import DOT
-from mechwright.mechanics.openings import opening_of
+from mechwright.mechanics.openings import keyway_measures, opening_of
 from mechwright_elliptic_gears.kinematics.equations import phase_offset
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.bushes import bush_parts, bush_seat
@@ -285,7 +285,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         machined=tuple(features),
         details=gear.details,
         marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
-        measures=measures_of(params),
+        measures=(*measures_of(params), *(() if gear.key is None else keyway_measures(opening_of(params)))),
         vacant=tuple(hole.name for hole in gear.holes) if params.phase_joint == "pins" else (),
     )
 

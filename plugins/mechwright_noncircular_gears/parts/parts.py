@@ -9,6 +9,7 @@ from mechwright.geometry import Loop
 from mechwright.mechanics.gearing import SectorTeeth, Teeth, gear_measures, tip_sites
 from mechwright.mechanics.gearing.pair_parts import gear_features
 from mechwright.mechanics.gearing.usual import DOT
+from mechwright.mechanics.openings import keyway_measures
 from mechwright_noncircular_gears.table import NAMES, GearTable
 
 COLOURS: dict[str, Colour] = {"gear-1": (0.45, 0.58, 0.70), "gear-2": (0.80, 0.68, 0.42)}
@@ -22,7 +23,11 @@ def parts_of(m: GearTable) -> tuple[Part, ...]:
     """Driver and driven gear; ``check`` has found no error."""
     params, ring = m.given, m.given.internal
     one, two = m.teeth
-    measures = gear_measures(one), gear_measures(two, inside=ring)
+    keyway = keyway_measures(m.opening)
+    measures = (
+        (*gear_measures(one), *keyway),
+        (*gear_measures(two, inside=ring), *(() if ring else keyway)),
+    )
     features = [gear_features(params, outline, _sites(outline.outer)) for outline in m.outlines]
     if ring:
         features[1] = m.ring_plate.features(m.outlines[1], params.thickness)

@@ -4,6 +4,7 @@ from mechwright import Bore, Colour, Instance, Outline, Part, Profile
 from mechwright.contracts.part import Feature
 from mechwright.mechanics.gearing import gear_measures, tip_sites
 from mechwright.mechanics.gearing.pair_parts import gear_features
+from mechwright.mechanics.openings import keyway_measures
 from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.parts.planetary import carrier_parts
 from mechwright_spur_gears.parts.rack import rack_part
@@ -30,7 +31,10 @@ def parts_of(m: GearTable) -> tuple[Part, ...]:
             params.material,
             instances=tuple(Instance(body, 0.0, COLOURS[name]) for body in _bodies(m, name)),
             machined=tuple(_features(m, name, outline)),
-            measures=gear_measures(teeth, backlash=float(m.pair.backlash), inside=name == "ring"),
+            measures=(
+                *gear_measures(teeth, backlash=float(m.pair.backlash), inside=name == "ring"),
+                *(() if name in {"ring", "planet"} else keyway_measures(m.opening)),
+            ),
         )
         for name, outline, teeth in zip(m.names, outlines_of(m), teeth_of(m), strict=not m.straight)
     ]
