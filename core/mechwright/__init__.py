@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from mechwright.arrays import Array
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
+    from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
     from mechwright.contracts.bought import Bought
     from mechwright.contracts.design_rule import DesignRule, Note, Procedure
     from mechwright.contracts.design_table import DesignTable
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
     from mechwright.contracts.transmission import Index, Port, Transmission
-    from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
+    from mechwright.contracts.turned import Groove, KeySeat, Length, Step, Turned
     from mechwright.contracts.turning import Turning
     from mechwright.designs.design import Design
     from mechwright.errors import (
@@ -85,6 +86,7 @@ _HOMES = {
     "mechwright.pipeline": "Blank Build FileName Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
+    "mechwright.contracts.axial_stack": "AxialStack Shimming StackLength",
     "mechwright.contracts.bought": "Bought",
     "mechwright.contracts.design_rule": "DesignRule Note Procedure",
     "mechwright.contracts.design_table": "DesignTable",
@@ -116,7 +118,7 @@ _HOMES = {
     "mechwright.contracts.target": "Target point_targets",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
-    "mechwright.contracts.turned": "Groove KeySeat Step Turned",
+    "mechwright.contracts.turned": "Groove KeySeat Length Step Turned",
     "mechwright.contracts.transmission": "Index Port Transmission",
     "mechwright.contracts.turning": "Turning",
     "mechwright.designs.design": "Design",
@@ -181,7 +183,17 @@ __all__ += [
     "MountingError",
     "Spindle",
 ]
-__all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
+__all__ += [
+    "AxialStack",
+    "Bought",
+    "Groove",
+    "KeySeat",
+    "Length",
+    "Shimming",
+    "StackLength",
+    "Step",
+    "Turned",
+]
 __all__ += [
     "Finding",
     "Findings",

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechwright.contracts.axial_stack import AxialStack, Contributor, Shimming
+from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
 from mechwright.contracts.turned import Length
 from mechwright.errors import GeometryError
 from mechwright.machine.stack_inspection import stack_findings
@@ -89,11 +89,11 @@ CASES = (
         ('countersink of the thread', -1, 0.4, -0.1, 0.1),
     ), 4.6, 4.6, (3.6, 5.6), 0.5873670062, 2.311428e-122),
 )  # fmt: skip
-"""Name, contributors, nominal, middle, worst case, half by statistics, share below 0."""
+"""Name, lengths, nominal, middle, worst case, half by statistics, share below 0."""
 
 
 def stack_of(parts, **other):
-    return AxialStack("stack", tuple(Contributor(*one) for one in parts), **other)
+    return AxialStack("stack", tuple(StackLength(*one) for one in parts), **other)
 
 
 @pytest.mark.parametrize(
@@ -117,8 +117,8 @@ def test_seat_depths_are_most_of_the_float_of_a_shaft_without_limits_of_its_own(
 
 def test_a_bought_part_widens_the_statistical_gap_by_half():
     plain = stack_of(CASES[3][1])
-    first, *others = plain.contributors
-    bought = replace(plain, contributors=(replace(first, bought=True), *others))
+    first, *others = plain.lengths
+    bought = replace(plain, lengths=(replace(first, bought=True), *others))
     low, high = stack_result(bought).statistical
     assert (low, high) == pytest.approx((0.24 - 1.5 * 0.08366600265, 0.24 + 1.5 * 0.08366600265))
     assert stack_result(bought).worst == stack_result(plain).worst
@@ -188,13 +188,13 @@ def test_the_nearest_length_closes_the_stack(parts, least, room):
     if works is None:
         assert stack.play[1] - stack.play[0] > room
         return
-    first, *others = stack.contributors
-    low, high = replace(stack, contributors=(replace(first, nominal=works), *others)).play
+    first, *others = stack.lengths
+    low, high = replace(stack, lengths=(replace(first, nominal=works), *others)).play
     assert least - 1e-9 <= low <= high <= least + room + 1e-9
 
 
-def test_a_contributor_takes_the_limits_of_a_drawing():
-    found = Contributor.of(Length("shoulder to shoulder", 9.0, 32.0, -0.05, 0.0), -1, "shaft-2")
+def test_a_length_takes_the_limits_of_a_drawing():
+    found = StackLength.of(Length("shoulder to shoulder", 9.0, 32.0, -0.05, 0.0), -1, "shaft-2")
     assert (found.nominal, found.middle, found.half) == (23.0, pytest.approx(22.975), 0.025)
     assert found.part == "shaft-2"
 
@@ -202,9 +202,9 @@ def test_a_contributor_takes_the_limits_of_a_drawing():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Contributor("hub", 0, 10, 0, 0.1), "'hub' has the sign 0; take 1 or -1"),
-        (lambda: Contributor("hub", 1, 10, 0.1, 0), "the lower limit comes first"),
-        (lambda: Contributor("hub", 1, math.nan, 0, 0.1), "'hub': nan mm"),
+        (lambda: StackLength("hub", 0, 10, 0, 0.1), "'hub' has the sign 0; take 1 or -1"),
+        (lambda: StackLength("hub", 1, 10, 0.1, 0), "the lower limit comes first"),
+        (lambda: StackLength("hub", 1, math.nan, 0, 0.1), "'hub': nan mm"),
         (lambda: AxialStack("float", ()), "'float' has no lengths"),
         (lambda: stack_of(FRAME, least=0.2, greatest=0.1), "a play of 0.2 to 0.1 mm is no interval"),
     ],

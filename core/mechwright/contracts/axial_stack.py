@@ -2,10 +2,10 @@
 
 Glossary
 --------
-contributor
-    A length of the loop. Its sign is +1 where a longer one makes the gap larger, else -1.
+length of a stack
+    One of the loop. Its sign is +1 where a longer one makes the gap larger, else -1.
 gap
-    The sum of all contributors with their signs: the play where it is above 0, an interference below.
+    The sum of all lengths with their signs: the play where it is above 0, an interference below.
 shim
     A thin ring of a chosen thickness that takes up what a gap has too much. It is chosen after measuring.
 """
@@ -19,7 +19,7 @@ from mechwright.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
-class Contributor:
+class StackLength:
     """A length of a stack.
 
     Parameters
@@ -51,15 +51,15 @@ class Contributor:
 
     def __post_init__(self) -> None:
         if self.sign not in {1, -1}:
-            raise GeometryError(f"contributor {self.name!r} has the sign {self.sign}; take 1 or -1")
+            raise GeometryError(f"length {self.name!r} has the sign {self.sign}; take 1 or -1")
         if not (math.isfinite(self.nominal) and self.lower <= self.upper):
             raise GeometryError(
-                f"contributor {self.name!r}: {self.nominal:g} mm with the limits {self.lower:g} to "
+                f"length {self.name!r}: {self.nominal:g} mm with the limits {self.lower:g} to "
                 f"{self.upper:g} mm; the lower limit comes first"
             )
 
     @classmethod
-    def of(cls, length: Length, sign: int, part: str = "") -> "Contributor":
+    def of(cls, length: Length, sign: int, part: str = "") -> "StackLength":
         """A length of a turned part with the limits that its drawing states."""
         return cls(length.name, sign, length.nominal, length.lower, length.upper, part=part)
 
@@ -153,25 +153,25 @@ class AxialStack:
     ----------
     name
         ``"float of shaft 2"``; the names of a build differ.
-    contributors
+    lengths
         The lengths of the loop.
     least, greatest
         Play that is meant, mm; infinite where nothing limits it.
     shimming
         How rings are chosen; None where none are put in.
     adjustable
-        The contributor that a remedy changes; empty for the first.
+        The length that a remedy changes; empty for the first.
     key
         The design-file key that changes it; empty where none does.
 
     Raises
     ------
     GeometryError
-        There is no contributor, or the play that is meant is no interval.
+        There is no length, or the play that is meant is no interval.
     """
 
     name: str
-    contributors: tuple[Contributor, ...]
+    lengths: tuple[StackLength, ...]
     least: float = 0.0
     greatest: float = math.inf
     shimming: Shimming | None = None
@@ -179,8 +179,8 @@ class AxialStack:
     key: str = ""
 
     def __post_init__(self) -> None:
-        if not self.contributors:
-            raise GeometryError(f"stack {self.name!r} has no lengths; give its contributors")
+        if not self.lengths:
+            raise GeometryError(f"stack {self.name!r} has no lengths; give them")
         if not self.least <= self.greatest:
             raise GeometryError(
                 f"stack {self.name!r}: a play of {self.least:g} to {self.greatest:g} mm is no interval"
@@ -189,17 +189,17 @@ class AxialStack:
     @property
     def nominal(self) -> float:
         """Gap of all nominal lengths, mm."""
-        return sum(one.sign * one.nominal for one in self.contributors)
+        return sum(one.sign * one.nominal for one in self.lengths)
 
     @property
     def middle(self) -> float:
         """Gap of the middles of all limits, mm."""
-        return sum(one.sign * one.middle for one in self.contributors)
+        return sum(one.sign * one.middle for one in self.lengths)
 
     @property
     def worst(self) -> tuple[float, float]:
         """Least and greatest gap before rings are put in, mm."""
-        half = sum(one.half for one in self.contributors)
+        half = sum(one.half for one in self.lengths)
         return self.middle - half, self.middle + half
 
     @property
@@ -208,7 +208,7 @@ class AxialStack:
         return self.worst if self.shimming is None else self.shimming.residual(*self.worst)
 
     @property
-    def changed(self) -> Contributor:
-        """The contributor that a remedy changes."""
-        found = [one for one in self.contributors if one.name == self.adjustable]
-        return found[0] if found else self.contributors[0]
+    def changed(self) -> StackLength:
+        """The length that a remedy changes."""
+        found = [one for one in self.lengths if one.name == self.adjustable]
+        return found[0] if found else self.lengths[0]

@@ -37,7 +37,7 @@ def stack_findings(stacks: Sequence[AxialStack]) -> Iterator[Finding]:
 def _fault(one: AxialStack, code: str, play: float, limit: float, does: str, bound: str) -> Finding:
     works, changed = nearest_nominal(one), one.changed
     if works is None:
-        widest = max(one.contributors, key=lambda part: part.half)
+        widest = max(one.lengths, key=lambda part: part.half)
         remedy = (
             f"narrow its tolerances, or put in shim rings after measuring; the widest is {widest.name}, "
             f"{widest.lower:g} to {widest.upper:g} mm"

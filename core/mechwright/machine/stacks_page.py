@@ -16,7 +16,7 @@ HTML, JSON = "stacks.html", "stacks.json"
 
 
 class StacksPage(Page):
-    """The axial stacks of a machine: contributors, worst case, statistics, and shim rings."""
+    """The axial stacks of a machine: lengths, worst case, statistics, and shim rings."""
 
     name = "stacks"
     commands = frozenset({"model", "build"})
@@ -81,7 +81,7 @@ def _grid(one: AxialStack) -> Grid:
             limited(part.nominal, part.lower, part.upper),
             _percent(share),
         ]
-        for part, share in zip(one.contributors, found.shares, strict=True)
+        for part, share in zip(one.lengths, found.shares, strict=True)
     ]
     title = one.name[0].upper() + one.name[1:]
     if (shimming := one.shimming) is not None:
@@ -99,7 +99,7 @@ def as_data(one: AxialStack) -> dict[str, Any]:
     data: dict[str, Any] = {
         "name": one.name,
         "meant": [one.least, None if one.greatest == float("inf") else one.greatest],
-        "contributors": [
+        "lengths": [
             {
                 "name": part.name,
                 "part": part.part,
@@ -110,7 +110,7 @@ def as_data(one: AxialStack) -> dict[str, Any]:
                 "bought": part.bought,
                 "share": round(share, 6),
             }
-            for part, share in zip(one.contributors, found.shares, strict=True)
+            for part, share in zip(one.lengths, found.shares, strict=True)
         ],
         "nominal": round(one.nominal, 6),
         "worst": [round(value, 6) for value in found.worst],

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mechwright import Instance, Part
-from mechwright.contracts.axial_stack import AxialStack, Contributor, Shimming
+from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import EndThread, Length, Turned, tube
@@ -81,9 +81,9 @@ class Disc:
         return AxialStack(
             f"play of the gears on {self.shaft}",
             (
-                Contributor(STANDS_OUT, 1, under + self.over, -LENGTH, LENGTH, part=self.shaft),
+                StackLength(STANDS_OUT, 1, under + self.over, -LENGTH, LENGTH, part=self.shaft),
                 *(
-                    Contributor(f"thickness of {name}", -1, length, -off, off, part=name)
+                    StackLength(f"thickness of {name}", -1, length, -off, off, part=name)
                     for name, length, off in self.lengths
                 ),
             ),
@@ -183,15 +183,15 @@ class Keep:
         return AxialStack(
             "float of shaft-2",
             (
-                Contributor.of(shaft.length_of(LOADED), 1, "shaft-2"),
+                StackLength.of(shaft.length_of(LOADED), 1, "shaft-2"),
                 *(
-                    Contributor(f"{name}, ISO 2768-m", -1, size, -off, off, part=name)
+                    StackLength(f"{name}, ISO 2768-m", -1, size, -off, off, part=name)
                     for name, size in plates
                     for off in (general_length(size, "medium"),)
                 ),
-                Contributor("hub-spacer", -1, layout.gap, -LENGTH, LENGTH, part="hub-spacer"),
-                Contributor("ring on the circlip", -1, BELOW, -0.05, 0.0, True, "ring-2"),
-                Contributor(
+                StackLength("hub-spacer", -1, layout.gap, -LENGTH, LENGTH, part="hub-spacer"),
+                StackLength("ring on the circlip", -1, BELOW, -0.05, 0.0, True, "ring-2"),
+                StackLength(
                     "circlip",
                     -1,
                     self.circlip.thickness,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mechwright import DesignError, Outline
-from mechwright.contracts.axial_stack import AxialStack, Contributor
+from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import Groove, Length, Step, Turned
 from mechwright.mechanics.linkage import (
@@ -110,12 +110,12 @@ def shaft_stacks(table: Mechanism, length: float) -> Iterator[AxialStack]:
     yield AxialStack(
         "float of the shaft",
         (
-            Contributor.of(shaft_form(table, length).length_of(LOADED), 1, "shaft"),
+            StackLength.of(shaft_form(table, length).length_of(LOADED), 1, "shaft"),
             *(
-                Contributor(f"{name}, ISO 2768-m", -1, given.thickness, -off, off, part=name)
+                StackLength(f"{name}, ISO 2768-m", -1, given.thickness, -off, off, part=name)
                 for name in ("crank", "base")
             ),
-            Contributor("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
+            StackLength("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
         ),
         FLOAT[0],
         FLOAT[1] + 2 * given.gap,

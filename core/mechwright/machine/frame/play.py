@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mechwright.contracts.axial_stack import AxialStack, Contributor, Shimming
+from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
 from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import Turned
 from mechwright.machine.frame.bracket import BRACKET_HEIGHT, HEIGHT, Bracket
@@ -54,22 +54,22 @@ def shaft_stacks(seat: Seat, shaft: Turned, levels: Levels) -> Iterator[AxialSta
 def _float(seat: Seat, shaft: Turned, levels: Levels) -> AxialStack:
     bearing, ring, name = seat.bearing, ring_of(seat), f"shaft-{seat.spindle.name}"
     part = f"bearing-{bearing.name.replace('/', '_')}"
-    contributors = (
+    lengths = (
         *(
-            Contributor(f"depth of the {side} seat", 1, bearing.width, *SEAT_DEPTH, part=f"{side}-plate")
+            StackLength(f"depth of the {side} seat", 1, bearing.width, *SEAT_DEPTH, part=f"{side}-plate")
             for side in ("lower", "upper")
         ),
-        Contributor(BETWEEN, 1, levels.height, -PILLAR_HEIGHT, PILLAR_HEIGHT, part="pillar"),
-        Contributor.of(shaft.length_of(COLLAR_EDGE), -1, name),
+        StackLength(BETWEEN, 1, levels.height, -PILLAR_HEIGHT, PILLAR_HEIGHT, part="pillar"),
+        StackLength.of(shaft.length_of(COLLAR_EDGE), -1, name),
         *(
-            Contributor(f"width of the {side} bearing", -1, bearing.width, -bearing.narrower, 0.0, True, part)
+            StackLength(f"width of the {side} bearing", -1, bearing.width, -bearing.narrower, 0.0, True, part)
             for side in ("lower", "upper")
         ),
     )
     where = "between the outer ring of the upper bearing and the floor of its seat"
     return AxialStack(
         f"float of {name}",
-        contributors,
+        lengths,
         0.0 if ring is None else FLOAT[0],
         RATTLE if ring is None else FLOAT[1],
         None if ring is None else _shimming(ring, RING, where, LEFT),
@@ -80,14 +80,14 @@ def _float(seat: Seat, shaft: Turned, levels: Levels) -> AxialStack:
 def _hub(seat: Seat, shaft: Turned) -> AxialStack:
     hub, circlip, name = seat.spindle.hub, seat.circlip, f"shaft-{seat.spindle.name}"
     ring, off = hub_ring(seat), hub_room(seat)
-    contributors = (
-        Contributor.of(shaft.length_of(LOADED_WALL), 1, name),
-        Contributor("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name),
-        Contributor("hub, ISO 2768-m", -1, hub.length, -off, off),
+    lengths = (
+        StackLength.of(shaft.length_of(LOADED_WALL), 1, name),
+        StackLength("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name),
+        StackLength("hub, ISO 2768-m", -1, hub.length, -off, off),
     )
     return AxialStack(
         f"play of the hub on {name}",
-        contributors,
+        lengths,
         0.0,
         HUB_RATTLE if ring is None else HUB_PLAY,
         None if ring is None else _shimming(ring, off, "between the hub and its circlip", HUB_LEFT),
@@ -114,9 +114,9 @@ def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float)
     return AxialStack(
         "gap of the shafts in the coupling",
         (
-            Contributor(BRACKET_HEIGHT, 1, height, -HEIGHT, HEIGHT, part="motor-pillar"),
+            StackLength(BRACKET_HEIGHT, 1, height, -HEIGHT, HEIGHT, part="motor-pillar"),
             *(
-                Contributor(
+                StackLength(
                     name,
                     sign,
                     size,
@@ -126,10 +126,10 @@ def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float)
                 )
                 for name, sign, size, part in general
             ),
-            Contributor(
+            StackLength(
                 "shaft of the motor over its face", -1, out, -MOTOR_SHAFT, MOTOR_SHAFT, True, "motor"
             ),
-            Contributor("float of the shaft", -1, 0.0, -FLOATS, FLOATS),
+            StackLength("float of the shaft", -1, 0.0, -FLOATS, FLOATS),
         ),
         APART,
         adjustable=STUB,

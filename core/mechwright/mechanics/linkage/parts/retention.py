@@ -7,7 +7,7 @@ carry the shaft. Its shaft has a groove where a circlip of its diameter is sold.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mechwright.contracts.axial_stack import AxialStack, Contributor
+from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import Groove, Length, Step, Turned
 from mechwright.errors import DesignError
@@ -95,13 +95,13 @@ def stacks_of(layout: Layout) -> Iterator[AxialStack]:
     yield AxialStack(
         "float of the shaft",
         (
-            Contributor.of(held.form.length_of(LOADED), 1, held.pin.name),
+            StackLength.of(held.form.length_of(LOADED), 1, held.pin.name),
             *(
-                Contributor(f"{name}, ISO 2768-m", -1, size, -off, off, part=name.lower())
+                StackLength(f"{name}, ISO 2768-m", -1, size, -off, off, part=name.lower())
                 for name, size in plates
                 for off in (general_length(size, "medium"),)
             ),
-            Contributor("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
+            StackLength("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
         ),
         PLAY[0],
         PLAY[1],
