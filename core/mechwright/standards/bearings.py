@@ -4,9 +4,18 @@ import math
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import between
 from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
+
+_BORES = ((18.0, 0.008), (30.0, 0.010))
+_OUTSIDES = ((18.0, 0.008), (30.0, 0.009), (50.0, 0.011), (80.0, 0.013))
+"""Up to a diameter, mm, a ring of class Normal has a mean bore or outside that is so much less: ISO 492."""
+
+
+def _below(diameter: float, rows: tuple[tuple[float, float], ...]) -> float:
+    return next(less for most, less in rows if diameter <= most)
 
 
 @dataclass(frozen=True)
@@ -56,7 +65,11 @@ class Bearing:
     def bought(self) -> Bought:
         """How it is ordered; one solid from z = 0 to its width, the whole envelope."""
         envelope = ring(self.bore, self.outside, self.width, chamfer=self.fillet)
-        return Bought(f"{self.name}-2Z", "ISO 15", self.mass, Shape((envelope,)))
+        fits = (
+            between(self.bore, -_below(self.bore, _BORES), 0.0),
+            between(self.outside, -_below(self.outside, _OUTSIDES), 0.0),
+        )
+        return Bought(f"{self.name}-2Z", "ISO 15", self.mass, Shape((envelope,)), fits=fits)
 
 
 def bearings() -> tuple[Bearing, ...]:
