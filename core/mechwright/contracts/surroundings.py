@@ -47,11 +47,14 @@ class Surroundings:
         Bodies that the parts are instances of, beside those of the motion.
     findings
         What there is to say of them: of the stage ``parts``.
+    replaces
+        Names of parts of the mechanism that stand no more, since some of ``parts`` do in their place.
     """
 
     parts: tuple[Part, ...] = ()
     places: Mapping[str, Place] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
+    replaces: tuple[str, ...] = ()
 
     def around(self, motion: Motion) -> Motion:
         """The motion with the places as bodies, each fixed to what it stands on.

@@ -113,7 +113,7 @@ class Design:
         """
         parts: Sequence[Part] = self.family.parts(self.params)
         for around in self.surroundings:
-            parts = [*parts, *around.parts]
+            parts = [*(part for part in parts if part.name not in around.replaces), *around.parts]
         keys = [file_key(part.name) for part in parts]
         for part, key in zip(parts, keys, strict=True):
             if keys.count(key) > 1:  # the family's own are known to differ

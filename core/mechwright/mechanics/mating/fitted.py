@@ -6,9 +6,11 @@ from dataclasses import replace
 from mechwright.contracts.bodies import placed
 from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.contracts.holes import exchanged, hole
+from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import Turned
+from mechwright.errors import DesignError, did_you_mean
 from mechwright.mechanics.mating.choice import Assembled, Fits, hole_fit_of, pin_fit
 from mechwright.mechanics.mating.rounds import Round
 
@@ -23,6 +25,7 @@ def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits) -> list[Part]:
     go together.
     """
     whole = Assembled(placed(parts, motion), motion)
+    _check_pairs(whole, fits)
     chosen: Chosen = {}
     for name, face, fit in (*_pairs(whole, fits), *_hubs(whole, fits)):
         known = chosen.get((name, face))
@@ -32,6 +35,17 @@ def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits) -> list[Part]:
         _part(part, {face: fit for (name, face), fit in chosen.items() if name == part.name})
         for part in parts
     ]
+
+
+def _check_pairs(whole: Assembled, fits: Fits) -> None:
+    """Raise DesignError for a pair of the settings that is none of the assembly."""
+    names = [(whole.bodies[m.pin].part.name, whole.bodies[m.hole].part.name) for m in whole.matches]
+    known = {f"{one} in {two}": None for one, two in names}
+    for pair in fits.own:
+        if pair not in known:
+            pin, _, body = pair.partition(" in ")
+            hint = did_you_mean(pair, known) or f"the pairs are: {', '.join(known) or 'none'}"
+            raise DesignError(f'fits.of."{pair}": no part {pin} goes into a part {body}; {hint}')
 
 
 def _looser(one: Fit, two: Fit) -> bool:
@@ -54,11 +68,11 @@ def _pairs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
 
 
 def _hubs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
-    """Holes of plates about whose axis they turn, and in which no shaft is drawn."""
+    """Holes about whose axis a plate turns, and in which no shaft is drawn."""
     filled = {(match.hole, match.inside.face) for match in whole.matches}
     for k, faces in enumerate(whole.rounds):
         body = whole.bodies[k].part
-        if body.outline is None:
+        if body.outline is None or whole.heads[k] == GROUND:
             continue
         for one in faces:
             if _is_open(one) and (k, one.face) not in filled and whole.turns_on(k, one):
