@@ -3,20 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mechwright.contracts.bodies import Placed, placed
 from mechwright.contracts.file_names import free_name
-from mechwright.contracts.motion import Motion, Poses
-from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 
 
 @dataclass(frozen=True)
-class Body:
-    """One copy of a part where it stands."""
+class Body(Placed):
+    """One copy of a part where it stands, with its name in the assembly."""
 
     name: str
-    part: Part
-    instance: Instance
-    poses: Poses
 
     @property
     def is_plate(self) -> bool:
@@ -53,18 +51,12 @@ def bodies_of(parts: Sequence[Part], motion: Motion, sample: int = 0) -> list[Bo
     names = [instance.body for part in parts for instance in part.instances]
     taken = {name for name in names if names.count(name) == 1}
     found = []
-    for part in parts:
-        for instance in part.instances:
-            if instance.body not in motion.poses:
-                raise GeometryError(
-                    f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
-                    f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
-                )
-            name = instance.body
-            if names.count(name) > 1:  # names of children of an assembly are unique
-                name = free_name(f"{name}-{part.name}", taken)
-                taken.add(name)
-            found.append(Body(name, part, instance, motion.poses[instance.body]))
+    for one in placed(parts, motion):
+        name = one.instance.body
+        if names.count(name) > 1:  # names of children of an assembly are unique
+            name = free_name(f"{name}-{one.part.name}", taken)
+            taken.add(name)
+        found.append(Body(one.part, one.instance, one.poses, name))
     return found
 
 

@@ -1,12 +1,14 @@
 """What the core itself registers."""
 
 from mechwright.contracts.plugin import Plugin
+from mechwright.designs.fits_table import FitsTable
 from mechwright.machine.inspection import MachineDrive
 from mechwright.machine.page import DrivePage
 from mechwright.machine.stack_inspection import AxialStacks
 from mechwright.machine.stacks_page import StacksPage
 from mechwright.machine.table import MachineTable
 from mechwright.pipeline.file_names import FileNames
+from mechwright.pipeline.fits import FitsSaid
 from mechwright.pipeline.tables import MotionTables
 from mechwright.pipeline.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.plugins.hookspecs import hookimpl
@@ -14,10 +16,12 @@ from mechwright.plugins.hookspecs import hookimpl
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The pages that need no other room, what checks file names, ``[tolerances]`` and ``[machine]``."""
+    """The pages that need no other room, what checks file names, and the tables of the core."""
     return [
         FileNames,
         MotionTables,
+        FitsTable,
+        FitsSaid,
         TolerancesTable,
         ToleranceKeys,
         TolerancePage,

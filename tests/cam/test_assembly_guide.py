@@ -21,6 +21,7 @@ from mechwright.contracts.part import Bore
 from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.mechanics.mating.rounds import matches, rounds_of
 from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
@@ -40,7 +41,6 @@ from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.plan import Plan, plan_of
 from mechwright_cad.bill.page import order_of
 from mechwright_cad.bodies import bodies_of
-from mechwright_cad.contacts.rounds import matches, rounds_of
 from mechwright_cad.contacts.screw_joints import joints_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -138,7 +138,7 @@ def test_fits_say_whether_a_pin_is_pressed_pushed_or_runs():
     runs = play(shaft_fit(6, "f7"), hole_fit(6, "H7"))
     assert runs.play == pytest.approx((0.010, 0.034))
     assert runs.text == "⌀6 H7 / 6 f7"
-    assert not play(None, None).has_fit
+    assert (play(None, None).unsaid, play(None, hole_fit(6, "H7")).unsaid, runs.unsaid) == (2, 1, 0)
     apart = standing(turned("pin", Turned((Length(6.0, 2.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))
     assert matches(apart, 0, (0,), (1,)) == [], "it ends where the bush begins"
     room = standing(turned("pin", Turned((Length(5.0, 9.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))

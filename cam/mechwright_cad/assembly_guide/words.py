@@ -4,13 +4,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from mechwright.contracts.bodies import rigid
+from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.tools import fitted, screwed
-from mechwright_cad.assembly_order.groups import is_bearing, rigid
+from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.order import Step
 from mechwright_cad.assembly_order.plan import Plan
 from mechwright_cad.bodies import is_coupling
-from mechwright_cad.contacts.rounds import Match, matches, rounds_of
 
 PRESS = "Press it in a vice or arbor press, with support right under the hole."
 """How a press fit is made on the bench."""
@@ -20,9 +21,6 @@ IN_PLACE = "Support that part right under the hole and draw the pin in with a cl
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
-
-ROOM = 0.1
-"""Play that no seat has, mm."""
 
 _TRIED = {
     "prismatic": "slides freely on",
@@ -167,10 +165,8 @@ class Words:
             return f"{pin} screws into {hole}."
         if is_coupling(self.plan.bodies[match.hole].part):
             return f"{pin} goes into {hole}: tighten its screw there."
-        if not match.has_fit and least > ROOM:
-            return f"{pin} in {hole}: {match.text}, which is room and no seat; what screws it down holds it."
-        if not match.has_fit:
-            return f"{pin} in {hole}: {match.text}, no fit is said; it has to sit fast, or is bonded."
+        if match.unsaid:
+            return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
             return (
                 f"{pin} in {hole} is a press fit, {match.text}, {-most:.3f} to {-least:.3f} mm tight. {press}"
@@ -200,7 +196,7 @@ class Words:
                     continue
                 self._said.add(pair)
                 least, most = match.play
-                loose = f" with {least:.3f} to {most:.3f} mm of play, {match.text}" if match.has_fit else ""
+                loose = "" if match.unsaid else f" with {least:.3f} to {most:.3f} mm of play, {match.text}"
                 yield (
                     f"Grease. Try: {self.name(match.pin)} and {self.name(match.hole)} turn freely on each "
                     f"other by hand{loose}."

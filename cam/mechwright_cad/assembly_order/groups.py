@@ -9,6 +9,7 @@ import shapely
 from manifold3d import Manifold
 
 from mechwright.arrays import Array
+from mechwright.contracts.bodies import rigid
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright_cad.assembly_order.layers import UP, Layer, layers_of, mesh_points
@@ -17,22 +18,6 @@ from mechwright_cad.interference.surface import Surface
 
 TOUCHING = 0.1
 """Bodies nearer to each other than this, mm, touch: less than any clearance that is meant to be one."""
-
-
-def rigid(motion: Motion) -> dict[str, str]:
-    """Every body of a motion to the name of the one that all that are fixed to it share."""
-    head = {name: name for name in (GROUND, *motion.poses)}
-
-    def find(name: str) -> str:
-        while head[name] != name:
-            name = head[name]
-        return name
-
-    for joint in motion.joints.values():
-        if joint.kind == "fixed":
-            one, two = find(joint.one), find(joint.two)
-            head[max(one, two)] = min(one, two)  # the ground's name is the least of all
-    return {name: find(name) for name in head}
 
 
 class BodyLayers:

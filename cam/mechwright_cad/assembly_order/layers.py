@@ -16,15 +16,13 @@ from mechwright.arrays import Array
 from mechwright.contracts.holes import joined
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.shape import Prism, Revolve, Shape
+from mechwright.mechanics.mating.rounds import PARALLEL
 from mechwright_cad.bodies import Body
 from mechwright_cad.interference.slabs import Slab, slabs_of, triangles_of
 from mechwright_cad.interference.surface import Surface
 
 UP = np.array((0.0, 0.0, 1.0))
 """The way that is up where the mechanism stands on its base."""
-
-PARALLEL = 1e-9
-"""By how much less than 1 the product of two unit vectors is that are parallel."""
 
 LEVEL = 0.02
 """Heights closer to each other than this, mm, are one."""

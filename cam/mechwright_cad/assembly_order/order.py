@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from mechwright.arrays import Array
+from mechwright.contracts.bodies import rigid
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
+from mechwright.mechanics.mating.rounds import PARALLEL
 from mechwright_cad.assembly_order.barred import Ways
-from mechwright_cad.assembly_order.groups import BodyLayers, bonds, connected, rigid
-from mechwright_cad.assembly_order.layers import LEVEL, PARALLEL, UP, axis_of, own_layers
+from mechwright_cad.assembly_order.groups import BodyLayers, bonds, connected
+from mechwright_cad.assembly_order.layers import LEVEL, UP, axis_of, own_layers
 from mechwright_cad.bodies import Body
 
 CLAMPS = frozenset({"ISO 4762", "ISO 10642"})

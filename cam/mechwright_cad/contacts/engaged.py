@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from mechwright.contracts.joint import Joint
-from mechwright_cad.contacts.rounds import CONTACT
+from mechwright.mechanics.mating.rounds import CONTACT
 from mechwright_cad.contacts.touching import Gap, Touching
 
 DRIVING = frozenset({"gear", "contact"})

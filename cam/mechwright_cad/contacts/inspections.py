@@ -165,7 +165,7 @@ _VACANCIES = {
 
 def gap_findings(gaps: "Iterable[Gap]") -> Iterator[Finding]:
     """An error for each."""
-    from mechwright_cad.contacts.rounds import CONTACT
+    from mechwright.mechanics.mating.rounds import CONTACT
 
     for one in gaps:
         code, limit = f"contact.{one.kind}", CONTACT + one.play

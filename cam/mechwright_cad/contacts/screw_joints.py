@@ -13,6 +13,7 @@ from mechwright.contracts.details import Thread
 from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Revolve
 from mechwright.errors import DesignError
+from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, Round, rounds_of
 from mechwright.mechanics.strength.allowed import ALLOWED
 from mechwright.mechanics.strength.bolts import PROOF
 from mechwright.mechanics.strength.tightening import (
@@ -24,9 +25,7 @@ from mechwright.mechanics.strength.tightening import (
 )
 from mechwright.standards.screws import ScrewSize, screw_size
 from mechwright.tolerances import TOLERANCES
-from mechwright_cad.assembly_order.layers import PARALLEL
 from mechwright_cad.bodies import Body
-from mechwright_cad.contacts.rounds import NEAR, Round, rounds_of
 
 _SCREW = re.compile(r"ISO (4762|10642|4026) - M([\d.]+) x ([\d.]+) - (\S+)")
 

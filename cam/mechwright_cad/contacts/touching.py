@@ -20,12 +20,13 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Bore
-from mechwright_cad.assembly_order.groups import BodyLayers, rigid
-from mechwright_cad.assembly_order.layers import PARALLEL, UP, Layer
+from mechwright.mechanics.mating.rounds import ALIKE, CONTACT, NEAR, PARALLEL, Round, rounds_of
+from mechwright_cad.assembly_order.groups import BodyLayers
+from mechwright_cad.assembly_order.layers import UP, Layer
 from mechwright_cad.bodies import Body, is_coupling
-from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round, rounds_of
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 ROOM = 0.1

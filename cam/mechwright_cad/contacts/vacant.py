@@ -7,10 +7,9 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.mechanics.linkage.fields import LOOSEST
+from mechwright.mechanics.mating.rounds import ALIKE, CONTACT, NEAR, PARALLEL, Round
 from mechwright.tolerances import TOLERANCES
-from mechwright_cad.assembly_order.layers import PARALLEL
 from mechwright_cad.bodies import is_coupling, is_motor
-from mechwright_cad.contacts.rounds import ALIKE, CONTACT, NEAR, Round
 from mechwright_cad.contacts.screw_joints import Hole, ScrewJoint, holes_of
 from mechwright_cad.contacts.touching import Gap, Touching
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mechwright.contracts.fits import Fit
 from mechwright.contracts.shape import Shape
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
@@ -54,6 +55,8 @@ class Bought:
         What a buyer or fitter has to know besides.
     threads
         Its threaded holes, into which screws of the machine go.
+    fits
+        Limits of its round faces, each by the diameter at which it is drawn.
     """
 
     designation: str
@@ -62,6 +65,7 @@ class Bought:
     shape: Shape | None = None
     note: str = ""
     threads: tuple[BlindThread, ...] = ()
+    fits: tuple[Fit, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.designation.strip():

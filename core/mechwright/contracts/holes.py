@@ -5,11 +5,12 @@ from dataclasses import replace
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
-from mechwright.contracts.part import Bore, Part, is_outside
+from mechwright.contracts.part import Bore, Part, Profile, is_outside
 from mechwright.contracts.sections import plan_view
 from mechwright.contracts.threads import COARSE, UNIFIED, named
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Loop, Outline, circle
+from mechwright.geometry import Arc, Line, Loop, Outline, circle
+from mechwright.geometry.segments import Point, Segment
 from mechwright.tolerances import TOLERANCES
 
 CLEARANCE = 1.2
@@ -116,7 +117,14 @@ def joined(part: Part) -> Part:
 def exchanged(part: Part, old: Bore, new: Bore) -> Part:
     """The part with one hole for another, in its features and, if it goes through, in its outline."""
     assert part.outline is not None  # noqa: S101 - only plates have features
-    features = tuple(new if feature is old else feature for feature in part.features)
+    features = tuple(
+        new
+        if feature is old
+        else replace(feature, loop=_widened(feature.loop, old, new))
+        if isinstance(feature, Profile) and feature.side == "inside"
+        else feature
+        for feature in part.features
+    )
     loops = tuple(_widened(loop, old, new) for loop in part.outline.inner)
     return replace(
         part, outline=Outline(part.outline.outer, loops, part.outline.deviation), machined=features
@@ -124,15 +132,55 @@ def exchanged(part: Part, old: Bore, new: Bore) -> Part:
 
 
 def _widened(loop: Loop, old: Bore, new: Bore) -> Loop:
-    arc = loop.segments[0]
-    if not (loop.is_circle and isinstance(arc, Arc)):
+    """The loop with the wall of a hole moved; what adjoins it, as a keyway does, ends at the new wall."""
+    if not any(_is_wall(segment, old) for segment in loop.segments):
         return loop
-    if (
-        math.dist(arc.centre, old.centre) > TOLERANCES.closure
-        or abs(2 * arc.radius - old.diameter) > TOLERANCES.closure
-    ):
-        return loop
-    return Loop((circle(new.centre, new.diameter / 2, clockwise=loop.area < 0, tag=arc.tag),))
+    if loop.is_circle:
+        tag = loop.segments[0].tag
+        return Loop((circle(new.centre, new.diameter / 2, clockwise=loop.area < 0, tag=tag),))
+    count = len(loop.segments)
+    found: list[Segment] = []
+    for k, segment in enumerate(loop.segments):
+        before, after = loop.segments[k - 1], loop.segments[(k + 1) % count]
+        if isinstance(segment, Arc) and _is_wall(segment, old):
+            found.append(_wall(segment, _met(before, segment.start, new), _met(after, segment.end, new), new))
+        elif isinstance(segment, Line):
+            start = _met(segment, segment.start, new) if _is_wall(before, old) else segment.start
+            end = _met(segment, segment.end, new) if _is_wall(after, old) else segment.end
+            found.append(replace(segment, start=start, end=end))
+        else:
+            found.append(segment)
+    return Loop(tuple(found))
+
+
+def _is_wall(segment: Segment, bore: Bore) -> bool:
+    """Whether a segment is a piece of the wall of a hole."""
+    return (
+        isinstance(segment, Arc)
+        and math.dist(segment.centre, bore.centre) <= TOLERANCES.closure
+        and abs(2 * segment.radius - bore.diameter) <= TOLERANCES.closure
+    )
+
+
+def _met(beside: Segment, at: Point, bore: Bore) -> Point:
+    """Where a segment that adjoined the wall of a hole at a point meets the wall of ``bore``."""
+    (cx, cy), radius = bore.centre, bore.diameter / 2
+    x, y = at[0] - cx, at[1] - cy
+    if not isinstance(beside, Line):
+        far = math.hypot(x, y)
+        return cx + x * radius / far, cy + y * radius / far
+    length = math.dist(beside.start, beside.end)
+    u, v = ((b - a) / length for a, b in zip(beside.start, beside.end, strict=True))
+    along, across = x * u + y * v, x * v - y * u
+    reach = math.copysign(math.sqrt(radius**2 - across**2), along)
+    return at[0] + (reach - along) * u, at[1] + (reach - along) * v
+
+
+def _wall(arc: Arc, start: Point, end: Point, bore: Bore) -> Arc:
+    """The piece of the wall of a hole between two points, in the sense of an arc."""
+    first, last = (math.atan2(y - bore.centre[1], x - bore.centre[0]) for x, y in (start, end))
+    sweep = (last - first) % math.tau if arc.sweep > 0 else -((first - last) % math.tau)
+    return Arc(bore.centre, bore.diameter / 2, first, sweep, arc.tag)
 
 
 def wall_beside(part: Part, bore: Bore) -> float:

@@ -51,6 +51,9 @@ class Hub:
     recess
         Diameter of a counterbore about the bore, mm, in which what holds the hub has to stay; infinite
         without one.
+    bonded
+        Length on which a hub without a keyway is bonded to the shaft, mm: of several hubs the shortest; None
+        for all of the seat.
     """
 
     low: float
@@ -60,11 +63,17 @@ class Hub:
     key_angle: float = 0.0
     material: str = "aluminium"
     recess: float = math.inf
+    bonded: float | None = None
 
     @property
     def length(self) -> float:
         """Of the seat, mm."""
         return self.high - self.low
+
+    @property
+    def grip(self) -> float:
+        """Length on which it is bonded, mm."""
+        return self.length if self.bonded is None else self.bonded
 
 
 @dataclass(frozen=True)
@@ -89,6 +98,8 @@ class Spindle:
         Share of torque that goes through the shaft; 1 of the input itself.
     force
         Share of radial force in the middle of the hub, N for each N m.
+    origin
+        Height of the body's origin, mm.
     """
 
     name: str
@@ -99,6 +110,11 @@ class Spindle:
     drives: bool = False
     torque: float = 1.0
     force: float = 0.0
+    origin: float = 0.0
+
+
+_ANGLES = (180.0, 90.0, -90.0, 135.0, -135.0, 45.0, -45.0, 0.0)
+"""To which parts are turned to get them out of the way, degrees, best first."""
 
 
 @dataclass(frozen=True)
@@ -112,6 +128,11 @@ class Mounting:
     gap
         The design-file key of the gap along the axes between what turns over each other, and its value, mm;
         None if there is none.
+    own_shafts
+        Names of the family's own parts in whose place the shafts of a frame stand.
+    turning_keys
+        The design-file keys, in degrees, that turn parts of the mechanism about a spindle, out of the way of
+        others.
 
     Raises
     ------
@@ -122,6 +143,8 @@ class Mounting:
 
     spindles: tuple[Spindle, ...]
     gap: tuple[str, float] | None = None
+    own_shafts: tuple[str, ...] = ()
+    turning_keys: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if sum(spindle.drives for spindle in self.spindles) != 1:
@@ -137,6 +160,11 @@ class Mounting:
     def driver(self) -> Spindle:
         """The spindle that the input turns."""
         return next(one for one in self.spindles if one.drives)
+
+    @property
+    def turned_away(self) -> list[Change]:
+        """Changes that turn parts out of the way of others."""
+        return [{key: angle} for key in self.turning_keys for angle in _ANGLES]
 
     def others(self, spindle: Spindle) -> Sequence[Spindle]:
         """All but one."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mechwright.contracts import limits
 from mechwright.errors import DesignError
 
-_PAIR = re.compile(r"([EFGH][5-9])/([efgh][5-9]|j[56]|[kmnp][5-7])")
+_PAIR = re.compile(f"({limits.HOLE_CLASS})/({limits.SHAFT_CLASS})")
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ def pair_of(size: float, text: str) -> Pair:
     match = _PAIR.fullmatch(text.strip())
     if match is None:
         raise DesignError(
-            f"{text!r} is no fit; write one such as 'H7/g6': E to H, then e to h, j, or k, m, n, p"
+            f"{text!r} is no fit; write one such as 'H7/g6', a hole and a shaft of these: {limits.KNOWN}"
         )
     (low, high), (least, most) = (limits.limits(size, name) for name in match.groups())
     return Pair((low / 1000, high / 1000), (least / 1000, most / 1000))

@@ -50,12 +50,15 @@ class Surroundings:
         What there is to say of them: of the stage ``parts``.
     stacks
         Axial stacks of these parts, each with the play that is meant.
+    replaces
+        Names of parts of the mechanism that stand no more, since some of ``parts`` do in their place.
     """
 
     parts: tuple[Part, ...] = ()
     places: Mapping[str, Place] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
     stacks: tuple[AxialStack, ...] = ()
+    replaces: tuple[str, ...] = ()
 
     def around(self, motion: Motion) -> Motion:
         """The motion with the places as bodies, each fixed to what it stands on.

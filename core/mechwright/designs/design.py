@@ -30,6 +30,7 @@ from mechwright.contracts.table import Table
 from mechwright.designs.chains import STAGE, chain_of, chain_params, stage_schema
 from mechwright.designs.change import changed
 from mechwright.designs.files import read_text, read_toml
+from mechwright.designs.fits_table import FitsTable
 from mechwright.designs.hints import homes, placed
 from mechwright.designs.inches import Units, in_millimetres, told_in
 from mechwright.designs.schema import FORMAT, HEAD
@@ -38,6 +39,8 @@ from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, GeometryError, PluginError
 from mechwright.mechanics.chain import Chain, ChainParams
+from mechwright.mechanics.mating.choice import Fits
+from mechwright.mechanics.mating.fitted import with_fits
 from mechwright.plugins.host import Host
 from mechwright.reading import once
 
@@ -111,7 +114,7 @@ class Design:
         """
         parts: Sequence[Part] = self.family.parts(self.params)
         for around in self.surroundings:
-            parts = [*parts, *around.parts]
+            parts = [*(part for part in parts if part.name not in around.replaces), *around.parts]
         keys = [file_key(part.name) for part in parts]
         for part, key in zip(parts, keys, strict=True):
             if keys.count(key) > 1:  # the family's own are known to differ
@@ -119,6 +122,7 @@ class Design:
                     f"part {part.name!r} stands in the mechanism and around it, and both have its files; "
                     "leave out the table that adds the second"
                 )
+        parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()))
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts

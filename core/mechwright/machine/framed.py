@@ -60,7 +60,9 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         except DesignError as error:
             return Surroundings(findings=(refusal("frame.design", "machine.frame", str(error)),))
         return base_under(settings, mounting, space, motion, wanted)
-    return frame_around(settings, mounting, parts, motion, wanted)
+    standing = [part for part in parts if part.name not in mounting.own_shafts]
+    found = frame_around(settings, mounting, standing, motion, wanted)
+    return replace(found, replaces=mounting.own_shafts if found.parts else ())
 
 
 def _set_space(family: Family[Any], params: Parameters) -> Space:

@@ -4,12 +4,20 @@ import math
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import between
 from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
-_NARROWER = ((50.0, 0.12), (120.0, 0.15))
-"""Bores up to and including, and by how much a ring may be narrower than nominal, mm: ISO 492, Normal."""
+_BORES = ((18.0, 0.008), (30.0, 0.010))
+_WIDTHS = ((50.0, 0.12), (120.0, 0.15))
+_OUTSIDES = ((18.0, 0.008), (30.0, 0.009), (50.0, 0.011), (80.0, 0.013))
+"""Up to a diameter, mm, a ring of class Normal has a mean bore, a width by its bore, or a mean outside
+that is so much less: ISO 492."""
+
+
+def _below(diameter: float, rows: tuple[tuple[float, float], ...]) -> float:
+    return next(less for most, less in rows if diameter <= most)
 
 
 @dataclass(frozen=True)
@@ -62,13 +70,17 @@ class Bearing:
         >>> bearing("6000").narrower
         0.12
         """
-        return next(under for most, under in _NARROWER if self.bore <= most)
+        return _below(self.bore, _WIDTHS)
 
     @property
     def bought(self) -> Bought:
         """How it is ordered; one solid from z = 0 to its width, the whole envelope."""
         envelope = ring(self.bore, self.outside, self.width, chamfer=self.fillet)
-        return Bought(f"{self.name}-2Z", "ISO 15", self.mass, Shape((envelope,)))
+        fits = (
+            between(self.bore, -_below(self.bore, _BORES), 0.0),
+            between(self.outside, -_below(self.outside, _OUTSIDES), 0.0),
+        )
+        return Bought(f"{self.name}-2Z", "ISO 15", self.mass, Shape((envelope,)), fits=fits)
 
 
 def bearings() -> tuple[Bearing, ...]:

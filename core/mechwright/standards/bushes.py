@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
@@ -39,6 +40,7 @@ class Bush:
             round(SINTERED * volume, 3),
             Shape((ring(self.bore, self.outside, self.length),)),
             "housing H7; bore H7 when pressed in",
+            fits=(hole_fit(self.bore, "H7"), shaft_fit(self.outside, "r6")),
         )
 
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.shape import Revolve, Shape
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
@@ -45,9 +46,10 @@ class Coupling:
         low, high = self.lower / 2, self.upper / 2
         step = ((low, middle),) if low == high else ((high, middle), (low, middle))
         profile = ((low, 0.0), (r, 0.0), (r, top), (high, top), *step)
+        fits = tuple(hole_fit(bore, "H7") for bore in (self.lower, self.upper))
         words = f"flexible coupling {self.of.outside:g} x {top:g}, {self.lower:g} / {self.upper:g} mm"
         note = "jaw or beam, clamping hubs; a rigid one would be over-determined"
-        return Bought(words, "", None, Shape((Revolve(profile),)), note)
+        return Bought(words, "", None, Shape((Revolve(profile),)), note, fits=fits)
 
 
 def couplings() -> tuple[CouplingSize, ...]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
@@ -48,7 +49,8 @@ class Dowel:
         steel = "m6" if self.standard == "ISO 2338" else "A"
         size = f"{self.diameter:g} x {self.length:g}"
         words = f"{self.diameter:g} {steel} x {self.length:g} - St" if steel == "m6" else size
-        return Bought(f"{self.standard} - {words}", self.standard, None, Shape((body,)))
+        fits = (shaft_fit(self.diameter, "m6"),)
+        return Bought(f"{self.standard} - {words}", self.standard, None, Shape((body,)), fits=fits)
 
 
 def dowels() -> tuple[DowelSize, ...]:

@@ -6,6 +6,7 @@ The origin is the shaft's axis in the mounting face; the shaft points along +z, 
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import Fit, shaft_fit
 from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.standards.table import table
@@ -37,6 +38,11 @@ class MotorFace:
     shaft_length: float
     flat: float
     offset: float
+
+    @property
+    def fits(self) -> tuple[Fit, ...]:
+        """Limits of shaft and pilot: those of makers' sheets, by the nearest classes; unchecked."""
+        return shaft_fit(self.shaft, "h7"), shaft_fit(self.pilot, "h9" if self.round else "h8")
 
     def shape(self, length: float) -> Shape:
         """Body of that length, pilot and shaft as one solid."""
@@ -80,7 +86,7 @@ class Stepper:
     def bought(self) -> Bought:
         """How it is ordered."""
         words = f"stepper {self.name} mm, {self.hold:g} N m, 1.8°"
-        return Bought(words, "NEMA ICS 16", self.mass, self.face.shape(self.length))
+        return Bought(words, "NEMA ICS 16", self.mass, self.face.shape(self.length), fits=self.face.fits)
 
 
 @dataclass(frozen=True)
@@ -119,7 +125,7 @@ class GearMotor:
         """How it is ordered."""
         words = f"gear motor 37D, {NOMINAL_VOLTAGE:g} V, {self.ratio:g}:1, {self.no_load:g} rev/min"
         note = "no standard fixes its face; compare with the maker's sheet"
-        return Bought(words, "", self.mass, self.face.shape(self.length), note)
+        return Bought(words, "", self.mass, self.face.shape(self.length), note, fits=self.face.fits)
 
 
 def steppers() -> tuple[Stepper, ...]:

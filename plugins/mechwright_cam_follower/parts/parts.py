@@ -88,11 +88,9 @@ def _cam(m: Mechanism, cam: int) -> Part:
     features: list[Feature] = []
     if opening is not None:
         inner.append(opening.loop())
-        features.append(
-            Profile("keyway", opening.loop(), "inside", 0, depth)
-            if opening.has_keyway
-            else Bore("bore", (0.0, 0.0), m.given.bore, 0, depth)
-        )
+        features.append(Bore("bore", (0.0, 0.0), m.given.bore, 0, depth))
+        if opening.has_keyway:
+            features.append(Profile("keyway", opening.loop(), "inside", 0, depth))
     for number, place in enumerate(screw_places(m), start=1):
         inner.append(_hole(place, m.given.screw_diameter))
         features.append(Bore(f"screw-{number}", place, m.given.screw_diameter, 0, depth))

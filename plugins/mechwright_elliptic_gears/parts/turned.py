@@ -146,7 +146,7 @@ def _shaft(diameter: float, length: float, seat_length: float, opening: Opening 
 
 def _standing(layout: Layout, over: float, disc: Disc | None) -> Turned:
     """A shaft that is pressed into the base plate, and on which gears turn, with the thread of its disc."""
-    pressed = Step(layout.bore, layout.base, shaft_fit(layout.bore, "m6"))
+    pressed = Step(layout.bore, layout.base, shaft_fit(layout.bore, "r6"))
     if disc is None:
         return Turned((pressed, _running(layout.bore, over)))
     note = f"pressed in until it stands {limited(over + disc.over, -LENGTH, LENGTH)} over the base plate"
@@ -181,6 +181,6 @@ def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:
 
 def _pin(diameter: float, seat: float, running: float) -> Turned:
     """Seat, then the thinner part that turns, then the head, from below."""
-    pressed = Step(diameter, seat, shaft_fit(diameter, "m6"))
+    pressed = Step(diameter, seat, shaft_fit(diameter, "r6"))
     head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
     return Turned((pressed, _running(diameter, running), head))

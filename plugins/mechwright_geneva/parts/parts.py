@@ -234,12 +234,10 @@ def _plate(
     inner: list[Loop] = []
     if opening is not None:
         inner.append(opening)
-        round_bore = Bore(
-            "bore", (0.0, 0.0), m.params.bore if body == WHEEL else m.params.driver_bore, 0, thickness
-        )
-        features.append(
-            round_bore if opening.is_circle else Profile("keyway", opening, "inside", 0, thickness)
-        )
+        bore = m.params.bore if body == WHEEL else m.params.driver_bore
+        features.append(Bore("bore", (0.0, 0.0), bore, 0, thickness))
+        if not opening.is_circle:
+            features.append(Profile("keyway", opening, "inside", 0, thickness))
     for number, place in enumerate(dowels, start=1):
         inner.append(_hole(place, m.params.fixing))
         features.append(Bore(f"dowel-{number}", place, m.params.fixing, 0, thickness))

@@ -12,6 +12,7 @@ from mechwright import DesignError, Output, Tolerances
 from mechwright.mechanics.linkage.tolerance.contributors import Fixed, Play, Source
 from mechwright.mechanics.linkage.tolerance.model import MachineTolerances
 from mechwright.mechanics.linkage.tolerance.outputs import Judged, Point, Way
+from mechwright.mechanics.mating.choice import RUNNING
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.sensitivity import Change
 from mechwright_slider_crank.kinematics.course import course_of
@@ -20,8 +21,6 @@ from mechwright_slider_crank.kinematics.mechanism import Mechanism
 SLIDER = Output("slider position", "mm")
 POINT = Output("coupler point", "mm", 2)
 
-FIT = "H7/g6"
-"""Of pins and shaft in their bushings: runs without shake at moderate speed, the usual fit of such joints."""
 
 GUIDE_WALLS = 4
 """Milled walls between which the slider has its play: two of the rails and its own."""
@@ -56,7 +55,7 @@ def _sources(table: Mechanism, tolerances: Tolerances) -> Iterator[Source]:
         (crank_pin, "crank", sizes.pin, -1.0),
         (wrist_pin, "slider", sizes.pin, 1.0),
     ):
-        play = tolerances.pin(joint.name, size, FIT, member=joint is not shaft)
+        play = tolerances.pin(joint.name, size, f"{RUNNING}/h6", member=joint is not shaft)
         ways = (complex(way), 1j * way)[: play.components]
         yield Source(play, tuple(Play(link, (joint,), "rod", one) for one in ways))
     yield Source(tolerances.gap("guide", 2 * given.play, GUIDE_WALLS), (line,))

@@ -6,6 +6,7 @@ from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from mechwright import Colour, Instance, Part, Step, Turned
+from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.holes import threaded
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright_spherical.kinematics.drive import Train, train_of
@@ -115,7 +116,7 @@ def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Itera
 
     def turned(span: str) -> Turned:
         low, high = spans[span]
-        return Turned((Step(diameter, high - low),))
+        return Turned((Step(diameter, high - low, shaft_fit(diameter, "h6")),))
 
     loose = {f"shaft-{name}" for name in hubs_of(params)}
     places = pin_places(params)

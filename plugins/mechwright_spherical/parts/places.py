@@ -3,6 +3,7 @@
 import math
 
 from mechwright import Step, Turned
+from mechwright.contracts.fits import shaft_fit
 from mechwright_spherical.kinematics.drive import Train
 from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
 from mechwright_spherical.kinematics.vectors import arc
@@ -69,7 +70,8 @@ def tool_of(params: SphericalParams, shells: Shells) -> Turned:
     low, high = shells.pins["tool"]
     diameter = params.hardware.pin_diameter
     tip = min(diameter, (high - low) / 2)
-    return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip)))
+    fit = shaft_fit(diameter, "h6")
+    return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip, fit)))
 
 
 def gear_cones(train: Train) -> dict[str, tuple[str, float]]:

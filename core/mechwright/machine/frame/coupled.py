@@ -34,8 +34,8 @@ apart with all tolerances, and either is in its hub by four fifths of the depth.
 FLANGE = 5.0
 """Thickness of a flange with through holes, mm: NEMA 23 motors have 4.8 to 5."""
 
-PILOT = 0.2
-"""By how much the plate's hole is larger than the motor's pilot, mm: the coupling takes what it is off."""
+PILOT_HOLE = "H8"
+"""Class of the plate's hole for the motor's pilot: screws alone would centre the motor to 0.15 mm."""
 
 SUNK = 2.0
 """How deep the heads of the motor's screws may be sunk into its plate, mm: so much longer they reach."""
@@ -153,7 +153,7 @@ def motor_holes(face: MotorFace) -> list[Hole]:
             steps = ((size.counterbore, 0.0, sunk), *steps)
     places = enumerate(screw_places(face), start=1)
     return [
-        Hole.through("pilot", (0.0, 0.0), face.pilot + PILOT, PLATE),
+        Hole("pilot", (0.0, 0.0), ((face.pilot, 0.0, PLATE),), PILOT_HOLE),
         *(Hole(f"screw-{k}", place, steps) for k, place in places),
     ]
 

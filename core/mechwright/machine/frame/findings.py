@@ -168,7 +168,7 @@ def _joint(spindle: Spindle, torque: float) -> Iterator[Finding]:
 def _bonded(spindle: Spindle, torque: float) -> Iterator[Finding]:
     hub = spindle.hub
     # A bond carries τ π d l (d/2), as a press fit of the same friction does.
-    most = press_fit_torque(BOND, hub.bore, hub.length, 1.0) / BOND_SAFETY
+    most = press_fit_torque(BOND, hub.bore, hub.grip, 1.0) / BOND_SAFETY
     if torque > most:
         remedy, proposed = _larger(spindle, hub.bore * math.sqrt(torque / most))
         yield Finding.error(

@@ -48,6 +48,9 @@ def _fault(seat: Seat, what: str, piece: Swept, room: float, radius: float, moun
     if spindle.bore_key:
         words.append("take a thinner bore there")
         proposed += [{spindle.bore_key: one.size} for one in shaft_circlips()[::-1] if one.size < hub.bore]
+    if mounting.turning_keys:
+        words.append("turn a stage out of the way")
+        proposed += mounting.turned_away
     return Finding.error(
         "frame.in-the-way",
         "machine.frame",

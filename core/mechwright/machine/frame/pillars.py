@@ -74,7 +74,7 @@ def register(name: str, point: Point, thickness: float, *, spigot: bool) -> Hole
     clear = screw_size(SCREW).clearance()
     if not spigot:
         return Hole.through(name, point, clear, thickness)
-    return Hole(name, point, ((SPIGOT, 0.0, REGISTER), (clear, 0.0, thickness)), fit=True)
+    return Hole(name, point, ((SPIGOT, 0.0, REGISTER), (clear, 0.0, thickness)), fit="H7")
 
 
 @dataclass(frozen=True)

@@ -62,8 +62,8 @@ class Hole:
     name: str
     point: Point
     steps: tuple[tuple[float, float, float], ...]
-    fit: bool = False
-    """Whether the first one is made to H7."""
+    fit: str = ""
+    """Class of the first one, such as H7; empty for none."""
     depth_limits: tuple[float, float] | None = None
     """Limit deviations of the depth of the first one, mm; None for the general tolerance."""
 
@@ -76,7 +76,7 @@ class Hole:
         """As features, the through one first."""
         found = []
         for number, (diameter, top, depth) in enumerate(self.steps):
-            fit = hole_fit(diameter, "H7") if self.fit and number == 0 else None
+            fit = hole_fit(diameter, self.fit) if self.fit and number == 0 else None
             name = self.name if number == 0 else f"{self.name}-through"
             limits = self.depth_limits if number == 0 else None
             found.append(Bore(name, self.point, fit.middle if fit else diameter, top, depth, fit, limits))
@@ -93,7 +93,7 @@ def bearing_hole(seat: Seat, thickness: float) -> Hole:
             (bearing.outside, 0.0, bearing.width),
             (bearing.abutment, 0.0, thickness),
         ),
-        fit=True,
+        fit="H7",
         depth_limits=SEAT_DEPTH,
     )
 

@@ -153,6 +153,7 @@ def _too_near(
         and _room(min(bore, one.hub.bore), min(bore, two.hub.bore), keys, distance)
     ]
     proposed += [change for change in smaller if "" not in change][:3]
+    proposed += mounting.turned_away
     remedy = "use thinner bearings or shafts, or move the axes apart"
     return fault(
         "frame.bearing-room",

@@ -122,7 +122,7 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     """The shaft of a spindle with its key, circlip and bearings; gives the shaft."""
     spindle, hub, bearing, ring = seat.spindle, seat.spindle.hub, seat.bearing, seat.circlip
     body, axis = f"spindle-{spindle.name}", f"axis-{spindle.name}"
-    kit.places[body] = Place(rotation=turned(hub.key_angle), on=spindle.body)
+    kit.places[body] = Place((0.0, 0.0, -spindle.origin), turned(hub.key_angle), spindle.body)
     kit.places[axis] = Place((*spindle.point, 0.0))
     foot = levels.lower - bearing.width - (stub[1] if stub else 0.0)
     over = hub.high + hub_room(seat)

@@ -23,6 +23,11 @@ class Assembly:
     planes: tuple[Plane, ...]
     parts: tuple[tuple[Part, ...], ...]
 
+    @property
+    def shafts(self) -> tuple[Part, ...]:
+        """Shafts and spacers that join the stages."""
+        return shafts_of(self.places, self.planes)
+
 
 @kept
 def assembly_of(params: ChainParams, families: Families) -> Assembly:
@@ -72,7 +77,7 @@ def parts_of(params: ChainParams, families: Families) -> tuple[Part, ...]:
         for part in own:
             instances = tuple(replace(one, body=link.named(one.body)) for one in part.instances)
             found.append(replace(part, name=link.named(part.name), instances=instances))
-    return (*found, *shafts_of(whole.places, whole.planes))
+    return (*found, *whole.shafts)
 
 
 def assembled(params: ChainParams, families: Families, samples: int) -> Motion:

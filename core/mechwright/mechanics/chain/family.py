@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.mounting import Mounting
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
 
@@ -60,6 +61,12 @@ class Chain(Family[ChainParams]):
         from mechwright.mechanics.chain.assembly import parts_of
 
         return parts_of(params, self.families)
+
+    def mounting(self, params: ChainParams) -> "Mounting":
+        """Where the shafts of all stages stand; raises MountingError where no frame holds them."""
+        from mechwright.mechanics.chain.mounting import mounting_of
+
+        return mounting_of(params, self.families)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -29,6 +29,20 @@ _SAME = 1e-6
 """mm. Bores and heights that differ by less are the same."""
 
 
+_SHAFT = "shaft-"
+"""How the names of shafts begin."""
+
+
+def is_shaft(name: str) -> bool:
+    """Whether a part of :func:`shafts_of` is a shaft, and no spacer."""
+    return name.startswith(_SHAFT)
+
+
+def same_size(one: float, two: float) -> bool:
+    """Whether two bores, mm, are the same."""
+    return abs(one - two) <= _SAME
+
+
 @dataclass(frozen=True)
 class Seat:
     """What sits on a shaft: a hub between two heights of the chain, mm, and the key that sets its bore.
@@ -76,7 +90,7 @@ def shafts_of(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> tuple[Pa
     if begin is not None:
         size = begin.hub.bore
         whole = Turned((Step(size, OUT * size + begin.hub.length),))
-        parts.append(begin.carries("shaft-in", begin.low - OUT * size, whole))
+        parts.append(begin.carries(f"{_SHAFT}in", begin.low - OUT * size, whole))
     for place, plane, after, above in zip(places, planes, places[1:], planes[1:], strict=False):
         parts += _between(place, plane, after, above)
     out = last.link.transmission.output
@@ -84,7 +98,7 @@ def shafts_of(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> tuple[Pa
     if end is not None:
         size = end.hub.bore
         whole = Turned((Step(size, end.hub.length + OUT * size),))
-        parts.append(end.carries("shaft-out", end.low, whole))
+        parts.append(end.carries(f"{_SHAFT}out", end.low, whole))
     return tuple(parts)
 
 
@@ -111,13 +125,13 @@ def _between(place: Placed, plane: Plane, after: Placed, above: Plane) -> Iterat
     one, two, room = lower.hub.bore, upper.hub.bore, upper.low - lower.high
     tail = OUT * one if number == 1 else 0.0
     outside = COLLAR * max(one, two)
-    if abs(one - two) <= _SAME:
+    if same_size(one, two):
         whole = Turned((Step(one, tail + upper.high - low),))
-        yield lower.carries(f"shaft-{number}", low - tail, whole)
+        yield lower.carries(f"{_SHAFT}{number}", low - tail, whole)
         yield lower.carries(f"spacer-{number}", lower.high, tube(one, outside, room), SPACER_MATERIAL)
         return
     steps = (Step(one, tail + lower.hub.length), Step(outside, room), Step(two, upper.hub.length))
-    yield lower.carries(f"shaft-{number}", low - tail, Turned(steps))
+    yield lower.carries(f"{_SHAFT}{number}", low - tail, Turned(steps))
 
 
 def shaft_findings(places: tuple[Placed, ...], planes: tuple[Plane, ...]) -> Iterator[Finding]:
@@ -187,7 +201,7 @@ def _alike(lower: Seat, after: Placed, plate: GroundPlate) -> list[tuple[str, fl
 def _on_stub(lower: Seat, after: Placed, plate: GroundPlate) -> Iterator[Finding]:
     """The hub on the shaft's end below a ground plate."""
     number, end = after.link.number, plate.end + after.level
-    if abs(lower.hub.bore - plate.diameter) > _SAME:
+    if not same_size(lower.hub.bore, plate.diameter):
         alike = _alike(lower, after, plate)
         yield Finding.error(
             "chain.bore",

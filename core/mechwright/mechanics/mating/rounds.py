@@ -1,4 +1,12 @@
-"""Which round faces a step brings into each other, and how tightly they go."""
+"""The round faces of an assembly, which of them go into each other, and how tightly.
+
+Glossary
+--------
+face
+    Name of a round face in its part: a bore's own name, ``"bore"`` of a turned part's hole through,
+    ``"step-2"`` of its second step, ``"thread-lower"`` of a thread in an end, ``"outside"`` and ``"inside"``
+    of a bought part.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -7,12 +15,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.bodies import Placed
 from mechwright.contracts.details import Thread
-from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
+from mechwright.contracts.fits import EXACT, Fit
 from mechwright.contracts.part import Bore, Part
 from mechwright.contracts.shape import Revolve, Shape
-from mechwright_cad.assembly_order.layers import PARALLEL
-from mechwright_cad.bodies import Body
+from mechwright.contracts.turned import Turned
+
+PARALLEL = 1e-9
+"""By how much less than 1 the product of two unit vectors is that are parallel."""
 
 NEAR = 0.05
 """How far apart axes of faces are that go into each other, mm, at most."""
@@ -23,36 +34,37 @@ CONTACT = 0.02
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
 
-_BUSHES = "ISO 2795"
-"""Pressed into H7 with r6, which leaves their bores H7."""
-
-_DOWELS = ("ISO 8734", "ISO 2338")
-
 
 @dataclass(frozen=True)
-class Round:
-    """A round face: a point of its axis in the assembly, the axis, where along it, its diameter, mm."""
+class Face:
+    """A round face of a part in the part's own coordinates, mm; its axis is upright."""
 
-    at: Array
-    axis: Array
+    face: str
+    centre: tuple[float, float]
     low: float
     high: float
     diameter: float
     inside: bool
     fit: Fit | None
-    threaded: bool = False
+    threaded: bool
+
+
+@dataclass(frozen=True)
+class Round(Face):
+    """The same where it stands: a point of its axis in the assembly, and the axis."""
+
+    at: Array
+    axis: Array
 
     @property
     def limits(self) -> tuple[float, float]:
         """Least and greatest diameter, mm; both as drawn where no fit is said."""
-        if self.fit is None:
-            return self.diameter, self.diameter
-        return self.fit.size + self.fit.lower, self.fit.size + self.fit.upper
+        return (self.diameter, self.diameter) if self.fit is None else self.fit.limits
 
     @property
     def text(self) -> str:
         """As a drawing has it."""
-        return f"⌀{self.diameter:g}" if self.fit is None else f"⌀{self.fit.size:g} {self.fit.name}"
+        return f"⌀{self.diameter:g}" if self.fit is None else f"⌀{self.fit.short}"
 
 
 @dataclass(frozen=True)
@@ -71,9 +83,9 @@ class Match:
         return h0 - d1, h1 - d0
 
     @property
-    def has_fit(self) -> bool:
-        """Whether the drawing says how tightly they go."""
-        return self.outside.fit is not None or self.inside.fit is not None
+    def unsaid(self) -> int:
+        """Of how many of both faces the drawing gives no limits."""
+        return (self.outside.fit is None) + (self.inside.fit is None)
 
     @property
     def text(self) -> str:
@@ -81,62 +93,59 @@ class Match:
         return f"{self.inside.text} / {self.outside.text.removeprefix('⌀')}"
 
 
-def rounds_of(body: Body, sample: int) -> list[Round]:
+def rounds_of(body: Placed, sample: int) -> list[Round]:
     """The round faces of a plate, or of an upright part, where it stands."""
     turn, place = body.poses.rotation[sample], body.poses.position[sample]
-    axis, found = turn[:, 2], []
-    for (x, y), low, high, diameter, inside, fit, threaded in _own(body.part):
-        at = turn @ np.array((x, y, body.instance.z)) + place
-        found.append(Round(at, axis, low, high, diameter, inside, fit, threaded))
+    found = []
+    for own in faces_of(body.part):
+        at = turn @ np.array((*own.centre, body.instance.z)) + place
+        found.append(Round(**vars(own), at=at, axis=turn[:, 2]))
     return found
 
 
-_Own = tuple[tuple[float, float], float, float, float, bool, Fit | None, bool]
-
-
-def _own(part: Part) -> Iterator[_Own]:
-    """Place, heights, diameter, whether it is a hole, fit, whether it has a thread."""
+def faces_of(part: Part) -> Iterator[Face]:
+    """The round faces of a plate, of a turned part, or of a bought one."""
     if part.outline is not None:
         threads = [detail.centre for detail in part.details if isinstance(detail, Thread)]
         for bore in part.features:
             if isinstance(bore, Bore):
                 top = part.thickness - bore.top
-                yield (
-                    bore.centre,
-                    top - bore.depth,
-                    top,
-                    bore.diameter,
-                    True,
-                    bore.fit,
-                    bore.centre in threads,
-                )
+                low, threaded = top - bore.depth, bore.centre in threads
+                yield Face(bore.name, bore.centre, low, top, bore.diameter, True, bore.fit, threaded)
         return
     shape = getattr(part.build, "__self__", None)
     if not isinstance(shape, Shape):
         return
-    turned, bought = part.turned, part.bought
-    if turned is not None:
-        for low, step in zip(turned.starts, turned.steps, strict=True):
-            if step.start is None:
-                yield (0.0, 0.0), low, low + step.length, step.diameter, False, step.fit, False
-        if turned.bore:
-            yield (0.0, 0.0), 0.0, turned.length, turned.bore, True, turned.bore_fit, turned.tapped
-        for thread in turned.threads:
-            low = 0.0 if thread.end == "lower" else turned.length - thread.depth
-            yield (0.0, 0.0), low, low + thread.depth, thread.diameter, True, None, True
+    if part.turned is not None:
+        yield from _turned(part.turned)
         return
+    fits = () if part.bought is None else part.bought.fits
     for piece in shape.pieces:
         if isinstance(piece, Revolve):
             radii, heights = zip(*piece.profile, strict=True)
             outer = 2 * max(radii)
-            standard = bought.standard if bought is not None else ""
-            fit = shaft_fit(outer, "m6") if standard in _DOWELS else None
-            inner = None
-            if standard == _BUSHES:
-                fit, inner = shaft_fit(outer, "r6"), hole_fit(2 * min(radii), "H7")
-            yield piece.axis, min(heights), max(heights), outer, False, fit, False
+            yield Face(
+                "outside", piece.axis, min(heights), max(heights), outer, False, _of_size(outer, fits), False
+            )
             for diameter, low, high in _bores(piece):
-                yield piece.axis, low, high, diameter, True, inner, False
+                yield Face("inside", piece.axis, low, high, diameter, True, _of_size(diameter, fits), False)
+
+
+def _of_size(diameter: float, fits: Sequence[Fit]) -> Fit | None:
+    """The limits of the face of this diameter."""
+    return next((fit for fit in fits if abs(fit.size - diameter) < EXACT), None)
+
+
+def _turned(turned: Turned) -> Iterator[Face]:
+    axis = (0.0, 0.0)
+    for number, (low, step) in enumerate(zip(turned.starts, turned.steps, strict=True), start=1):
+        if step.start is None:
+            yield Face(f"step-{number}", axis, low, low + step.length, step.diameter, False, step.fit, False)
+    if turned.bore:
+        yield Face("bore", axis, 0.0, turned.length, turned.bore, True, turned.bore_fit, turned.tapped)
+    for thread in turned.threads:
+        low = 0.0 if thread.end == "lower" else turned.length - thread.depth
+        yield Face(f"thread-{thread.end}", axis, low, low + thread.depth, thread.diameter, True, None, True)
 
 
 def _bores(piece: Revolve) -> Iterator[tuple[float, float, float]]:
@@ -151,7 +160,7 @@ def _bores(piece: Revolve) -> Iterator[tuple[float, float, float]]:
             yield 2 * r0, min(z0, z1), max(z0, z1)
 
 
-def matches(bodies: Sequence[Body], sample: int, moved: Sequence[int], onto: Sequence[int]) -> list[Match]:
+def matches(bodies: Sequence[Placed], sample: int, moved: Sequence[int], onto: Sequence[int]) -> list[Match]:
     """What goes into each other as ``moved`` bodies come to the others."""
     faces = {k: rounds_of(bodies[k], sample) for k in (*moved, *onto)}
     found = []
@@ -161,7 +170,7 @@ def matches(bodies: Sequence[Body], sample: int, moved: Sequence[int], onto: Seq
             pairs += [(two, one, b, a) for a in faces[one] for b in faces[two] if a.inside and not b.inside]
             fitting = [Match(pin, hole, a, b) for pin, hole, a, b in pairs if _fits(a, b)]
             if fitting:  # the tightest of those that the drawing says tells how the two go together
-                found.append(min(fitting, key=lambda match: (not match.has_fit, match.play)))
+                found.append(min(fitting, key=lambda match: (match.unsaid, match.play)))
     return found
 
 

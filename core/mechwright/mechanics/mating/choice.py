@@ -1,0 +1,231 @@
+"""Which fit a pin and its hole get where their part says none.
+
+All shafts without a fit get one class, ``shaft``, so that they can be cut from ground bar; the class of the
+hole says what the pair is for. ISO 286 speaks of the shaft-basis system of fits.
+
+Glossary
+--------
+group
+    Bodies that move as one.
+hub
+    A plate on a shaft of its own group that turns about the shaft's axis: it takes a torque.
+bush
+    A tube that sits in a hole of its own group.
+spacer
+    A tube round a shaft of its own group that sits in no hole.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from mechwright.arrays import Array
+from mechwright.contracts.bodies import Placed, rigid
+from mechwright.contracts.fits import EXACT, Fit, hole_fit, running_hole, shaft_fit
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.limits import limits
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.errors import DesignError
+from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, Match, Round, matches, rounds_of
+
+
+def _class(text: str) -> str:
+    """Refuse what is no class, whatever the size."""
+    try:
+        limits(1.0, text)
+    except DesignError as error:
+        raise ValueError(str(error).removeprefix(f"{text!r} ")) from error
+    return text
+
+
+def hole_name(text: object) -> str:
+    """The class of a hole, given back; raises ValueError for anything else."""
+    if not isinstance(text, str):
+        raise ValueError("is no text; write a class such as H7")
+    if not _class(text)[0].isupper():
+        raise ValueError(f"is a class of shafts; holes have capitals: {text.upper()}")
+    return text
+
+
+def _shaft(text: str) -> str:
+    if not _class(text)[0].islower():
+        raise ValueError(f"is a class of holes; shafts have small letters: {text.lower()}")
+    return text
+
+
+RUNNING = "G7"
+"""Of a hole in which a pin of the same drawn size turns: on h6 without shake, at moderate speed."""
+
+HoleName = Annotated[str, Field(max_length=6), AfterValidator(hole_name)]
+ShaftName = Annotated[str, Field(max_length=6), AfterValidator(_shaft)]
+
+
+class FitSettings(Parameters):
+    """The table ``[fits]``: ISO 286 classes of pairs of which no part says its own."""
+
+    shaft: ShaftName = Field("h6", description="Of pins and shafts that are made: ground bar is sold to h6.")
+    running: HoleName | None = Field(
+        None,
+        description="Of holes in which a pin turns. Default: the clearance with which the design draws it, "
+        "else G7.",
+    )
+    pressed: HoleName = Field("P7", description="Of the hole in which a pin sits for good.")
+    hub: HoleName = Field(
+        "H7", description="Of the hole of a hub on its shaft, and of one through which a bolt locates plates."
+    )
+    journal: ShaftName = Field("f7", description="Of a shaft that turns in a bush that is bought.")
+    bush: ShaftName = Field("r6", description="Of the outside of a bush that is made.")
+    housing: HoleName = Field("H7", description="Of the hole into which a bush or a dowel is pressed.")
+    dowel: HoleName = Field("F7", description="Of a dowel's hole in the part that comes off.")
+    spacer: HoleName = Field("H11", description="Of a spacer on its shaft, which it centres on nothing.")
+
+
+@dataclass(frozen=True)
+class Fits:
+    """What a design file says of fits: the settings, and ``"PIN in PART"`` to the class of that hole."""
+
+    settings: FitSettings = field(default_factory=FitSettings)
+    own: Mapping[str, str] = field(default_factory=dict)
+
+
+DRAWN = 0.002
+"""A hole is drawn with a clearance if it is wider than its pin by more, mm."""
+
+ROOM = 0.1
+"""A hole without a fit that is wider than its pin by this and more, mm, is room for it."""
+
+
+class Assembled:
+    """The copies of parts at the start of a motion, their groups, and the pins in their holes."""
+
+    def __init__(self, bodies: Sequence[Placed], motion: Motion) -> None:
+        self.bodies, self.motion = tuple(bodies), motion
+        groups = rigid(motion)
+        self.heads = [groups[body.instance.body] for body in self.bodies]
+        self.rounds = [rounds_of(body, 0) for body in self.bodies]
+        self._axes = [
+            (
+                *_axis(motion, joint.one, joint.point, joint.axis),
+                frozenset((groups[joint.one], groups[joint.two])),
+            )
+            for joint in motion.joints.values()
+            if joint.kind == "revolute"
+        ]
+        every = range(len(self.bodies))
+        self.matches: tuple[Match, ...] = tuple(
+            match
+            for two in every
+            for match in matches(self.bodies, 0, [two], range(two))
+            if not match.inside.threaded and not self._is_ring(match)
+        )
+
+    def _is_ring(self, match: Match) -> bool:
+        """Whether it is a circlip in its groove, which is narrower than its shaft."""
+        return (
+            self.bodies[match.hole].part.bought is not None
+            and match.inside.diameter < match.outside.diameter - EXACT
+        )
+
+    def same_group(self, match: Match) -> bool:
+        """Whether pin and hole move as one."""
+        return self.heads[match.pin] == self.heads[match.hole]
+
+    def turns_on(self, k: int, one: Round, on: str | None = None) -> bool:
+        """Whether a face has the axis of a joint about which its group turns, on a group or on any."""
+        return any(
+            self.heads[k] in heads and (on is None or on in heads) and _coaxial(one, point, axis)
+            for point, axis, heads in self._axes
+        )
+
+    def is_tube(self, k: int) -> bool:
+        """Whether a body is a turned ring."""
+        turned = self.bodies[k].part.turned
+        return turned is not None and turned.bore > 0 and len(turned.steps) == 1
+
+    def in_hole(self, k: int) -> bool:
+        """Whether the outside of a body sits in a hole of its own group."""
+        return any(match.pin == k and self.same_group(match) for match in self.matches)
+
+
+def _axis(motion: Motion, body: str, point: Sequence[float], axis: Sequence[float]) -> tuple[Array, Array]:
+    if body == GROUND:
+        return np.array(point), np.array(axis)
+    poses = motion.poses[body]
+    turn, place = poses.rotation[0], poses.position[0]
+    return turn @ np.array(point) + place, turn @ np.array(axis)
+
+
+def _coaxial(one: Round, point: Array, axis: Array) -> bool:
+    if abs(axis @ one.axis) < 1 - PARALLEL:
+        return False
+    away = one.at - point
+    return bool(np.linalg.norm(away - (away @ axis) * axis) <= NEAR)
+
+
+def pin_fit(whole: Assembled, match: Match, fits: Fits) -> Fit | None:
+    """The limits of a pin: its own, else those that are chosen; None of a bought one without."""
+    if match.outside.fit is not None:
+        return match.outside.fit
+    if whole.bodies[match.pin].part.bought is not None:
+        return None
+    settings, hole = fits.settings, match.inside.fit
+    name = settings.shaft
+    if whole.is_tube(match.pin) and whole.same_group(match):
+        name = settings.bush
+    elif hole is not None and not whole.same_group(match) and hole.lower <= 0:
+        name = settings.journal
+    return shaft_fit(match.outside.diameter, name)
+
+
+def hole_class(whole: Assembled, match: Match, fits: Fits) -> str | None:
+    """The class of a hole by what the pair is for; None where the drawn clearance decides."""
+    body, pin, settings = whole.bodies[match.hole].part, whole.bodies[match.pin].part, fits.settings
+    own = fits.own.get(f"{pin.name} in {body.name}")
+    if own is not None:
+        return own
+    fit = pin_fit(whole, match, fits)
+    if not whole.same_group(match):
+        if settings.running is not None:
+            return settings.running
+        if fit is not None and fit.upper < 0:
+            return "H7"
+        return None if match.inside.diameter - match.outside.diameter > DRAWN else RUNNING
+    if whole.is_tube(match.hole) and not whole.in_hole(match.hole):
+        return settings.spacer
+    if fit is not None and fit.lower > 0:
+        return settings.housing if _first(whole, match) else settings.dowel
+    turns = whole.heads[match.pin] != GROUND and whole.turns_on(match.pin, match.outside, GROUND)
+    if pin.bought is not None or turns:
+        return settings.hub
+    others = {other.hole for other in whole.matches if other.pin == match.pin and whole.same_group(other)}
+    plates = [k for k in others if not whole.is_tube(k)]
+    return settings.pressed if len(plates) < 2 else settings.hub
+
+
+def _first(whole: Assembled, match: Match) -> bool:
+    """Whether a hole is that of the heaviest, by its plan, of the parts in which a dowel sits."""
+    if whole.bodies[match.pin].part.bought is None:
+        return True
+    holes = [one.hole for one in whole.matches if one.pin == match.pin and whole.same_group(one)]
+    return match.hole == max(holes, key=lambda k: (_size(whole, k), -k))
+
+
+def _size(whole: Assembled, k: int) -> float:
+    outline = whole.bodies[k].part.outline
+    return 0.0 if outline is None else outline.outer.area
+
+
+def hole_fit_of(whole: Assembled, match: Match, fits: Fits) -> Fit | None:
+    """The limits of a hole by its pin; None for room, and where nothing is known of a bought pin."""
+    name, shaft = hole_class(whole, match, fits), pin_fit(whole, match, fits)
+    size = match.outside.diameter if shaft is None else shaft.size
+    if name is not None:
+        return hole_fit(size, name)
+    clearance = match.inside.diameter - size
+    if shaft is None or clearance >= ROOM:
+        return None
+    return running_hole(size, clearance, shaft)

@@ -1,0 +1,105 @@
+"""The parts of an assembly with the fits of all round faces that go into each other."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from mechwright.contracts.bodies import placed
+from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.contracts.holes import exchanged, hole
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Part
+from mechwright.contracts.turned import Turned
+from mechwright.errors import DesignError, did_you_mean
+from mechwright.mechanics.mating.choice import Assembled, Fits, hole_fit_of, pin_fit
+from mechwright.mechanics.mating.rounds import Round
+
+Chosen = dict[tuple[str, str], Fit]
+"""Names of a part and of a face of it to the limits that it gets."""
+
+
+def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits) -> list[Part]:
+    """The parts, each round face that another one touches with its limits.
+
+    What a part says of itself stays. Of two pairs that share a face the looser one decides, so that both
+    go together.
+    """
+    whole = Assembled(placed(parts, motion), motion)
+    _check_pairs(whole, fits)
+    chosen: Chosen = {}
+    for name, face, fit in (*_pairs(whole, fits), *_hubs(whole, fits)):
+        known = chosen.get((name, face))
+        if known is None or _looser(fit, known):
+            chosen[name, face] = fit
+    return [
+        _part(part, {face: fit for (name, face), fit in chosen.items() if name == part.name})
+        for part in parts
+    ]
+
+
+def _check_pairs(whole: Assembled, fits: Fits) -> None:
+    """Raise DesignError for a pair of the settings that is none of the assembly."""
+    names = [(whole.bodies[m.pin].part.name, whole.bodies[m.hole].part.name) for m in whole.matches]
+    known = {f"{one} in {two}": None for one, two in names}
+    for pair in fits.own:
+        if pair not in known:
+            pin, _, body = pair.partition(" in ")
+            hint = did_you_mean(pair, known) or f"the pairs are: {', '.join(known) or 'none'}"
+            raise DesignError(f'fits.of."{pair}": no part {pin} goes into a part {body}; {hint}')
+
+
+def _looser(one: Fit, two: Fit) -> bool:
+    """Whether one of two limits of a face leaves more play: of a hole the wider, of a shaft the thinner."""
+    if one.name[:1].islower():
+        return one.upper < two.upper
+    return one.lower > two.lower
+
+
+def _pairs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+    for match in whole.matches:
+        pin, body = whole.bodies[match.pin].part, whole.bodies[match.hole].part
+        shaft = pin_fit(whole, match, fits)
+        if match.outside.fit is None and pin.bought is None and shaft is not None:
+            yield pin.name, match.outside.face, shaft
+        if match.inside.fit is None and body.bought is None:
+            found = hole_fit_of(whole, match, fits)
+            if found is not None:
+                yield body.name, match.inside.face, found
+
+
+def _hubs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+    """Holes about whose axis a plate turns, and in which no shaft is drawn."""
+    filled = {(match.hole, match.inside.face) for match in whole.matches}
+    for k, faces in enumerate(whole.rounds):
+        body = whole.bodies[k].part
+        if body.outline is None or whole.heads[k] == GROUND:
+            continue
+        for one in faces:
+            if _is_open(one) and (k, one.face) not in filled and whole.turns_on(k, one):
+                yield body.name, one.face, hole_fit(one.diameter, fits.settings.hub)
+
+
+def _is_open(one: Round) -> bool:
+    return one.inside and not one.threaded and one.fit is None
+
+
+def _part(part: Part, fits: dict[str, Fit]) -> Part:
+    if not fits:
+        return part
+    if part.turned is not None:
+        return replace(part, turned=_turned(part.turned, fits), build=None)
+    for name, fit in fits.items():
+        old = hole(part, name)
+        part = exchanged(part, old, replace(old, diameter=fit.middle, fit=fit))
+    return part
+
+
+def _turned(turned: Turned, fits: dict[str, Fit]) -> Turned:
+    steps = tuple(
+        replace(step, fit=fits.get(f"step-{number}", step.fit))
+        for number, step in enumerate(turned.steps, start=1)
+    )
+    bore = fits.get("bore")
+    if bore is None:
+        return replace(turned, steps=steps)
+    return replace(turned, steps=steps, bore=bore.middle, bore_fit=bore)
