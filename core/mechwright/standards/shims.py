@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.shape import Shape, ring
 from mechwright.standards.table import table
 
@@ -28,7 +29,9 @@ class Shim:
     def bought(self, thickness: float, note: str = "") -> Bought:
         """How a ring of this thickness, mm, is ordered; it stands on z = 0."""
         words = f"{self.designation} x {thickness:g}"
-        return Bought(words, "DIN 988", None, Shape((ring(self.inner, self.outer, thickness),)), note)
+        shape = Shape((ring(self.inner, self.outer, thickness),))
+        fits = hole_fit(self.inner, "D12"), shaft_fit(self.outer, "d12")
+        return Bought(words, "DIN 988", None, shape, note, fits=fits)
 
 
 def shims() -> tuple[Shim, ...]:
