@@ -30,7 +30,7 @@ class Measured:
 def inspection(job: Job, to: Lengths) -> list[Measured]:
     """The dimensions of a part; none of a nest, whose parts are measured one by one, and of one turned over.
 
-    Bores have the limits of their fit; all else has those of ISO 2768-m.
+    Bores have the limits of their fit, and depths those that they have; all else has those of ISO 2768-m.
     """
     if isinstance(job.part, Nest) or job.side == "underside":
         return []

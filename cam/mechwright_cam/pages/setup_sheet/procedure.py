@@ -371,10 +371,8 @@ def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, 
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     deep = [f for f in job.features if isinstance(f, Bore) and f.depth_limits is not None]
     if deep:
-        said = ", ".join(f"{f.name} {f.depth_text} mm" for f in deep)
-        lines.append(
-            f"Measure depths before the part comes off: {said}. Correct the tool's length for the last pass."
-        )
+        depths = ", ".join(f"{f.name} {f.depth_text} mm" for f in deep)
+        lines.append(f"Measure these depths before the part comes off: {depths}.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
         sides, what = "", "parts" if isinstance(job.part, Nest) else "part"
