@@ -21,6 +21,7 @@ from mechwright.contracts.part import Bore
 from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.mechanics.mating.rounds import matches, rounds_of
 from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
@@ -40,7 +41,6 @@ from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.plan import Plan, plan_of
 from mechwright_cad.bill.page import order_of
 from mechwright_cad.bodies import bodies_of
-from mechwright.mechanics.mating.rounds import matches, rounds_of
 from mechwright_cad.contacts.screw_joints import joints_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
