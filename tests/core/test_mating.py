@@ -16,11 +16,15 @@ from mechwright.contracts.bodies import placed
 from mechwright.contracts.fits import between, hole_fit, running_hole, shaft_fit
 from mechwright.contracts.holes import exchanged, hole
 from mechwright.contracts.limits import limits
+from mechwright.contracts.named import Named
 from mechwright.contracts.part import Bore, Part, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
 from mechwright.mechanics.mating.choice import Assembled
+from mechwright.pipeline import Build, Wanted
+from mechwright.pipeline.fits import FitsSaid
+from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 
 ROOT = Path(__file__).parents[2]
@@ -162,3 +166,17 @@ def test_a_wrong_table_is_told_in_one_line(table, said):
     with pytest.raises(DesignError, match=said) as caught:
         _ = mw.load(ROOT / "examples/four-bar-machine.toml").with_(fits=table).parts
     assert "\n" not in str(caught.value)
+
+
+def test_a_bought_part_without_limits_is_an_error_of_its_author():
+    with Build(ROOT / "examples/four-bar-machine.toml", host(), Wanted("check")) as build:
+        assert list(FitsSaid().findings(build)) == []
+        known = build.parts
+        coupling = replace(known["coupling"].bought, fits=())
+        silent = replace(known["coupling"], bought=coupling)
+        build._kept["parts"] = Named(silent if part.name == "coupling" else part for part in known)
+        found = FitsSaid().findings(build)
+    assert [one.code for one in found] == ["fit.missing"] * 2
+    assert found[0].message == (
+        "shaft goes into coupling, ⌀6 / 6 h6, and coupling says no limits of its size"
+    )
