@@ -10,7 +10,7 @@ from mechwright.contracts.part import Bore, Part, Profile
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cad.exporters import dxf
 from mechwright_cam.pages.setup_sheet.inspection import inspection
-from mechwright_cam.planning.notes import lengths_of
+from mechwright_cam.planning.notes import lengths_of, notes
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
