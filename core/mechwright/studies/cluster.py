@@ -4,6 +4,7 @@ import contextlib
 import logging
 import time
 from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 from mechwright.errors import MechwrightError, PluginError
@@ -112,13 +113,11 @@ class Cluster:
 
     def _connected(self, why: str = "") -> Any:
         """A client; ``why`` the one before it has ended."""
-        distributed = optional("distributed")
+        connect = _client()
         end = time.monotonic() + PATIENCE
         while True:
             try:
-                return distributed.Client(
-                    self.address, timeout=max(end - time.monotonic(), 1.0), set_as_default=False
-                )
+                return connect(self.address, timeout=max(end - time.monotonic(), 1.0), set_as_default=False)
             except OSError as error:
                 if time.monotonic() >= end:
                     said = f"; it had ended: {why}" if why else ""
@@ -156,6 +155,12 @@ class Cluster:
                 "same there"
             ) from error
         return found
+
+
+@cache
+def _client() -> Any:
+    """The library's class of clients, without the attempt at the end to close what cannot be closed."""
+    return type("_Client", (optional("distributed").Client,), {"__del__": lambda _: None})
 
 
 def _threads(client: Any) -> dict[str, int]:
