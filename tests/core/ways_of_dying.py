@@ -56,7 +56,7 @@ SPOILS = {
     "json.dumps": ("import json; json.dumps = None", "changes json.dumps"),
     "json.loads away": ("import json; del json.loads", "changes json.loads"),
     "open": ("import builtins; builtins.open = None", "changes builtins.open"),
-    "len away": ("import builtins; del builtins.len", "spoils the interpreter"),
+    "len away": ("import builtins; del builtins.len", "changes builtins.len"),
     "import": ("import builtins; builtins.__import__ = lambda *a, **k: None", "changes builtins.__import__"),
     "no numpy": ("import sys; sys.modules['numpy'] = None", "replaces the module numpy"),
     "no numpy any more": (
