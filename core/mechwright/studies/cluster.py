@@ -2,9 +2,11 @@
 
 import contextlib
 import logging
+import threading
 import time
-from collections.abc import Iterator
-from functools import cache
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from functools import cache, partial
 from typing import Any
 
 from mechwright.errors import MechwrightError, PluginError
@@ -116,8 +118,9 @@ class Cluster:
         connect = _client()
         end = time.monotonic() + PATIENCE
         while True:
+            left = max(end - time.monotonic(), 1.0)
             try:
-                return connect(self.address, timeout=max(end - time.monotonic(), 1.0), set_as_default=False)
+                return _in_time(partial(connect, self.address, timeout=left, set_as_default=False), left)
             except OSError as error:
                 if time.monotonic() >= end:
                     said = f"; it had ended: {why}" if why else ""
@@ -155,6 +158,23 @@ class Cluster:
                 "same there"
             ) from error
         return found
+
+
+def _in_time(call: Callable[[], Any], seconds: float) -> Any:
+    """What a call gives; raises TimeoutError after some seconds, also where the library waits for ever.
+
+    As it does for the first answer of a scheduler that has been stopped.
+    """
+    found = Future[Any]()
+
+    def work() -> None:
+        try:
+            found.set_result(call())
+        except BaseException as error:
+            found.set_exception(error)
+
+    threading.Thread(target=work, daemon=True).start()
+    return found.result(seconds)
 
 
 @cache

@@ -7,15 +7,21 @@ from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
+from mechwright.kernels import kernels
 from mechwright.plugins.host import host
 
 LIBRARIES = ("numpy", "scipy", "pyarrow")
 """Whose versions change the bytes of a table."""
+_KERNELS = "kernels "
 
 
 def unlike(said: str, own: str) -> str:
     """What is told of a worker with another fingerprint."""
-    return f"it has {said}; here it is {own}: install the same on both"
+    if said.partition(_KERNELS)[0] == own.partition(_KERNELS)[0]:
+        remedy = "take processors of one kind, or set OPENBLAS_CORETYPE and NPY_DISABLE_CPU_FEATURES alike"
+    else:
+        remedy = "install the same on both"
+    return f"it has {said}; here it is {own}: {remedy}"
 
 
 @cache
@@ -29,4 +35,5 @@ def fingerprint(family: str) -> str:
             found.update(name.encode())
             found.update(path.read_bytes())
     said = [f"{library} {version(library)}" for library in LIBRARIES]
-    return ", ".join([f"python {platform.python_version()}", *said, f"program {found.hexdigest()[:12]}"])
+    own = f"program {found.hexdigest()[:12]}"
+    return ", ".join([f"python {platform.python_version()}", *said, own, f"{_KERNELS}{kernels()}"])
