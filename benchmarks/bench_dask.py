@@ -27,9 +27,11 @@ from harness import require
 from timed_source import Tasks, Timed
 
 from mechwright.plugins.host import host
+from mechwright.studies.cluster import Cluster
 from mechwright.studies.study import study_of
 from mechwright.studies.task import Source, Task
-from mechwright.studies.workers import Cluster, Processes, Workers
+from mechwright.studies.task_queue import Workers
+from mechwright.studies.workers import Processes
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "four-bar-study.toml"
 BATCH, FIRST, MORE, ROUNDS, WORKERS = 1 << 15, 10, 12, 3, 2

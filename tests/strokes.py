@@ -27,6 +27,10 @@ def swept(folder, *more, text=""):
     pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
     path = folder.parent / "strokes.toml"
     path.write_text(TEXT.format(more=text))
+    return swept_file(path, folder, *more)
+
+
+def swept_file(path, folder, *more):
     return CliRunner().invoke(make_app(), ["sweep", str(path), "-o", str(folder), *more])
 
 

@@ -1,6 +1,7 @@
 """Faults that nobody expected: plugins that break while they work, a full disk, strange characters."""
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -143,3 +144,26 @@ def test_a_design_without_plates_has_nothing_to_mill(
     assert code == 2
     assert "makes no plate part" in err
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of any bytes")
+@pytest.mark.parametrize("command", ["check", "build", "fix", "sweep", "synthesize"])
+@pytest.mark.parametrize("place", [b"p\xffir.toml", b"d\xff/pair.toml"])
+def test_a_path_that_is_no_text_is_refused_before_any_work(
+    command: str, place: bytes, tmp_path: Path, command_line: Run
+) -> None:
+    path = tmp_path / os.fsdecode(place)
+    path.parent.mkdir(exist_ok=True)
+    shutil.copy(EXAMPLE, path)
+    more = [] if command in {"check", "fix"} else ["-o", tmp_path / "out"]
+    code, _, err = command_line(command, path, *more)
+    assert code == 2
+    assert "its path is no text in UTF-8" in err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of any bytes")
+def test_an_output_that_is_no_text_is_refused(tmp_path: Path, command_line: Run) -> None:
+    code, _, err = command_line("new", "four-bar", "-o", tmp_path / os.fsdecode(b"n\xff.toml"))
+    assert (code, "the name is no text in UTF-8; give another name" in err) == (2, True)
+    assert not list(tmp_path.iterdir())

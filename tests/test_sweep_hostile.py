@@ -6,11 +6,19 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from random import Random
 
 import pytest
-from strokes import bytes_of, swept
+from by_night import NIGHT
+from strokes import bytes_of, swept, swept_file
 
+from mechwright.errors import MechwrightError
+from mechwright.plugins.host import host
 from mechwright.studies import run
+from mechwright.studies.folder import SweepFolder
+from mechwright.studies.stamp import STAMP, sealed
+from mechwright.studies.study import load_study
+from mechwright.studies.task import Task
 
 TABLE, OTHER = "tables/part-000001.parquet", "tables/part-000002.parquet"
 COUNTS = b"mechwright.counts"
@@ -90,7 +98,19 @@ def test_what_was_begun_is_not_guessed(folder, text):
 
 def with_counts(table, **changed):
     said = json.loads(table.schema.metadata[COUNTS]) | changed
-    return table.replace_schema_metadata({COUNTS: json.dumps(said)})
+    return table.replace_schema_metadata({**table.schema.metadata, COUNTS: json.dumps(said)})
+
+
+def without(table, key):
+    return table.replace_schema_metadata({k: v for k, v in table.schema.metadata.items() if k != key})
+
+
+def with_stamp(table, text):
+    return table.replace_schema_metadata({**table.schema.metadata, STAMP: text})
+
+
+def stamped(table, **changed):
+    return with_stamp(table, json.dumps(json.loads(table.schema.metadata[STAMP]) | changed))
 
 
 def with_column(table, name, values):
@@ -123,7 +143,21 @@ WRONG = {
         "its column stroke holds no numbers",
     ),
     "more rows": (longer, "it has 72 designs, and counts 8"),
-    "no counts": (lambda table: table.replace_schema_metadata({}), "it has no counts"),
+    "no counts": (lambda table: without(table, COUNTS), "it has no counts"),
+    "no stamp": (lambda table: without(table, STAMP), "it does not say of which designs it is"),
+    "a stamp of words": (lambda table: with_stamp(table, '"all"'), "is no table of this sweep"),
+    "a stamp of more": (
+        lambda table: with_stamp(table, '{"first": 8, "last": 9}'),
+        "is no table of this sweep",
+    ),
+    "another study": (lambda table: stamped(table, study="0" * 64), "it is of another study"),
+    "another program": (lambda table: stamped(table, program="python 0"), "it is by another program"),
+    "other designs": (
+        lambda table: stamped(table, first=0),
+        "it holds the designs 0 to 7; here belong the designs 8 to 15",
+    ),
+    "fewer designs": (lambda table: stamped(table, designs=7), "it holds the designs 8 to 14; here belong"),
+    "a slice": (lambda table: stamped(table, slice=1), "it holds slice 1 of the designs 8 to 15"),
     "less than none": (lambda table: with_counts(table, forbidden={"a": -1}), "are no whole numbers"),
     "a fraction": (lambda table: with_counts(table, designs=8.0), "are no whole numbers"),
     "more than a batch": (lambda table: with_counts(table, designs=9), "are those of no batch"),
@@ -137,6 +171,7 @@ def test_a_table_that_is_not_of_the_study_is_refused_before_any_work(folder, cha
     table = parquet.read_table(folder / TABLE)
     assert table.num_rows == 8
     parquet.write_table(change(table), folder / TABLE, compression="zstd")
+    (folder / TABLE).write_bytes(sealed((folder / TABLE).read_bytes()))
     (folder / OTHER).unlink()
     text = refused(folder)
     assert said in text
@@ -163,11 +198,68 @@ def test_a_table_with_torn_values_is_told(folder):
     assert "is no table of this sweep: " in refused(folder)
 
 
-def refused(folder):
+def test_a_table_in_the_place_of_another_is_refused(folder):
+    shutil.copy(folder / TABLE, folder / OTHER)
+    said = refused(folder, OTHER)
+    assert "it holds the designs 8 to 15; here belong the designs 16 to 23; move it away" in said
+
+
+def test_a_table_of_another_study_is_refused(folder, tmp_path):
+    """With the same columns and numbers, and another range."""
+    text = (folder.parent / "strokes.toml").read_text()
+    (tmp_path / "other").mkdir()
+    path = tmp_path / "other" / "strokes.toml"
+    path.write_text(text.replace("greatest = 160", "greatest = 161"))
+    assert swept_file(path, tmp_path / "other" / "out", "--workers", "1").exit_code == 0
+    shutil.copy(tmp_path / "other" / "out" / TABLE, folder / TABLE)
+    assert "it is of another study" in refused(folder)
+
+
+def damaged(content, random):
+    """Bytes of a table of which some are others, missing, doubled, or of another place."""
+    data = bytearray(content)
+    at, to = sorted(random.sample(range(len(data)), 2))
+    match random.randrange(7):
+        case 0:
+            data[at] ^= 1 << random.randrange(8)
+        case 1:
+            del data[at:to]
+        case 2:
+            data[at:at] = data[at:to]
+        case 3:
+            data[at:to] = bytes(to - at)
+        case 4:
+            data[at:to] = random.randbytes(to - at)
+        case 5:
+            data = data[:at]
+        case 6:
+            data[at:to] = reversed(data[at:to])
+    return bytes(data)
+
+
+@pytest.mark.parametrize("part", range(1 if not NIGHT else 10))
+def test_of_damaged_tables_none_counts(folder, whole, part):
+    """A hundred each, a thousand by night, read as a sweep reads them that goes on."""
+    study = load_study(folder.parent / "strokes.toml", host())
+    place, task = SweepFolder(folder, study, host()), Task("part-000001", 8, 1)
+    content, random = (whole / TABLE).read_bytes(), Random(part)  # noqa: S311
+    place.counts(task)
+    for _ in range(100):
+        (folder / TABLE).write_bytes(wrong := damaged(content, random))
+        if wrong == content:
+            continue
+        with pytest.raises(
+            MechwrightError, match=r"part-000001\.parquet: (is no table of this sweep|is larger)"
+        ):
+            place.counts(task)
+        assert place.whole([task]) == set()
+
+
+def refused(folder, name=TABLE):
     done = swept(folder, "--workers", "1")
     assert done.exit_code == 1
     text = str(done.exception)
-    assert text.startswith(f"{folder / TABLE}: ")
+    assert text.startswith(f"{folder / name}: ")
     assert "\n" not in text
     return text
 

@@ -24,6 +24,7 @@ from mechwright.studies.folder import SweepFolder
 from mechwright.studies.portion import Portion
 from mechwright.studies.run import evaluate
 from mechwright.studies.slice_file import designs_in, slice_of, work_of
+from mechwright.studies.stamp import Stamp
 from mechwright.studies.standing import Standing
 from mechwright.studies.study import load_study
 from mechwright.studies.workers import Alone
@@ -155,12 +156,12 @@ def test_the_file_of_a_slice_holds_its_work(study, short, tmp_path):
                 yield task, found
 
     evaluate(study, tmp_path / "out", Keeping(), host())
-    path = tmp_path / "one.parquet"
+    path, stamp = tmp_path / "one.parquet", Stamp.of(study, 0, COUNT, 0)
     assert any(work.answers for work in kept)
     for work in kept:
-        path.write_bytes(slice_of(study, work))
-        again = work_of(study, path, COUNT)
-        assert slice_of(study, again) == path.read_bytes()
+        path.write_bytes(slice_of(study, work, stamp))
+        again = work_of(study, path, stamp)
+        assert slice_of(study, again, stamp) == path.read_bytes()
         assert designs_in(study, again) == designs_in(study, work)
         for question, some in work.singles.items():
             assert again.singles[question].places.tolist() == some.places.tolist()
@@ -195,9 +196,26 @@ def test_a_slice_of_another_batch_is_told(study, tmp_path):
         portion.Survey(1e-9),
     )  # fmt: skip
     work.update(found.work)
-    path.write_bytes(slice_of(study, work))
+    fewer, whole = Stamp.of(study, 0, 10, 0), Stamp.of(study, 0, COUNT, 0)
+    path.write_bytes(slice_of(study, work, fewer))
     with pytest.raises(OutputError, match="its designs are those of no batch"):
-        work_of(study, path, 10)
+        work_of(study, path, fewer)
+    with pytest.raises(
+        OutputError, match="it holds slice 0 of the designs 0 to 9; here belong slice 0 of the"
+    ):
+        work_of(study, path, whole)
+
+
+def test_a_slice_in_the_place_of_another_is_told(study, short, tmp_path):
+    with pytest.raises(StoppedError):
+        evaluate(study, tmp_path / "out", Stopping(3), host())
+    first, second, *_ = sorted((tmp_path / "out" / "slices").iterdir())
+    second.write_bytes(first.read_bytes())
+    with pytest.raises(OutputError, match="it holds slice 0 of the designs 0 to 39; here belong slice 1 of"):
+        evaluate(study, tmp_path / "out", Alone(), host())
+    second.write_bytes(first.read_bytes()[:-100] + bytes(100))
+    with pytest.raises(OutputError, match="is no table of this sweep"):
+        evaluate(study, tmp_path / "out", Alone(), host())
 
 
 def started(folder, workers, **more):

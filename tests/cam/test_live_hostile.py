@@ -4,16 +4,20 @@ import contextlib
 import json
 import shutil
 import socket
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import uvicorn
 from by_night import by_night
 from test_live import Page
 
+from mechwright_cad.live import patience
 from mechwright_cad.live.guard import MOST
 from mechwright_cad.live.patience import MANY, PATIENCE
+from mechwright_cad.live.server import bound
 
 ROOT = Path(__file__).parents[2]
 
@@ -101,6 +105,45 @@ def test_slow_clients_are_not_waited_for(page):
         assert answer(silent) == b""
         assert status(answer(again)) == 200
     assert PATIENCE - 1 < time.monotonic() - began < PATIENCE + 20
+
+
+@by_night  # it waits as long as the server does
+def test_a_row_of_questions_is_not_waited_for(page):
+    """Of 20 questions for news, each of which would be kept for 20 s, one is answered."""
+    digest = page.ask("described", change={})["digest"]
+    began = time.monotonic()
+    with line(page) as news, line(page) as pages:
+        news.sendall(head(page, method="GET", what=f"news?known={digest}") * 20)
+        pages.sendall(head(page, method="GET", what="live.js") * 200)
+        assert answer(pages).count(b"HTTP/1.1 200") == 1
+        assert answer(news).count(b"HTTP/1.1 200") == 1
+    assert time.monotonic() - began < 30
+
+
+def test_a_client_that_does_not_read_is_let_go(monkeypatch):
+    """A server of answers that are larger than what a system keeps for a client."""
+    monkeypatch.setattr(patience, "PATIENCE", 0.5)
+
+    async def large(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        for _ in range(40):
+            await send({"type": "http.response.body", "body": bytes(1 << 20), "more_body": True})
+        await send({"type": "http.response.body"})
+
+    with contextlib.closing(bound(0)) as taken:
+        server = uvicorn.Server(
+            uvicorn.Config(large, http=patience.Impatient, lifespan="off", log_level="critical")
+        )
+        thread = threading.Thread(target=server.run, args=([taken],))
+        thread.start()
+        try:
+            with socket.create_connection(taken.getsockname(), timeout=20) as one:
+                one.sendall(b"GET / HTTP/1.1\r\nHost: here\r\n\r\n")
+                time.sleep(3)
+                assert not server.server_state.connections
+        finally:
+            server.should_exit = True
+            thread.join()
 
 
 def test_more_connections_than_a_browser_has_are_turned_away_and_forgotten(page):

@@ -10,8 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from by_night import by_night
 from test_live import Page
 
+from mechwright.designs.change import rewritten
 from mechwright.designs.files import digest_of
 from mechwright.errors import OutputError
 from mechwright.output import staging
@@ -61,6 +63,43 @@ def test_one_of_several_saves_wins_over_two_servers(tmp_path: Path) -> None:
                 assert "has changed on disk since; look at it first" in said["error"]
                 assert said["changed"] == {"text": text, "digest": digest_of(text)}
         assert {one.name for one in tmp_path.iterdir()} == {"pair.toml"}
+    finally:
+        for page in pages:
+            page.end()
+
+
+CLIENTS, SAVES = 10, 20
+
+
+@by_night
+def test_two_hundred_saves_of_ten_clients_follow_one_another(tmp_path: Path) -> None:
+    """Each client saves whenever it likes: what was called saved is one chain of states, up to the file."""
+    path = tmp_path / "pair.toml"
+    shutil.copy(ROOT / "examples" / "elliptic-pair.toml", path)
+    first = path.read_text(encoding="utf-8")
+    pages = [Page(path), Page(path)]
+    try:
+
+        def client(number: int) -> list[tuple[str, dict[str, float], dict[str, str]]]:
+            page, found = pages[number % 2], []
+            digest = page.ask("described", change={})["digest"]
+            for turn in range(SAVES):
+                change = {"parameters.eccentricity": round(0.2 + 0.01 * number + 0.0001 * turn, 4)}
+                said = page.ask("save", change=change, digest=digest)
+                found.append((digest, change, said))
+                digest = json.loads(page.get("news?known="))["digest"]
+            return found
+
+        tries = [one for some in together(*(partial(client, n) for n in range(CLIENTS))) for one in some]
+        assert len(tries) == CLIENTS * SAVES
+        saved = [(digest, change) for digest, change, said in tries if "said" in said]
+        following = dict(saved)
+        assert len(following) == len(saved), "two saves of one state"
+        text = first
+        for _ in saved:
+            text = rewritten(text, following.pop(digest_of(text)))
+        assert text == path.read_text(encoding="utf-8")
+        assert all("has changed on disk since" in said["error"] for *_, said in tries if "said" not in said)
     finally:
         for page in pages:
             page.end()

@@ -50,7 +50,10 @@ def run(folder: Path, *words: object) -> "subprocess.CompletedProcess[str]":
         [sys.executable, "-m", "mechwright", *map(str, words)],
         capture_output=True,
         text=True,
-        env={**os.environ, "PYTHONPATH": str(folder)},
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(filter(None, (str(folder), os.environ.get("PYTHONPATH")))),
+        },
         cwd=folder,
         check=False,
         timeout=120,

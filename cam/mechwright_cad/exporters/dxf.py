@@ -29,6 +29,7 @@ from mechwright.geometry.trim import stretches
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters.curve_kinds import Curves
 from mechwright_cad.exporters.curves import cubic, vertices
+from mechwright_cad.exporters.decimals import of_dxf
 
 if TYPE_CHECKING:
     import shapely
@@ -179,7 +180,7 @@ def finished(document: "Drawing", box: tuple[float, float, float, float], text: 
     order_classes(document)
     stream = io.StringIO()
     document.write(stream)
-    return stream.getvalue().encode(document.output_encoding)
+    return of_dxf(stream.getvalue()).encode(document.output_encoding)
 
 
 def _layer(document: "Drawing", name: str) -> str:

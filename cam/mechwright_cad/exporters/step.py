@@ -29,6 +29,7 @@ from OCP.XSControl import XSControl_WorkSession
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
+from mechwright_cad.exporters.decimals import of_step
 from mechwright_cad.exporters.step_text import sort_styles
 from mechwright_cad.solids import solid as solids
 
@@ -92,7 +93,7 @@ def _write(
         status = writer.WriteStream(text)
     if status != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise GeometryError(f"the CAD kernel cannot write {name} as STEP ({status.name})")
-    return sort_styles(text.getvalue())
+    return of_step(sort_styles(text.getvalue()))
 
 
 def _set_header(model: StepData_StepModel, name: str) -> None:

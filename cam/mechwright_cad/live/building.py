@@ -5,10 +5,12 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
 from mechwright.cli.progress import IN_LINES, line_of
+from mechwright.worker_pool.lifeline import COMMAND
 
 _STAY = 5.0
 """Seconds that a process has to end after it was asked to."""
@@ -43,8 +45,25 @@ class Building:
 
     def _begin(self) -> None:
         self._said, self._at, self._printed = [], {}, ""
-        self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and a file that the user named
-            [sys.executable, "-m", "mechwright", "build", str(self._path), "-o", str(self.folder)],
+        begun = Future[None]()
+        threading.Thread(target=self._run, args=(begun,), daemon=True).start()
+        begun.result()
+
+    def _run(self, begun: Future[None]) -> None:
+        """Start the process, which ends with the thread that started it, and listen to it."""
+        try:
+            self._process = self._started()
+        except Exception as error:
+            begun.set_exception(error)
+            return
+        begun.set_result(None)
+        self._listen(self._process)
+
+    def _started(self) -> "subprocess.Popen[str]":
+        words = ["build", str(self._path), "-o", str(self.folder)]
+        return subprocess.Popen(  # noqa: S603 - our own interpreter and a file that the user named
+            [sys.executable, "-P", "-c", COMMAND, str(os.getpid()), *words],
+            stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -53,7 +72,6 @@ class Building:
             env={**os.environ, IN_LINES: "1", "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"},
             start_new_session=True,
         )
-        threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
 
     def _listen(self, process: "subprocess.Popen[str]") -> None:
         assert process.stderr is not None  # noqa: S101 - asked for above
@@ -65,6 +83,7 @@ class Building:
             else:
                 self._at = at
         self._printed = process.stdout.read().strip()
+        process.wait()
 
     def state(self) -> Mapping[str, Any]:
         """How far it is: ``state`` is ``none``, ``runs``, ``done`` or ``failed``."""

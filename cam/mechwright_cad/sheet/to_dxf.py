@@ -13,6 +13,7 @@ from ezdxf.filemanagement import new
 from ezdxf.layouts.base import BaseLayout
 
 from mechwright.geometry.segments import Point
+from mechwright_cad.exporters.decimals import of_dxf
 from mechwright_cad.exporters.dxf import fixed_metadata, order_classes
 from mechwright_cad.sheet.sheet import (
     ARROW,
@@ -54,7 +55,7 @@ def dxf(sheet: Sheet) -> bytes:
         order_classes(document)
         stream = io.StringIO()
         document.write(stream)
-        return stream.getvalue().encode(document.output_encoding)
+        return of_dxf(stream.getvalue()).encode(document.output_encoding)
 
 
 def _dashes() -> list[float]:

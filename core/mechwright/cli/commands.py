@@ -317,8 +317,9 @@ class Sweep(Command):
             typer.Option(min=1, max=1024, help="Processes of this machine; by default one for each core."),
         ] = None,
         scheduler: Annotated[
-            str, typer.Option(metavar="ADDRESS", help="Of a Dask scheduler, such as tcp://host:8786.")
-        ] = "",
+            str | None,
+            typer.Option(metavar="ADDRESS", help="Of a Dask scheduler, such as tcp://host:8786."),
+        ] = None,
         as_json: AsJson = False,
     ) -> None:
         """Evaluate many designs, and find the best that build.

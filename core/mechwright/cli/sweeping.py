@@ -17,7 +17,7 @@ from mechwright.studies.study import load_study
 from mechwright.studies.workers import workers_of
 
 
-def run(path: Path, folder: Path, count: int | None, scheduler: str, as_json: bool) -> None:
+def run(path: Path, folder: Path, count: int | None, scheduler: str | None, as_json: bool) -> None:
     """Evaluate the designs of a study; the exit code is 1 if none is allowed."""
     workers = workers_of(count, scheduler)
     installed = open_host()

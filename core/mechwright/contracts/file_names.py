@@ -75,9 +75,25 @@ def free_name(name: str, taken: Iterable[str]) -> str:
 def path_fault(path: Path, system: str = sys.platform) -> str:
     """What is wrong with a name that a user gives on this system: :func:`name_fault` on Windows alone.
 
-    There a name ``a:b`` is a stream of the file ``a``, and ``nul`` takes everything and holds nothing.
+    There a name ``a:b`` is a stream of the file ``a``, and ``nul`` takes everything and holds nothing. A path
+    that is no text on any system is shown by no page and no program that is written of it.
     """
+    if not is_text(str(path)):
+        return "is no text in UTF-8"
     return name_fault(path.name) if system == "win32" and path.name not in {"", ".."} else ""
+
+
+def is_text(text: str) -> bool:
+    """Whether a text can be written in UTF-8: what a system gives as a name may hold any bytes.
+
+    >>> is_text("gear"), is_text("gear-" + chr(0xDCFF))
+    (True, False)
+    """
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _hold_text(text: str, what: str) -> None:

@@ -30,7 +30,15 @@ from typing import Any
 
 from mechwright.contracts.ground import kept, leave_behind, opened_again
 from mechwright.contracts.stops import UnaskedError, listening
-from mechwright.errors import DesignError, GeometryError, KinematicsError, MechwrightError, PluginFaultError
+from mechwright.errors import (
+    DesignError,
+    GeometryError,
+    KinematicsError,
+    MechwrightError,
+    OutputError,
+    PluginFaultError,
+    ToolError,
+)
 
 LIMIT = "MECHWRIGHT_PLUGIN_SECONDS"
 """Environment variable: the seconds that a call of a family's method may take."""
@@ -43,6 +51,8 @@ LOADING = 60.0
 OWN = "mechwright"
 """The distribution whose families say what is wrong with a design in words of their own."""
 _OURS = f" of {OWN}: "
+_PACKAGES = frozenset((OWN, "mechwright_cad", "mechwright_cam"))
+"""Whose code says nothing of who has called it."""
 
 _lock = threading.Lock()
 _inside: list[str] = []
@@ -93,8 +103,7 @@ def watched(who: str, seconds: float, code: types.CodeType) -> Iterator[bool]:
     except TimeUpError as error:
         raise PluginFaultError(f"{who}: {error}; {LIMIT} in the environment sets another limit") from None
     except MechwrightError as error:
-        # Which design is wrong the families of others mostly leave to whoever draws a line.
-        if type(error) in {GeometryError, KinematicsError} and is_foreign(who) and who not in str(error):
+        if _needs_name(error, who):
             raise type(error)(f"{who}: {error}") from error
         raise
     except UnsoundError as error:
@@ -175,6 +184,24 @@ def is_foreign(who: str) -> bool:
     return who.startswith("plugin ") and _OURS not in f"{who}: "
 
 
+def _needs_name(error: MechwrightError, who: str) -> bool:
+    """Whether an error that another's plugin has led to does not say whose call it was.
+
+    Which design is wrong the families of others mostly leave to whoever draws a line. Of a design or a file
+    they may say it in words of their own; what they hand to our classes, as the name of a part, they do not.
+    """
+    if not is_foreign(who) or who in str(error):
+        return False
+    if type(error) in {GeometryError, KinematicsError}:
+        return True
+    return type(error) in {DesignError, OutputError, ToolError} and _raised_by_us(error)
+
+
+def _raised_by_us(error: BaseException) -> bool:
+    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+    return bool(frames) and str(frames[-1].f_globals.get("__name__", "")).partition(".")[0] in _PACKAGES
+
+
 def _at(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else " (unknown place)"
@@ -210,9 +237,9 @@ def _aside(who: str) -> Iterator[None]:
 def _turn_back() -> None:
     while _files:
         number, kept_as = _files.pop()
-        with suppress(OSError):
+        with suppress(OSError):  # a plugin may have closed that as well
             os.dup2(kept_as, number)
-        os.close(kept_as)
+            os.close(kept_as)
     if _streams:
         sys.stdout = opened_again(_streams.pop(), 1)
 

@@ -113,11 +113,12 @@ class MadeSection:
     def hole_at(self, x: float, y: float, diameter: float) -> "MadeHole | None":
         """The round hole of about that diameter, mm, about a point; None if there is none.
 
-        What of its wall is no part of the circle, such as a keyway, does not count.
+        What of its wall is no part of the circle, such as a keyway, does not count. Slivers that passes leave
+        between them at the wall are holes as well, and lie on the circle: the hole is the largest of all.
         """
-        for ring in self.rings:
+        for ring in sorted(self.rings, key=lambda one: one.area):
             if ring.area >= 0:
-                continue
+                break
             away = np.hypot(*(ring.points - (x, y)).T)
             near = np.abs(away - diameter / 2) < ABOUT * diameter / 2
             if near.mean() > MOSTLY:

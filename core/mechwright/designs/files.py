@@ -4,6 +4,7 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.file_names import is_text
 from mechwright.contracts.inputs import beside as beside
 from mechwright.designs.bounded_toml import toml_of
 from mechwright.errors import DesignError
@@ -22,6 +23,10 @@ def read_text(
     The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
     without null bytes. A byte order mark is taken off, unless ``mark`` asks for it.
     """
+    if not is_text(str(path)):
+        raise DesignError(
+            f"{path}: its path is no text in UTF-8, which pages and programs show; rename file or folder"
+        )
     data = read_bytes(path, limit)
     return text_of(data, path, older=older, mark=mark), digest_of(data)
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, on_grid
 from mechwright.errors import GeometryError
 from mechwright.geometry.beziers import by_degree, flattened, sampled
 from mechwright.geometry.segments import Arc, Line, Point, Segment
@@ -124,7 +124,7 @@ class Loop:
                 f"the outline has no size: all its corners are within {TOLERANCES.closure:g} mm; "
                 "lengths are in mm"
             )
-        return corners if apart.all() else corners[apart]
+        return on_grid(corners if apart.all() else corners[apart])
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "Loop":
         """The loop turned about the origin, then shifted."""

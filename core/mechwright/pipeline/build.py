@@ -7,8 +7,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
+from mechwright.contracts.guard import is_foreign
 from mechwright.contracts.sampling import SAMPLES
-from mechwright.errors import GeometryError, KinematicsError, PluginFaultError
+from mechwright.errors import GeometryError, KinematicsError, MechwrightError, PluginFaultError
 from mechwright.pipeline.work import LOOK, WORK, Work
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from mechwright.contracts.named import Named
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
-    from mechwright.errors import MechwrightError
     from mechwright.pipeline.proven import Proven
     from mechwright.plugins.host import Host
 
@@ -225,6 +225,8 @@ class Build:
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self.close()
-        said = isinstance(error, (PluginFaultError, GeometryError, KinematicsError))
+        said = isinstance(error, (PluginFaultError, GeometryError, KinematicsError)) or (
+            isinstance(error, MechwrightError) and is_foreign(str(error))
+        )
         if error is not None and said and str(self.path) not in str(error):
             error.args = (f"{self.path}: {error}",)

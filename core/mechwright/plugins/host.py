@@ -3,11 +3,11 @@
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
 import pluggy
 
@@ -17,6 +17,7 @@ from mechwright.contracts.result import Result, found_by
 from mechwright.contracts.stops import is_stop
 from mechwright.errors import PluginError, did_you_mean, shortened
 from mechwright.plugins import hookspecs
+from mechwright.plugins.trial import Candidate, verdicts
 
 if TYPE_CHECKING:
     from mechwright.contracts.family import Family
@@ -31,6 +32,8 @@ DISABLE = "MECHWRIGHT_DISABLE_PLUGINS"
 """Environment variable with the names of plugins to leave out, separated by commas."""
 
 HOOK = hookspecs.mechwright_register.__name__
+_ASKING = ("__getattribute__", "__setattr__", "__delattr__", "__hash__", "__eq__", "__bool__", "__len__")
+"""Methods by which a plugin is asked for anything at all."""
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 _SUFFIX = re.compile(r"(\.[a-z0-9]+)+")
 
@@ -121,22 +124,27 @@ class Host:
         with _instead(fail, f"{HOOK}: "):
             classes = _call(manager.hook.mechwright_register)
         for cls in classes:
-            if reason := _class_fault(cls, distribution):
-                fail(reason)
-                continue
-            contract = contract_of(cls)
-            assert contract is not None  # noqa: S101 - a class without one has been refused
-            items = self.registered.setdefault(contract, {})
-            if other := items.get(cls.name):
-                owner = f"{other.plugin} of {other.distribution}"
-                fail(f"{cls.kind} {cls.name!r} is already registered by {owner}")
-                continue
-            with _instead(fail, f"{cls.__name__}(): "):
-                made = cls()
-                if hidden := vars(made).keys() & methods_of(contract):
-                    fail(f"{cls.__name__}(): sets {', '.join(sorted(hidden))}; a method stands in the class")
+            with _instead(fail):
+                if reason := _class_fault(cls, distribution):
+                    fail(reason)
                 else:
-                    items[cls.name] = Registered(made, distribution, plugin)
+                    self._take(cls, distribution, plugin, fail)
+
+    def _take(self, cls: type[Plugin], distribution: str, plugin: str, fail: Callable[[str], object]) -> None:
+        """Register a class that is well made."""
+        contract = contract_of(cls)
+        assert contract is not None  # noqa: S101 - a class without one has been refused
+        items = self.registered.setdefault(contract, {})
+        if other := items.get(cls.name):
+            owner = f"{other.plugin} of {other.distribution}"
+            fail(f"{cls.kind} {cls.name!r} is already registered by {owner}")
+            return
+        with _instead(fail, f"{cls.__name__}(): "):
+            made = cls()
+            if hidden := vars(made).keys() & methods_of(contract):
+                fail(f"{cls.__name__}(): sets {', '.join(sorted(hidden))}; a method stands in the class")
+            else:
+                items[cls.name] = Registered(made, distribution, plugin)
 
     def _failing(self, distribution: str, plugin: str) -> Callable[[str], None]:
         """What files a reason for which a plugin is not used."""
@@ -192,6 +200,8 @@ def _class_fault(cls: Any, distribution: str) -> str:
     api = getattr(cls, "api", None)
     if api != HOOK_API:
         return f"{cls.__name__} was written for hook API {api}; this is {HOOK_API}"
+    if taken := [name for name in _ASKING if getattr(cls, name, None) is not getattr(contract, name, None)]:
+        return f"{cls.__name__} has a {taken[0]} of its own, by which everybody asks it; leave that out"
     name = getattr(cls, "name", None)
     if not isinstance(name, str):
         return f"{cls.__name__} has no name"
@@ -222,7 +232,9 @@ _MOVED = {
 def _reason(error: BaseException) -> str:
     if isinstance(error, TimeUpError):
         return str(error)
-    text = str(error).strip().splitlines()
+    text: list[str] = []
+    with suppress(Exception):  # words of its own may fail as well
+        text = str(error).strip().splitlines()
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
     if isinstance(error, ModuleNotFoundError) and (new := _MOVED.get(str(error.name))):
         said += f"; it is called {new} now"
@@ -236,22 +248,49 @@ def load(
 ) -> Host:
     """Load plugins from ``points`` (distribution name and entry point), or from what a group has installed.
 
-    Names in ``disabled`` are skipped; None reads them from the environment variable
-    ``MECHWRIGHT_DISABLE_PLUGINS``, separated by commas.
+    What others have installed is tried in a second process before. Names in ``disabled`` are skipped; None
+    reads them from the environment variable ``MECHWRIGHT_DISABLE_PLUGINS``, separated by commas.
     """
-    found = Host()
+    found, tried = Host(), points is None
     if points is None:
         points, found.broken = hook_points(distributions(), group)
     if disabled is None:
         disabled = frozenset(name.strip() for name in os.environ.get(DISABLE, "").split(",") if name.strip())
+    points = [(distribution, point) for distribution, point in points if point.name not in disabled]
+    foreign = [Candidate(*one) for one in points if one[0] != BUILT_IN] if tried else []
+    verdict = verdicts(foreign) if foreign else {}
     for distribution, point in points:
-        if point.name in disabled:
-            continue
-        own = distribution == BUILT_IN
-        guard = nullcontext() if own else loading(f"plugin {point.name} of {distribution}", point.module)
-        with guard, _instead(found._failing(distribution, point.name)):
-            found.add(point.load(), distribution, point.name)
+        if said := verdict.get(Candidate(distribution, point).key):
+            found._failing(distribution, point.name)(said)
+        else:
+            with nullcontext() if distribution == BUILT_IN else _no_exit():
+                register(found, distribution, point)
     return found
+
+
+@contextmanager
+def _no_exit() -> Iterator[None]:
+    """Have ``os._exit`` raise SystemExit meanwhile: a plugin may do here what it did not do in its trial."""
+    real, own, ended = os._exit, os.getpid(), False
+
+    def leave(status: int) -> NoReturn:
+        if ended or os.getpid() != own:
+            real(status)
+        raise SystemExit(status)
+
+    os._exit = leave
+    try:
+        yield
+    finally:
+        ended, os._exit = True, real
+
+
+def register(host: Host, distribution: str, point: EntryPoint) -> None:
+    """Load what an entry point names, and register it; whatever is wrong with it ends up in ``broken``."""
+    own = distribution == BUILT_IN
+    guard = nullcontext() if own else loading(f"plugin {point.name} of {distribution}", point.module)
+    with guard, _instead(host._failing(distribution, point.name)):
+        host.add(point.load(), distribution, point.name)
 
 
 def hook_points(

@@ -11,6 +11,7 @@ from mechwright.contracts.inputs import input_files
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
 from mechwright.designs.files import digest_of, read_bytes
+from mechwright.kernels import kernels
 from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
 
@@ -39,6 +40,7 @@ def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: 
         "design": name,
         "family": family.name,
         "inputs_sha256": dict(inputs),
+        "kernels": kernels(),
         "versions": {
             "python": ".".join(map(str, sys.version_info[:3])),
             **{package: _version(package) for package in sorted(packages)},

@@ -112,7 +112,7 @@ def _verdicts(
     missing = [n for n in range(len(some)) if n not in found]
     progress(len(found) / len(some), f"{len(found)} of {len(some)} designs of the front checked")
     for n, said in _checks([candidates[n] for n in missing], missing, cores, study, place.host):
-        place.store_check(stems[n], json.dumps({"of": digests[n], "refused": said}).encode())
+        place.store_check(stems[n], json.dumps(_check(digests[n], said)).encode())
         found[n] = said
         progress(len(found) / len(some), f"{len(found)} of {len(some)} designs of the front checked")
     return [found[n] for n in range(len(some))]
@@ -173,10 +173,17 @@ def _kept(place: SweepFolder, stem: str, digest: str) -> str | None:
     for path in place.checks():
         if path.stem == stem:
             said = _read(path)
-            if isinstance(said, dict) and said.get("of") == digest and isinstance(said.get("refused"), str):
-                return str(said["refused"])
+            refused = said.get("refused") if isinstance(said, dict) else None
+            if isinstance(refused, str) and said == _check(digest, refused):
+                return refused
             place.drop([path])
     return None
+
+
+def _check(digest: str, refused: str) -> dict[str, str]:
+    """What the file of a check says: of what it is, what it found, and a digest of both."""
+    seal = hashlib.sha256(json.dumps([digest, refused]).encode()).hexdigest()
+    return {"of": digest, "refused": refused, "seal": seal}
 
 
 def _read(path: Path) -> object:

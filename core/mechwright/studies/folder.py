@@ -11,15 +11,19 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from mechwright.contracts.slices import Work
 from mechwright.errors import OutputError
 from mechwright.output.folder import Output, write_folder
 from mechwright.output.staging import move
 from mechwright.plugins.host import Host
 from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
+from mechwright.studies.fingerprint import fingerprint
 from mechwright.studies.shard import Counts, counts_of
+from mechwright.studies.slice_file import saved_in, slice_of, work_of
+from mechwright.studies.stamp import Stamp
 from mechwright.studies.study import Study
-from mechwright.studies.task import Task, fingerprint
+from mechwright.studies.task import Task
 
 COMMAND = "sweep"
 BEGUN = "study.json"
@@ -88,30 +92,43 @@ class SweepFolder:
         """The file of a task."""
         return self.path / SHARDS / f"{name}{SUFFIX}"
 
-    def has(self, name: str) -> bool:
+    def has(self, task: Task) -> bool:
         """Whether a task is done; raises as :meth:`counts` does where its file is no table of the study."""
-        if not regular(self.table(name)):
+        if not regular(self.table(task.name)):
             return False
-        self.counts(name)
-        self._whole.add(name)
+        self.counts(task)
+        self._whole.add(task.name)
         return True
 
     def whole(self, tasks: Iterable[Task]) -> set[str]:
         """The names of tasks that are done; many tables that were not read in this run are not read."""
-        there = [task.name for task in tasks if regular(self.table(task.name))]
-        known = {name for name in there if name in self._whole}
-        unread = [name for name in there if name not in known]
-        return known | {name for name in unread if len(unread) > UNREAD or self._is_whole(name)}
+        there = [task for task in tasks if regular(self.table(task.name))]
+        known = {task.name for task in there if task.name in self._whole}
+        unread = [task for task in there if task.name not in known]
+        return known | {task.name for task in unread if len(unread) > UNREAD or self._is_whole(task)}
 
-    def _is_whole(self, name: str) -> bool:
+    def _is_whole(self, task: Task) -> bool:
         try:
-            return self.has(name)
+            return self.has(task)
         except OutputError:
             return False
 
-    def counts(self, name: str) -> Counts:
+    def counts(self, task: Task) -> Counts:
         """What was counted in a task that is done."""
-        return counts_of(self.study, self.table(name))
+        return counts_of(self.study, self.table(task.name), self.stamp(task))
+
+    def stamp(self, task: Task, path: Path | None = None) -> Stamp:
+        """The stamp of the table of a task, or of a slice of it by the number in the name of its file."""
+        number = None if path is None else int(path.stem.rpartition("-")[2])
+        return Stamp.of(self.study, task.first, task.size(self.study), number)
+
+    def saved_in(self, task: Task, path: Path) -> int:
+        """How many designs a slice has finished; raises OutputError where the file is not that slice."""
+        return saved_in(self.study, path, self.stamp(task, path))
+
+    def work_in(self, task: Task, path: Path) -> Work:
+        """The work in the file of a slice; raises OutputError where it is not that slice."""
+        return work_of(self.study, path, self.stamp(task, path))
 
     def store(self, name: str, content: bytes) -> None:
         """Write the table of a task, in whose place its slices go."""
@@ -131,10 +148,10 @@ class SweepFolder:
                 found.setdefault(match[1], []).append(path)
         return found
 
-    def store_slice(self, name: str, number: int, content: bytes) -> Path:
+    def store_slice(self, task: Task, number: int, work: Work) -> Path:
         """Write a slice of a task."""
-        path = self.path / SLICES / f"{name}-{number:06d}{SUFFIX}"
-        self._put(path, content)
+        path = self.path / SLICES / f"{task.name}-{number:06d}{SUFFIX}"
+        self._put(path, slice_of(self.study, work, self.stamp(task, path)))
         return path
 
     def next_number(self, name: str) -> int:

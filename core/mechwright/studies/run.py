@@ -23,7 +23,7 @@ from mechwright.studies.shard import NUMBER, Counts, read_file, written
 from mechwright.studies.standing import Standing
 from mechwright.studies.study import Study
 from mechwright.studies.task import Source, Task
-from mechwright.studies.workers import Workers
+from mechwright.studies.task_queue import Workers
 
 EVALUATED = 0.9
 """Share of a sweep's work that is the tables; the rest are the designs of the front."""
@@ -151,7 +151,7 @@ def _taken(
     """The counts with those of some tables, whose designs the front has taken."""
     for number, task in enumerate(tasks):
         bar.read(number, len(tasks))
-        counts = counts.plus(place.counts(task.name))
+        counts = counts.plus(place.counts(task))
         if study.objectives:
             front.take(_allowed(study, place.table(task.name)))
     return counts

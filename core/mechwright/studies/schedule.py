@@ -17,7 +17,7 @@ from mechwright.contracts.slices import Chunk, Places, Question, Work
 from mechwright.errors import PluginFaultError
 from mechwright.studies.folder import SweepFolder
 from mechwright.studies.portion import OfChunks, OfPlaces, Order, Portion, Survey, assembled, sliced
-from mechwright.studies.slice_file import designs_in, saved_in, slice_of, work_of
+from mechwright.studies.slice_file import designs_in
 from mechwright.studies.standing import Standing
 from mechwright.studies.task import Task, batch_of
 
@@ -132,7 +132,7 @@ class Schedule:
         self._new = deque(tasks)
         self._slices = place.all_slices()
         self._waiting = {
-            task.name: sum(saved_in(self.study, path) for path in self._slices.get(task.name, []))
+            task.name: sum(place.saved_in(task, path) for path in self._slices.get(task.name, []))
             for task in tasks
         }
         self._open: dict[str, _Open] = {}
@@ -160,7 +160,7 @@ class Schedule:
                 return replace(task, order=Survey(self._survey))
             one = self._opened(task)
             for path in paths:
-                one.known.update(work_of(self.study, path, task.size(self.study)))
+                one.known.update(self.place.work_in(task, path))
             one.saved = designs_in(self.study, one.known)
             self._assemble(one)
             if not one.idle:
@@ -185,7 +185,7 @@ class Schedule:
             return
         one = self._open.get(task.name) or self._opened(replace(task, order=None))
         if found.work:
-            self.place.store_slice(task.name, one.number, slice_of(self.study, found.work))
+            self.place.store_slice(task, one.number, found.work)
             one.number += 1
             one.saved += designs_in(self.study, found.work)
             one.known.update(found.work)
@@ -225,7 +225,7 @@ def without_tables(place: SweepFolder, tasks: Iterable[Task]) -> list[Task]:
     """The tasks whose tables are missing; slices of the others, whose sweep was killed then, are removed."""
     missing, slices = [], place.all_slices()
     for task in tasks:
-        if not place.has(task.name):
+        if not place.has(task):
             missing.append(task)
         elif task.name in slices:
             place.drop(slices[task.name])

@@ -128,7 +128,7 @@ def sweep(
     folder: str | PathLike[str] | None = None,
     *,
     workers: int | None = None,
-    scheduler: str = "",
+    scheduler: str | None = None,
     progress: Progress = unheard,
     **keys: object,
 ) -> Sweep:

@@ -15,6 +15,7 @@ from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.errors import MechwrightError, OutputError
 from mechwright.extras import optional
 from mechwright.reading import read_bytes
+from mechwright.studies.stamp import Stamp, require_sealed, sealed
 from mechwright.studies.study import Study
 
 NUMBER = "design"
@@ -63,7 +64,8 @@ def table_of(study: Study, batch: Batch[Any], first: int, found: Columns) -> byt
     table |= {name: values[name][rows] for name in study.units}
     if study.asked.keep == "all":
         table[FORBIDDEN] = np.array(codes, dtype=object)[forbidden[rows]]
-    return _counted(table, study.units, Counts(len(batch), int(feasible.sum()), told))
+    counted = Counts(len(batch), int(feasible.sum()), told)
+    return _counted(table, study.units, counted, Stamp.of(study, first, len(batch)))
 
 
 def _constrained(
@@ -80,9 +82,11 @@ def _constrained(
     return forbidden, codes
 
 
-def _counted(table: Mapping[str, NDArray[Any]], units: Mapping[str, str], counts: Counts) -> bytes:
+def _counted(
+    table: Mapping[str, NDArray[Any]], units: Mapping[str, str], counts: Counts, stamp: Stamp
+) -> bytes:
     said = {"designs": counts.designs, "feasible": counts.feasible, "forbidden": dict(counts.forbidden)}
-    return written(table, units, {_COUNTS: json.dumps(said, sort_keys=True)})
+    return sealed(written(table, units, {_COUNTS: json.dumps(said, sort_keys=True), **stamp.metadata}))
 
 
 def written(
@@ -102,19 +106,19 @@ def written(
     return buffer.getvalue()
 
 
-def counts_of(study: Study, path: Path) -> Counts:
-    """What was counted for the file of a batch; raises OutputError where it is no table of the study.
+def counts_of(study: Study, path: Path, stamp: Stamp) -> Counts:
+    """What was counted for the file of a batch; raises OutputError where it is not the one with this stamp.
 
     No more is unpacked than its frame, which tells how much the rest is.
     """
     with telling(path):
-        frame = frame_of(study, path)
+        frame = frame_of(study, path, stamp)
         require(_COUNTS in (frame.metadata or {}), "it has no counts")
         said = json.loads(frame.metadata[_COUNTS])
         counts = Counts(said["designs"], said["feasible"], dict(said["forbidden"]))
         numbers = (counts.designs, counts.feasible, *counts.forbidden.values())
         require(all(type(one) is int and one >= 0 for one in numbers), "its counts are no whole numbers")
-        require(counts.feasible <= counts.designs <= study.batch, "its counts are those of no batch")
+        require(counts.feasible <= counts.designs == stamp.designs, "its counts are those of no batch")
         every = study.asked.keep == "all"
         rows = counts.designs if every else counts.feasible
         require(frame.num_rows == rows, f"it has {frame.num_rows:,} designs, and counts {rows:,}")
@@ -127,11 +131,12 @@ def counts_of(study: Study, path: Path) -> Counts:
         return counts
 
 
-def frame_of(study: Study, path: Path) -> Any:
-    """Metadata of a file; raises ValueError where it is too large for a batch."""
+def frame_of(study: Study, path: Path, stamp: Stamp) -> Any:
+    """Metadata of a file; raises ValueError where it is too large for a batch, or has another stamp."""
     frame = optional("pyarrow.parquet").read_metadata(io.BytesIO(_content(study, path)))
     size = sum(frame.row_group(number).total_byte_size for number in range(frame.num_row_groups))
     require(0 <= size <= _most_bytes(study), "it is too large when it is unpacked")
+    stamp.require_in(frame.metadata or {})
     return frame
 
 
@@ -142,7 +147,9 @@ def read_file(study: Study, path: Path, columns: Sequence[str] | None = None) ->
 
 
 def _content(study: Study, path: Path) -> bytes:
-    return read_bytes(path, _most_bytes(study), anew=True)
+    content = read_bytes(path, _most_bytes(study), anew=True)
+    require_sealed(content)
+    return content
 
 
 def _most_bytes(study: Study) -> int:

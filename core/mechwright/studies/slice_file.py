@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mechwright.contracts.by_arrays import Answer
 from mechwright.contracts.slices import Answered, Chunk, Question, Singles, Work
 from mechwright.studies.shard import frame_of, read_file, require, telling, written
+from mechwright.studies.stamp import Stamp, sealed
 from mechwright.studies.study import Study
 
 UNIT, PLACE, CODE, UNDECIDED = "slice.unit", "slice.place", "slice.code", "slice.undecided"
@@ -20,7 +21,7 @@ whether it has to be asked singly."""
 _UNITS, _DESIGNS = b"mechwright.slice", b"mechwright.designs"
 
 
-def slice_of(study: Study, work: Work) -> bytes:
+def slice_of(study: Study, work: Work, stamp: Stamp) -> bytes:
     """The file of some work on a batch."""
     units: list[dict[str, Any]] = []
     rows: list[tuple[NDArray[Any], NDArray[Any], NDArray[Any], dict[str, NDArray[Any]]]] = []
@@ -46,8 +47,8 @@ def slice_of(study: Study, work: Work) -> bytes:
     for name in study.measured:
         parts = [row[3].get(name, np.full(row[0].size, np.nan)) for row in rows]
         table[name] = np.concatenate(parts).astype(np.float64)
-    said = {_UNITS: json.dumps(units), _DESIGNS: str(designs_in(study, work))}
-    return written(table, study.units, said)
+    said = {_UNITS: json.dumps(units), _DESIGNS: str(designs_in(study, work)), **stamp.metadata}
+    return sealed(written(table, study.units, said))
 
 
 def designs_in(study: Study, work: Work) -> int:
@@ -60,26 +61,26 @@ def designs_in(study: Study, work: Work) -> int:
     return count
 
 
-def saved_in(study: Study, path: Path) -> int:
-    """How many designs a file has finished; raises OutputError where it is no slice of the study."""
+def saved_in(study: Study, path: Path, stamp: Stamp) -> int:
+    """How many designs a file has finished; raises OutputError where it is not the slice with this stamp."""
     with telling(path):
-        count = int((frame_of(study, path).metadata or {})[_DESIGNS])
-        require(0 <= count <= study.batch, "its designs are those of no batch")
+        count = int(frame_of(study, path, stamp).metadata[_DESIGNS])
+        require(0 <= count <= stamp.designs, "its designs are those of no batch")
         return count
 
 
-def work_of(study: Study, path: Path, size: int) -> Work:
-    """The work in a file, on a batch of ``size`` designs; raises OutputError where it is none."""
+def work_of(study: Study, path: Path, stamp: Stamp) -> Work:
+    """The work in a file; raises OutputError where it is not the slice with this stamp."""
     with telling(path):
-        frame = frame_of(study, path)
-        units = json.loads((frame.metadata or {})[_UNITS])
+        frame = frame_of(study, path, stamp)
+        units = json.loads(frame.metadata[_UNITS])
         columns = [UNIT, PLACE, CODE, UNDECIDED, *study.measured]
         require(frame.schema.to_arrow_schema().names == columns, "it has other columns")
         table = read_file(study, path)
         kinds = "".join(table[name].dtype.kind for name in columns if name != CODE)
         require(kinds == "iib" + "f" * len(study.measured) or not table[UNIT].size, "its columns hold others")
         place, unit = table[PLACE], table[UNIT]
-        require(bool(((place >= 0) & (place < size)).all()), "its designs are those of no batch")
+        require(bool(((place >= 0) & (place < stamp.designs)).all()), "its designs are those of no batch")
         work = Work()
         for number, said in enumerate(units):
             _take(study, work, said, {name: values[unit == number] for name, values in table.items()})

@@ -4,7 +4,6 @@ from pathlib import Path
 
 from mechwright.errors import MechwrightError
 from mechwright.studies.folder import SweepFolder
-from mechwright.studies.slice_file import saved_in
 from mechwright.studies.study import Study
 from mechwright.studies.task import Task
 
@@ -44,12 +43,13 @@ class Standing:
             if task.name in tables:
                 count += task.size(self.study)
             else:
-                count += sum(map(self._in_slice, slices.get(task.name, [])))
+                count += sum(self._in_slice(task, path) for path in slices.get(task.name, []))
         return count
 
-    def _in_slice(self, path: Path) -> int:
+    def _in_slice(self, task: Task, path: Path) -> int:
+        assert self.place is not None  # noqa: S101 - asked before
         try:
-            return saved_in(self.study, path)
+            return self.place.saved_in(task, path)
         except MechwrightError:
             return 0  # nobody goes on with it
 

@@ -31,6 +31,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -163,7 +164,7 @@ class Study:
         """How many batches there are."""
         return -(-self.count // self.batch)
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """SHA-256 of all that its results depend on; comments and the order of keys do not count."""
         kept = {key: value for key, value in self.file.items() if key in {"family", "parameters", TABLE}}

@@ -3,15 +3,11 @@
 The designs of a study by their numbers: the same whoever asks, and in whatever order.
 """
 
-import hashlib
 import json
-import platform
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
-from importlib import import_module
-from importlib.metadata import version
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -23,6 +19,7 @@ from mechwright.contracts.evaluation import Batch
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
 from mechwright.studies.axis import Axis
+from mechwright.studies.fingerprint import fingerprint, unlike
 from mechwright.studies.portion import Order, Portion, portion, sliced
 from mechwright.studies.shard import shard_of
 from mechwright.studies.study import BITS, Study, study_of
@@ -72,10 +69,6 @@ def _grid(axes: tuple[Axis, ...], first: int, size: int) -> dict[str, NDArray[An
         numbers, place = np.divmod(numbers, axis.levels.size)
         varied[axis.name] = axis.levels[place]
     return {axis.name: varied[axis.name] for axis in axes}
-
-
-LIBRARIES = ("numpy", "scipy", "pyarrow")
-"""Whose versions change the bytes of a table."""
 
 
 @dataclass(frozen=True)
@@ -165,22 +158,3 @@ def _opened(source: Source) -> Study:
 def _drawn(source: Source, number: int) -> Batch[Any]:
     """A batch that a worker is at: slices of it follow each other."""
     return sliced(drawn(_opened(source), number))
-
-
-def unlike(said: str, own: str) -> str:
-    """What is told of a worker with another fingerprint."""
-    return f"it has {said}; here it is {own}: install the same on both"
-
-
-@cache
-def fingerprint(family: str) -> str:
-    """What tells installations apart whose tables could differ: versions, and the program's text."""
-    found = hashlib.sha256()
-    for package in ("mechwright", type(host().family(family)).__module__.partition(".")[0]):
-        root = Path(str(import_module(package).__file__)).parent
-        files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.py")}
-        for name, path in sorted(files.items()):
-            found.update(name.encode())
-            found.update(path.read_bytes())
-    said = [f"{library} {version(library)}" for library in LIBRARIES]
-    return ", ".join([f"python {platform.python_version()}", *said, f"program {found.hexdigest()[:12]}"])

@@ -1,7 +1,6 @@
 """The process of a worker: it reads calls, and answers them."""
 
 import contextlib
-import ctypes
 import importlib
 import io
 import os
@@ -16,10 +15,8 @@ from typing import BinaryIO, NoReturn
 
 from mechwright.contracts.guard import during
 from mechwright.worker_pool.budget import limit_cores
+from mechwright.worker_pool.lifeline import end_with_parent
 from mechwright.worker_pool.recorded_warnings import RecordedWarning, record_warnings, take_warnings
-
-_PDEATHSIG = 1
-"""``PR_SET_PDEATHSIG`` of Linux's prctl: the signal that a process gets when its parent ends."""
 
 _answers: list[BinaryIO] = []
 """The stream of answers, in a worker."""
@@ -64,10 +61,7 @@ def serve(parent: int, cores: int, modules: Sequence[str]) -> NoReturn:
 
     SIGTERM raises KeyboardInterrupt in a call, which may tidy up. The keyboard stops the parent alone.
     """
-    if sys.platform == "linux":  # a library that is loaded lets no thread of ours run for seconds
-        ctypes.CDLL(None).prctl(_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:
-            os._exit(1)
+    end_with_parent(parent)
     requests: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_read, args=(requests,), daemon=True).start()
     _answers.append(os.fdopen(os.dup(1), "wb"))
