@@ -9,7 +9,7 @@ import numpy as np
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motor_findings import speed_said
-from mechwright.machine.motors import DEVIATION, Choice, curve_of
+from mechwright.machine.motors import Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
 from mechwright.pipeline.build import Build, Wanted
@@ -29,7 +29,7 @@ FIGURES: Mapping[str, tuple[str, str]] = {
     "greatest_inertia": ("greatest inertia that the input feels", "kg*m^2"),
     "least_inertia": ("least", "kg*m^2"),
     "work_swing": ("swing of the work about its mean", "J"),
-    "flywheel": ("inertia of a flywheel for the irregularity", "kg*m^2"),
+    "flywheel": ("inertia of a flywheel for the speed variation", "kg*m^2"),
     "motor_peak": ("peak torque at the motor, with the margin", "N*m"),
     "motor_rms": ("rms torque at the motor, with the margin", "N*m"),
     "motor_speed": ("greatest speed of the motor", "rev/min"),
@@ -86,7 +86,7 @@ def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -
         "greatest_inertia": float(drive.reflected.max()),
         "least_inertia": float(drive.reflected.min()),
         "work_swing": drive.swing,
-        "flywheel": drive.flywheel(settings.irregularity),
+        "flywheel": drive.flywheel(settings.variation),
     }
     if choice is not None:
         found |= {
@@ -190,7 +190,7 @@ def _speed(name: str, choice: Choice) -> list[Figure]:
     words = (
         f"At a constant {seen.voltage:.3g} V the motor drives and brakes along its line. Inertia of the "
         "mechanism evens the speed out; that of the motor's own rotor is not counted. "
-        f"{key(lines).capitalize()}; more than {100 * DEVIATION:g} % off is a warning."
+        f"{key(lines).capitalize()}; more than {100 * choice.variation:g} % off is refused."
     )
     return [Figure("Speed of the input", plot(lines, f"{name}, deg", "rev/min"), words)]
 
