@@ -13,9 +13,9 @@ from mechwright.standards.table import table
 NOMINAL_VOLTAGE = 12.0
 """At which the gear motors of the table have their speeds and torques, V."""
 IDLE_CURRENT, STALL_CURRENT = 0.2, 5.5
-"""Of the gear motors at that voltage without load and at standstill, A: a maker's sheet, the same motor in all."""
+"""Of the gear motors at that voltage without load and at standstill, A: a maker's sheet, for all ratios."""
 GEARBOX_CONTINUOUS, GEARBOX_PEAK = 100.0, 250.0
-"""Torques that their gearbox bears for long and for a moment, kg mm: a maker's advice, and a handbook figure."""
+"""Torques that their gearbox bears, kg mm: for long, a maker's advice; for a moment, a handbook figure."""
 DIE_CAST = 110.0
 """At which a thread strips in the die-cast face of a motor or gearbox, MPa; handbook, unchecked."""
 
@@ -134,7 +134,7 @@ class GearMotor:
 
     @property
     def current_limit(self) -> float | None:
-        """That the driver is set to so that the motor cannot break its gearbox, A; None if it cannot anyway."""
+        """A driver's limit with which the motor cannot break its gearbox, A; None if it cannot anyway."""
         return self.current(self.peak) if self.stall_torque > self.peak else None
 
     @property
