@@ -3,12 +3,10 @@
 from mechwright.contracts.finding import Change, Finding
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import keys_of
+from mechwright.standards.stock import AS_THICK
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.workshop_file import Shop
-
-AS_THICK = 0.005
-"""Plates that differ by less are as thick as each other, mm: 3/8 inch is written as 9.525 or 9.53."""
 
 
 def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[Finding]]:

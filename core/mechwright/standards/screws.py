@@ -23,7 +23,7 @@ GRADE = "8.8"
 SET_GRADE = "45H"
 """Hardness class of set screws."""
 
-ENGAGEMENT = {"steel": 1.0, "brass": 1.2, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+ENGAGEMENT = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
 """Least length of thread in a material, in diameters; handbook, unchecked. In POM an insert is better."""
 
 
@@ -131,6 +131,19 @@ class Washer:
         return Bought(
             f"ISO 7089 - {self.of.size:g} - 200 HV", "ISO 7089", None, Shape((ring(inside, outside, height),))
         )
+
+
+SOFT = frozenset({"pom", "polycarbonate"})
+"""Materials that creep under a head."""
+
+
+def needs_washer(size: float, hole: float, material: str) -> bool:
+    """Whether the head of a screw M ``size`` lies on a washer: over a coarse hole, mm, and on plastics.
+
+    >>> needs_washer(5, 5.5, "aluminium"), needs_washer(5, 6.0, "aluminium"), needs_washer(5, 5.5, "pom")
+    (False, True, True)
+    """
+    return material in SOFT or hole >= screw_size(size).clearance("coarse")
 
 
 @cache

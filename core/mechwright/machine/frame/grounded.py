@@ -14,7 +14,7 @@ from mechwright.contracts.mounting import GroundPlate
 from mechwright.contracts.surroundings import Place, Surroundings
 from mechwright.contracts.turned import TAP_RUN
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import UNDER, add_base, leg_screw, thickness_for
+from mechwright.machine.frame.base import UNDER, add_base, leg_fixing, thickness_for
 from mechwright.machine.frame.coupled import (
     PLATE,
     Coupled,
@@ -102,8 +102,7 @@ def built(ground: GroundPlate, coupled: Coupled | None, keys: FrameKeys, lowest:
             put_screw(kit, joint, post.name, coupled.top + below)
         depth = below
         under, lowest = coupled.face, coupled.low
-    thickness = thickness_for(standing, keys.plates)
-    foot = leg_screw(thickness).length - thickness
+    _, foot = leg_fixing(thickness_for(standing, material, keys.plates), material)
     top = min(lowest - UNDER, under - _least(foot, depth))
     add_base(kit, standing, list(posts), under, top, depth, material, keys.plates)
     return kit
