@@ -12,7 +12,6 @@ from mechwright.machine.frame.base import base_stock, foot
 from mechwright.machine.frame.coupled import motor_fixing
 from mechwright.machine.frame.fixing import WASHERS, fixing
 from mechwright.machine.frame.pillars import SPARE
-from mechwright.machine.frame.plates import STOCK
 from mechwright.mechanics.strength.allowed import ALLOWED
 from mechwright.mechanics.strength.tightening import (
     LEAST_ENGAGED,
@@ -23,6 +22,7 @@ from mechwright.mechanics.strength.tightening import (
     tightening,
 )
 from mechwright.standards.motors import motor_faces
+from mechwright.standards.stock import plate_stock
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "thread-strip.json").read_text(encoding="utf-8"))
 M5 = (5.0, 0.8, 8.5, 5.5)
@@ -55,7 +55,7 @@ def test_what_bears_least_sets_the_torque():
     assert rubber.force < 1000
 
 
-@pytest.mark.parametrize("thickness", [*STOCK[:-1], 9.525, 12.7, 19.05])
+@pytest.mark.parametrize("thickness", [*plate_stock("aluminium").thicknesses[7:-1], 9.525, 12.7, 19.05])
 def test_the_screw_of_a_foot_neither_bottoms_out_nor_hangs_on_a_turn(thickness):
     """A plate of 10 mm took a screw of 16 into a thread of 6: its point stood on the bottom."""
     (thread,) = foot().threads
@@ -87,5 +87,5 @@ def test_a_plate_for_which_no_screw_is_sold_is_refused():
 
 def test_a_plate_in_hand_without_a_screw_for_its_feet_is_no_base_plate():
     """The design was refused, though a plate of 19 mm lay beside that of 16.6."""
-    assert base_stock(12, (16.6, 19)) == 19
-    assert base_stock(12, (16.6,)) == 12, "as they are sold"
+    assert base_stock(12, "aluminium", (16.6, 19)) == 19
+    assert base_stock(12, "aluminium", (16.6,)) == 12, "as they are sold"
