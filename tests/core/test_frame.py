@@ -345,7 +345,7 @@ def test_a_plate_that_is_too_thin_for_its_bearings_is_refused_with_the_size_that
     (fault,) = frame_around(keys, two(90.0), parts, motion, Wanted()).findings
     assert (fault.code, fault.value, fault.limit) == ("frame.plate-thickness", 9.0, 12.0)
     assert least_thickness([seat.bearing for seat in seats(two(90.0), keys)[0]]) <= thickness_for(
-        [seat.bearing for seat in seats(two(90.0), keys)[0]]
+        [seat.bearing for seat in seats(two(90.0), keys)[0]], "aluminium"
     )
 
 
