@@ -70,7 +70,7 @@ class BillOfMaterials(Page):
             order,
             plan.torques,
             supplies,
-            electrics_for(build),
+            build.made(electrics_for),
         )
         return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 

@@ -2,6 +2,7 @@
 
 from mechwright.contracts.motion import Motion
 from mechwright.machine.drive import SAMPLES, Drive, drive_of
+from mechwright.machine.electrics import electrics_of
 from mechwright.machine.motors import Choice, motor_of
 from mechwright.machine.settings import MachineSettings
 from mechwright.machine.table import MachineTable
@@ -35,8 +36,6 @@ def electrics_for(build: Build) -> list[Supply]:
     choice = build.made(motor_for) if wanted_of(build) else None
     if choice is None or not choice.enough:
         return []
-    from mechwright.machine.electrics import electrics_of
-
     return electrics_of(build.made(drive_for), settings_of(build), choice)
 
 
