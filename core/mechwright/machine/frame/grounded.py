@@ -25,6 +25,7 @@ from mechwright.machine.frame.coupled import (
     outline,
 )
 from mechwright.machine.frame.decided import Wanted
+from mechwright.machine.frame.fixing import Fixing, put_fixing
 from mechwright.machine.frame.ground_refusals import (
     GroundError,
     coupling_on,
@@ -34,6 +35,7 @@ from mechwright.machine.frame.ground_refusals import (
     lowest_of,
     motor_wanted,
     refusal,
+    washers_on,
 )
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
@@ -52,7 +54,7 @@ from mechwright.machine.frame.pillars import (
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.machine.frame.sweep import Space
-from mechwright.standards.screws import screw_size
+from mechwright.standards.screws import screw_size, washer
 
 
 def base_under(
@@ -130,10 +132,12 @@ def _columns(kit: Kit, ground: GroundPlate) -> tuple[tuple[Standing, Sequence[Co
         post.place(kit)
     if ground.bolts is not None:
         return (standing, posts), ground.bolts[1]
-    fixing = cap_screw(ground.high - ground.low)
+    count = washers_on(ground)
+    grip = ground.high - ground.low + count * washer(SCREW).height
+    found = cap_screw(grip)
     for post in posts:
-        put_screw(kit, fixing, post.name, ground.high)
-    return (standing, posts), fixing.length - (ground.high - ground.low)
+        put_fixing(kit, Fixing(found, count), post.name, ground.high)
+    return (standing, posts), found.length - grip
 
 
 def _least(one: float, two: float) -> float:
