@@ -112,7 +112,7 @@ def test_a_motor_finds_the_shaft_below_the_ground_plate(name):
 
 
 def test_bolts_without_a_thread_are_no_mounting():
-    with pytest.raises(MountingError, match="set screw_hole = 5.5"):
+    with pytest.raises(MountingError, match="set screw_hole = 6"):
         mounting_of(laid_out("whitworth"))
 
 

@@ -19,10 +19,6 @@ from mechwright.contracts.finding import Change
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 
-SCREW_HOLE = 5.5
-"""Diameter, mm, of holes for the M5 screws of a frame, that is advised where a plate has none (ISO 273,
-medium). Through plates above 12 mm, which mills of this size do not reach through, 6 mm are drilled."""
-
 
 class MountingError(DesignError):
     """A design cannot be held as it is: a key, what is wrong, and what to do, with changes to try."""

@@ -1,5 +1,6 @@
 """Screws, washers, and the holes for them: ISO 4762, 10642, 4026, 7089, 273, DIN 974-1, ISO 2306."""
 
+import math
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -144,6 +145,23 @@ def needs_washer(size: float, hole: float, material: str) -> bool:
     (False, True, True)
     """
     return material in SOFT or hole >= screw_size(size).clearance("coarse")
+
+
+FRAME = 5.0
+"""Thread of a frame's screws, mm."""
+
+DEEP = 12.0
+"""Through thicker plates, mm, mills of the size of a clearance hole do not reach: a wider one is drilled."""
+
+
+def through_hole(size: float, thickness: float) -> float:
+    """Diameter of a screw's hole through a plate, mm: the medium one, or the next whole one for a drill.
+
+    >>> through_hole(5, 8), through_hole(5, 20)
+    (5.5, 6.0)
+    """
+    clear = screw_size(size).clearance()
+    return clear if thickness <= DEEP else float(math.ceil(clear))
 
 
 @cache

@@ -17,7 +17,7 @@ from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.strength.allowed import allowed
 from mechwright.mechanics.strength.tightening import bond_torque
-from mechwright.standards.screws import needs_washer, screw, screw_size, washer
+from mechwright.standards.screws import needs_washer, screw, through_hole, washer
 from mechwright.standards.stock import plate_stock
 
 MARGIN = 16.0
@@ -35,10 +35,6 @@ UNDER = 10.0
 
 FOOT = (20.0, 15.0, 6.0)
 """Diameter and height of a foot and the depth of its thread, mm: higher than a screw's head."""
-
-DEEP, HOLE = 12.0, 6.0
-"""Thicker than this, mm, the base plate has wider holes, mm, for a drill: mills of the clearance's size do
-not reach through."""
 
 RUBBER = 1.2e-3
 """Density, g/mm³; handbook."""
@@ -60,19 +56,9 @@ def foot() -> Bought:
     )
 
 
-def hole_for(size: float, thickness: float) -> float:
-    """Of a screw through the base plate, mm.
-
-    >>> hole_for(5, 8), hole_for(5, 20)
-    (5.5, 6.0)
-    """
-    clear = screw_size(size).clearance()
-    return clear if thickness <= DEEP else float(math.ceil(clear))
-
-
 def washers_for(size: float, thickness: float, material: str) -> int:
     """How many washers lie under the head of a screw on the base plate."""
-    return int(needs_washer(size, hole_for(size, thickness), material))
+    return int(needs_washer(size, through_hole(size, thickness), material))
 
 
 def foot_fixing(thickness: float, material: str) -> Fixing:
@@ -184,7 +170,7 @@ def add_base(
             EndThread("upper", SCREW, PITCH, depth + SPARE),
         ),
     )
-    holes, clear = [], hole_for(SCREW, thickness)
+    holes, clear = [], through_hole(SCREW, thickness)
     for k, column in enumerate(columns, start=1):
         holes.append(Hole.through(f"leg-{k}", column.point, clear, thickness))
         kit.turned("leg", leg, column.name, top)

@@ -17,7 +17,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Flange, Foot
 from mechwright.contracts.surroundings import OVER, Place, Surroundings, Turn
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import FOOT, add_foot, base_stock, foot, hole_for, least_thickness
+from mechwright.machine.frame.base import FOOT, add_foot, base_stock, foot, least_thickness
 from mechwright.machine.frame.bracket import Bracket, add_bracket, least_half
 from mechwright.machine.frame.coupled import face_below, outline
 from mechwright.machine.frame.decided import Wanted
@@ -31,7 +31,7 @@ from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import CLEARANCE, Standing
 from mechwright.mechanics.strength.fastening import press_fit_torque
 from mechwright.standards.couplings import OverloadError, coupling_for
-from mechwright.standards.screws import Screw, lengths, screw
+from mechwright.standards.screws import Screw, lengths, screw, through_hole
 
 INWARDS: Turn = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 """The flange's own frame, whose z points from the motor to the mechanism, in a body whose x is the axis."""
@@ -212,8 +212,8 @@ def _add_base(kit: Kit, flange: Flange, standing: Standing, keys: FrameKeys) -> 
     thickness = base_stock(wanted, material, keys.plates)
     top = -plate.thickness
     low = top - thickness
-    fixing, foot_hole = _fixing(plate, thickness), hole_for(foot().threads[0].diameter, thickness)
-    clear = hole_for(plate.screw, thickness)
+    fixing, foot_hole = _fixing(plate, thickness), through_hole(foot().threads[0].diameter, thickness)
+    clear = through_hole(plate.screw, thickness)
     holes = []
     for k, (x, y) in enumerate(plate.holes, start=1):
         holes.append(Hole.through(f"stand-{k}", (x, -y), clear, thickness))

@@ -12,7 +12,6 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import GroundPlate
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
-from mechwright.machine.frame.base import HOLE
 from mechwright.machine.frame.coupled import BESIDE, GAP, PLATE, TURNS, face_below, outline
 from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.fault import fault
@@ -22,7 +21,7 @@ from mechwright.machine.frame.pillars import PILLAR, SCREW
 from mechwright.machine.frame.standing import CLEARANCE
 from mechwright.machine.frame.sweep import Space, Swept
 from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
-from mechwright.standards.screws import lengths, needs_washer, screw_size, washer
+from mechwright.standards.screws import lengths, needs_washer, screw_size, through_hole, washer
 
 WITHOUT = ("bearing", "plate_thickness", "cover", "guard")
 """Keys of bearing plates, of which there are none here."""
@@ -77,18 +76,17 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
     found = plate_key_faults(keys)
     if keys.frame == "plates":
         return found
-    least = screw_size(SCREW).clearance("fine")
-    if not least <= ground.hole <= HOLE:
+    least, most_hole = screw_size(SCREW).clearance("fine"), float(math.ceil(screw_size(SCREW).clearance()))
+    if not least <= ground.hole <= most_hole:
+        # A bolt that is as thick as the hole bears on its shoulder.
+        works = most_hole if ground.bolts else through_hole(SCREW, ground.high - ground.low)
         said = (
             f"the ground plate's holes of {ground.hole:g} mm do not fit the screws M{SCREW:g} of its legs: "
-            f"{least:g} to {HOLE:g} mm"
+            f"{least:g} to {most_hole:g} mm"
         )
-        change = {ground.hole_key: HOLE}
-        found.append(
-            fault(
-                "frame.ground-holes", ground.hole_key, said, ground.hole, HOLE, f"make it {HOLE:g}", (change,)
-            )
-        )
+        change = {ground.hole_key: works}
+        key, remedy = ground.hole_key, f"make it {works:g}"
+        found.append(fault("frame.ground-holes", key, said, ground.hole, works, remedy, (change,)))
     thick = ground.high - ground.low
     most = lengths(SCREW, "cap")[-1] - SCREW - washers_on(ground) * washer(SCREW).height
     if thick > most and ground.bolts is None:
