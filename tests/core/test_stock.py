@@ -62,14 +62,15 @@ def test_a_plate_thicker_than_any_is_refused_with_the_thickest():
 
 @given(diameter=st.floats(3.0, 99.0))
 def test_a_bar_leaves_a_cut_unless_its_outside_stays(diameter):
-    assert bar_for(diameter, "steel") >= diameter + CLEAN_UP
+    assert bar_for(diameter, "steel") >= diameter + CLEAN_UP - 0.005
     kept = bar_for(diameter, "steel", turned=False)
-    assert kept == diameter or kept >= diameter + CLEAN_UP
+    assert kept == diameter or kept >= diameter + CLEAN_UP - 0.005
 
 
 def test_a_pillar_is_of_a_bar_of_its_own_diameter():
     assert bar_for(12, "steel", turned=False) == 12
     assert bar_for(12, "steel") == 14
+    assert bar_for(6 * 1.6, "steel") == 10, "a rounding error of 9.6"
     assert bar_for(12, "pom", turned=False) == 15, "bars of plastics are not drawn"
     assert bar_for(104.0, "steel") == 110
 

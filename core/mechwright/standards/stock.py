@@ -23,7 +23,7 @@ AS_THICK = 0.005
 """Sizes that differ by less are the same, mm: 3/8 inch is written as 9.525 or 9.53."""
 
 CLEAN_UP = 0.4
-"""What a bar has at least more than a diameter that is turned, mm: a cut of 0.2 mm on a drawn bar."""
+"""About what a bar has at least more than a diameter that is turned, mm: a cut of 0.2 mm on a drawn bar."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def bar_for(diameter: float, name: str, *, turned: bool = True) -> float:
     stock = bar_stock(name)
     if not turned and stock.drawn and diameter in stock.diameters:
         return float(diameter)
-    wanted = diameter + CLEAN_UP
+    wanted = diameter + CLEAN_UP - AS_THICK
     fitting = [float(one) for one in stock.diameters if one >= wanted]
     return fitting[0] if fitting else 10.0 * -(-wanted // 10)
 
