@@ -39,7 +39,7 @@ def face_of(params: FiveBarParams) -> float:
     if used <= 1:
         return USUAL_FACE
     # A tooth's stress is to its width as one to it, and its load hardly changes with it.
-    most = plate_within(MOST_MODULES * module, params.material) or USUAL_FACE
-    width = min(plate_for(min(SPARE * USUAL_FACE * used, most), params.material), max(most, USUAL_FACE))
+    most = max(USUAL_FACE, plate_within(MOST_MODULES * module, params.material) or 0.0)
+    width = plate_for(min(SPARE * USUAL_FACE * used, most), params.material)
     breaks = max(one.value / one.breaks for one in stresses if one.breaks is not None)
     return width if SPARE * USUAL_FACE * breaks <= width else USUAL_FACE

@@ -92,8 +92,8 @@ def dowel_of(entry_radius: Any) -> Any:
 def crank_of(pin: Any, material: str) -> Any:
     """Thicknesses of crank plates for pins, which are mostly drilled: of fine ones the plate that is sold.
 
-    >>> crank_of(np.array([3.0, 1.2, 0.2]), "steel").tolist()
-    [8.0, 4.0, 0.7]
+    >>> crank_of(np.array([3.0, 1.2, 0.25]), "steel").tolist()
+    [8.0, 4.0, 0.875]
     """
     sizes = np.array(plate_stock(material).thicknesses, dtype=float)
     deep = np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK)
