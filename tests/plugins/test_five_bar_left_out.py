@@ -79,7 +79,9 @@ def test_gears_are_as_wide_as_their_teeth_want(given):
     assert 8 < found.gear_thickness <= MOST_MODULES * train_of(found).module
     assert is_sold(found.gear_thickness, found.material)
     used = max(one.used for one in root_stresses(FiveBarTable.of(found)))
-    assert used <= 1 or found.gear_thickness == plate_within(MOST_MODULES * train_of(found).module, found.material)
+    assert used <= 1 or found.gear_thickness == plate_within(
+        MOST_MODULES * train_of(found).module, found.material
+    )
     assert used > 0.7, "the next thinner plate that is sold would not do"
     assert not errors_of(found)
     chosen = [one.message for one in FAMILY.check(found) if one.code == "five-bar.chosen"]

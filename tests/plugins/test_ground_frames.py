@@ -142,7 +142,9 @@ def test_bolts_of_two_ground_plates_go_into_the_pillars():
     low, high = parts["ground"].instances[0].z, parts["ground-2"].instances[0].z + 8
     assert grip.length == pytest.approx(high - low)
     assert parts["bolt"].instances[0].z + end.length == pytest.approx(low)
-    heads = [one.body for name, part in parts.items() if name.startswith("screw-m5") for one in part.instances]
+    heads = [
+        one.body for name, part in parts.items() if name.startswith("screw-m5") for one in part.instances
+    ]
     assert not any(body.startswith("column") and not body.endswith("-below") for body in heads)
 
 
